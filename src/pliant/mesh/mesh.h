@@ -1,0 +1,39 @@
+#pragma once
+// The rest shape of one body: vertices and the elements between them. Plain data; functions on it stand in topology.h,
+// geometry.h, mass.h, shapes.h and io/.
+#include <string>
+#include <vector>
+
+#include "pliant/core/types.h"
+
+namespace pliant {
+
+/// Polygons as the user's file has them, kept for writing back. Face f owns corners [offsets[f], offsets[f + 1]).
+struct PolygonFaces {
+  std::vector<Index> offsets;              ///< faces + 1 entries, or empty when the mesh did not come from polygons
+  std::vector<Index> vertices;             ///< vertex of each corner
+  std::vector<Index> texture_coordinates;  ///< row of Mesh::texture_coordinates of each corner, -1 for none; or empty
+
+  Index face_count() const { return offsets.empty() ? 0 : static_cast<Index>(offsets.size()) - 1; }
+};
+
+/// A named part of the mesh (OBJ `g` or `o`): indices into PolygonFaces.
+struct FaceGroup {
+  std::string name;
+  std::vector<Index> faces;
+};
+
+/// A mesh keeps the order and the count of the user's vertices; vertices without an element are allowed.
+struct Mesh {
+  Positions vertices;                   ///< rest positions, m × 3 [m]
+  std::vector<Edge> edges;              ///< elements that are only edges (chains, OBJ `l`), not the edges of triangles
+  std::vector<Triangle> triangles;      ///< polygons are cut as a fan from their first vertex
+  std::vector<Tetrahedron> tetrahedra;  ///< positively oriented: det(x1 − x0, x2 − x0, x3 − x0) > 0
+  PolygonFaces faces;                   ///< as read, see PolygonFaces
+  Eigen::Matrix<Real, Eigen::Dynamic, 2, Eigen::RowMajor> texture_coordinates;  ///< rows referred to by `faces`
+  std::vector<FaceGroup> groups;
+
+  Index vertex_count() const { return static_cast<Index>(vertices.rows()); }
+};
+
+}  // namespace pliant
