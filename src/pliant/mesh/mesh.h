@@ -17,9 +17,13 @@ struct PolygonFaces {
   Index face_count() const { return offsets.empty() ? 0 : static_cast<Index>(offsets.size()) - 1; }
 };
 
+/// What named a part of the mesh. A face is in at most one object and in any number of groups.
+enum class FaceGroupKind { group, object };
+
 /// A named part of the mesh (OBJ `g` or `o`): indices into PolygonFaces.
 struct FaceGroup {
   std::string name;
+  FaceGroupKind kind = FaceGroupKind::group;
   std::vector<Index> faces;
 };
 

@@ -1,0 +1,31 @@
+# Every third-party package, once.
+
+# What the library links, and with it every program that uses the installed library: pliantConfig.cmake makes the same
+# calls. Eigen and Threads are part of the interface; fmt is only linked.
+set(pliant_library_packages "Eigen3 3.4" "fmt 9" "Threads")
+
+# CHOLMOD and OpenBLAS. CHOLMOD's Supernodal, Modify and MatrixOps modules are under the GPL (the others under the
+# LGPL), so a program that is linked with this back end and given to others falls under the GPL. Without it Pliant
+# factorizes with Eigen, which is slower, and all of it is under permissive or file-wise (MPL) licences.
+list(APPEND CMAKE_MODULE_PATH "${CMAKE_CURRENT_LIST_DIR}")
+find_package(CHOLMOD QUIET)
+option(PLIANT_CHOLMOD "Factorize with SuiteSparse's CHOLMOD as well as with Eigen; has GPL modules" ${CHOLMOD_FOUND})
+if(PLIANT_CHOLMOD)
+  list(APPEND pliant_library_packages "CHOLMOD")
+endif()
+message(STATUS "Pliant: CHOLMOD back end: ${PLIANT_CHOLMOD}")
+
+foreach(package IN LISTS pliant_library_packages)
+  separate_arguments(package UNIX_COMMAND "${package}")
+  find_package(${package} REQUIRED)
+endforeach()
+
+# Headers that the library's own sources include; nothing of them shows in the interface.
+find_package(nlohmann_json 3.11 REQUIRED)
+
+if(PLIANT_BUILD_CLI)
+  find_package(CLI11 2.1 REQUIRED)
+endif()
+if(PLIANT_BUILD_TESTS)
+  find_package(doctest 2.4 REQUIRED)
+endif()

@@ -1,0 +1,27 @@
+# Headers, library, program, scenes, and the package files for find_package(pliant).
+include(CMakePackageConfigHelpers)
+include(GNUInstallDirs)
+
+set(PLIANT_SCENES_INSTALL_DIR "${CMAKE_INSTALL_DATADIR}/pliant/scenes")
+set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/pliant")
+
+install(TARGETS pliant EXPORT pliantTargets INCLUDES DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
+if(TARGET pliant_cli)
+  install(TARGETS pliant_cli)
+endif()
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/src/pliant" "${PROJECT_BINARY_DIR}/generated/pliant"
+  DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" FILES_MATCHING PATTERN "*.h")
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/scenes/" DESTINATION "${PLIANT_SCENES_INSTALL_DIR}")
+
+set(PLIANT_FIND_DEPENDENCIES "")
+foreach(package IN LISTS pliant_library_packages)
+  string(APPEND PLIANT_FIND_DEPENDENCIES "find_dependency(${package})\n")
+endforeach()
+configure_package_config_file(cmake/pliantConfig.cmake.in "${PROJECT_BINARY_DIR}/pliantConfig.cmake"
+  INSTALL_DESTINATION "${package_dir}" PATH_VARS PLIANT_SCENES_INSTALL_DIR)
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/pliantConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
+install(EXPORT pliantTargets NAMESPACE pliant:: DESTINATION "${package_dir}")
+install(FILES
+  "${PROJECT_BINARY_DIR}/pliantConfig.cmake" "${PROJECT_BINARY_DIR}/pliantConfigVersion.cmake"
+  "${PROJECT_SOURCE_DIR}/cmake/FindCHOLMOD.cmake"
+  DESTINATION "${package_dir}")

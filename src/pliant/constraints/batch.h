@@ -1,0 +1,124 @@
+#pragma once
+// The one loop over stencils. A constraint type is a struct with
+//
+//     static constexpr std::string_view name;
+//     static constexpr int vertices;                  // n, or dynamic_vertices: then every batch has an n of its own
+//     static constexpr int rows;                      // k
+//     static constexpr int fields;                    // numbers of rest data a constraint
+//     static constexpr bool translation_invariant;    // every row of every A sums to zero
+//     static void project(const Real* fields, const Real* z, Real* p);   // z, p: k × 3
+//
+// and, where it needs them,
+//
+//     static constexpr bool has_targets = true;       // the first three fields are a point that may be moved
+//     static void begin_step(const Positions& q, std::span<const Index> stencil, Real* fields);
+//
+// z of a translation-invariant type is summed over differences to the first vertex of the stencil: far from the origin
+// this keeps the digits that the sum over positions would lose.
+#include <array>
+#include <cassert>
+
+#include "pliant/constraints/constraint_group.h"
+
+namespace pliant {
+
+inline constexpr int dynamic_vertices = -1;
+
+template <class Type>
+class Batch final : public ConstraintGroup {
+ public:
+  explicit Batch(Real stiffness, int vertices = Type::vertices) : ConstraintGroup(stiffness), vertices_(vertices) {
+    assert(vertices >= 1);
+  }
+
+  /// One more constraint: n vertices, k × n coefficients, its measure, and the fields of its type.
+  void add(std::span<const Index> stencil, std::span<const Real> reduction, Real measure,
+           std::span<const Real> fields) {
+    assert(static_cast<int>(stencil.size()) == vertices_);
+    assert(static_cast<int>(reduction.size()) == Type::rows * vertices_);
+    assert(static_cast<int>(fields.size()) == Type::fields);
+    stencil_.insert(stencil_.end(), stencil.begin(), stencil.end());
+    reduction_.insert(reduction_.end(), reduction.begin(), reduction.end());
+    fields_.insert(fields_.end(), fields.begin(), fields.end());
+    measure_.push_back(measure);
+    changed();
+  }
+
+  std::string_view type() const override { return Type::name; }
+  GroupShape shape() const override { return {static_cast<Index>(measure_.size()), vertices(), Type::rows}; }
+  std::span<const Index> stencil() const override { return stencil_; }
+  std::span<const Real> reduction() const override { return reduction_; }
+  std::span<const Real> measure() const override { return measure_; }
+  std::span<const Real> fields() const { return fields_; }
+
+  std::span<Real> targets() override {
+    if constexpr (requires { Type::has_targets; }) {
+      static_assert(Type::fields == 3, "the targets of a batch are its fields");
+      return fields_;
+    } else {
+      return {};
+    }
+  }
+
+  void begin_step(const StateView& state, Real) override {
+    if constexpr (requires { &Type::begin_step; }) {
+      const auto n = static_cast<std::size_t>(vertices());
+      for (std::size_t i = 0; i < measure_.size(); ++i) {
+        Type::begin_step(state.positions, std::span<const Index>(stencil_).subspan(i * n, n), field(i));
+      }
+    }
+  }
+
+  Real project(const Positions& positions, std::span<Real> out, Index begin, Index end) const override {
+    constexpr std::size_t size = Type::rows * 3;
+    Real energy = 0;
+    Real* difference = out.data();
+    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i, difference += size) {
+      std::array<Real, size> z;
+      std::array<Real, size> p;
+      reduce(positions.data(), i, z.data());
+      Type::project(field(i), z.data(), p.data());
+      const Real weight = stiffness() * measure_[i];
+      Real squared = 0;
+      for (std::size_t a = 0; a < size; ++a) {
+        const Real d = p[a] - z[a];
+        squared += d * d;
+        difference[a] = weight * d;
+      }
+      energy += weight / 2 * squared;
+    }
+    return energy;
+  }
+
+ private:
+  int vertices() const { return Type::vertices == dynamic_vertices ? vertices_ : Type::vertices; }
+  Real* field(std::size_t i) { return fields_.data() + i * Type::fields; }
+  const Real* field(std::size_t i) const { return fields_.data() + i * Type::fields; }
+
+  /// z = A S q of constraint i.
+  void reduce(const Real* positions, std::size_t i, Real* z) const {
+    const auto n = static_cast<std::size_t>(vertices());
+    const Index* stencil = stencil_.data() + i * n;
+    const Real* coefficient = reduction_.data() + i * n * Type::rows;
+    const auto corner = [&](std::size_t j) { return positions + 3 * static_cast<std::ptrdiff_t>(stencil[j]); };
+    std::fill_n(z, Type::rows * 3, Real(0));
+    const Real* origin = corner(0);
+    for (std::size_t j = Type::translation_invariant ? 1 : 0; j < n; ++j) {
+      const Real* x = corner(j);
+      std::array<Real, 3> e = {x[0], x[1], x[2]};
+      if constexpr (Type::translation_invariant) e = {x[0] - origin[0], x[1] - origin[1], x[2] - origin[2]};
+      for (std::size_t row = 0; row < Type::rows; ++row) {
+        const Real c = coefficient[row * n + j];
+        for (std::size_t axis = 0; axis < 3; ++axis) z[row * 3 + axis] += c * e[axis];
+      }
+    }
+  }
+
+  int vertices_;
+  std::vector<Index> stencil_;
+  std::vector<Real> reduction_;
+  std::vector<Real> measure_;
+  std::vector<Real> fields_;
+};
+
+}  // namespace pliant

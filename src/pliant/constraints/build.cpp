@@ -1,0 +1,105 @@
+#include "pliant/constraints/build.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pliant/core/error.h"
+
+namespace pliant {
+namespace {
+
+std::string place(std::string_view type, const BodyView& body) {
+  return std::string(type) + " on body '" + std::string(body.name) + "'";
+}
+
+std::string vertex_range(const BodyView& body) {
+  const Index count = body.rest.vertex_count();
+  return "the body has vertices 0 to " + std::to_string(count - 1);
+}
+
+void check_stencil(std::string_view type, const BodyView& body, std::span<const Index> stencil, Index i, int vertices) {
+  const std::string where = place(type, body) + ": stencil " + std::to_string(i);
+  const auto size = static_cast<int>(stencil.size());
+  if (vertices > 0 && size != vertices) {
+    fail_input(where + " has " + std::to_string(size) + " vertices; it takes " + std::to_string(vertices));
+  }
+  for (std::size_t a = 0; a < stencil.size(); ++a) {
+    if (stencil[a] < 0 || stencil[a] >= body.rest.vertex_count()) {
+      fail_input(where + ": vertex " + std::to_string(stencil[a]) + " is out of range; " + vertex_range(body));
+    }
+    if (std::find(stencil.begin(), stencil.begin() + static_cast<std::ptrdiff_t>(a), stencil[a]) !=
+        stencil.begin() + static_cast<std::ptrdiff_t>(a)) {
+      fail_input(where + " names vertex " + std::to_string(stencil[a]) + " twice; its vertices must differ");
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<char> selected_vertices(std::string_view type, const BodyView& body, const Selection& on) {
+  const auto count = static_cast<std::size_t>(body.rest.vertex_count());
+  if (on.everything) return std::vector<char>(count, 1);
+  std::vector<char> flags(count, 0);
+  for (const Index vertex : on.vertices) {
+    if (vertex < 0 || vertex >= body.rest.vertex_count()) {
+      fail_input(place(type, body) + ": selected vertex " + std::to_string(vertex) + " is out of range; " +
+                 vertex_range(body));
+    }
+    flags[static_cast<std::size_t>(vertex)] = 1;
+  }
+  return flags;
+}
+
+Stencils choose_stencils(std::string_view type, const BodyView& body, const Selection& on, const Stencils& given,
+                         const Stencils& candidates, int vertices) {
+  if (!given.empty()) {
+    for (Index i = 0; i < given.size(); ++i) check_stencil(type, body, given[i], i, vertices);
+    return given;
+  }
+  const std::vector<char> selected = selected_vertices(type, body, on);
+  if (on.everything) return candidates;
+  Stencils chosen;
+  for (Index i = 0; i < candidates.size(); ++i) {
+    const std::span<const Index> stencil = candidates[i];
+    const bool inside = std::all_of(stencil.begin(), stencil.end(),
+                                    [&](Index v) { return selected[static_cast<std::size_t>(v)] != 0; });
+    if (inside) chosen.add(stencil);
+  }
+  return chosen;
+}
+
+void check_length(std::string_view type, std::string_view option, std::size_t length, bool each, Index count) {
+  if (!each || length == static_cast<std::size_t>(count)) return;
+  fail_input(std::string(type) + ": " + std::string(option) + " has " + std::to_string(length) + " entries for " +
+             std::to_string(count) + " constraints; give one for all, or one each");
+}
+
+void check_limits(std::string_view type, const Values& min_stretch, const Values& max_stretch, Index count) {
+  check_length(type, "min_stretch", min_stretch.list().size(), min_stretch.each(), count);
+  check_length(type, "max_stretch", max_stretch.list().size(), max_stretch.each(), count);
+  for (Index i = 0; i < count; ++i) {
+    if (min_stretch[i] <= max_stretch[i]) continue;
+    fail_input(std::string(type) + ": min_stretch " + std::to_string(min_stretch[i]) + " is above max_stretch " +
+               std::to_string(max_stretch[i]) + " at constraint " + std::to_string(i) + "; exchange them");
+  }
+}
+
+void check_rest_measure(std::string_view type, const BodyView& body, Index i, Real measure, std::string_view remedy) {
+  if (measure > 0 && std::isfinite(measure)) return;
+  fail_input(place(type, body) + ": element " + std::to_string(i) + " has no positive rest " + std::string(remedy));
+}
+
+std::vector<Index> global_stencil(const BodyView& body, std::span<const Index> stencil) {
+  std::vector<Index> moved(stencil.begin(), stencil.end());
+  for (Index& vertex : moved) vertex += body.first_vertex;
+  return moved;
+}
+
+ConstraintSet one_part(std::unique_ptr<ConstraintGroup> group) {
+  ConstraintSet set;
+  set.count = group->shape().count;
+  if (set.count > 0) set.parts.push_back(std::move(group));
+  return set;
+}
+
+}  // namespace pliant

@@ -1,0 +1,28 @@
+#pragma once
+// The list of built-in constraint types: scene files, the docs table, property tests and every other interface are
+// written over it. A new type is its pair of files and a line in each of the two lists.
+#include <tuple>
+
+#include "pliant/constraints/bending.h"
+#include "pliant/constraints/curvature.h"
+#include "pliant/constraints/drag.h"
+#include "pliant/constraints/edge_spring.h"
+#include "pliant/constraints/edge_strain.h"
+#include "pliant/constraints/hinge.h"
+#include "pliant/constraints/line.h"
+#include "pliant/constraints/position.h"
+#include "pliant/constraints/tetrahedron_strain.h"
+#include "pliant/constraints/triangle_strain.h"
+
+namespace pliant {
+
+/// What a user asks for.
+using BuiltinConstraints =
+    std::tuple<Position, Line, EdgeSpring, EdgeStrain, Bending, HingeBending, TriangleStrain, TetrahedronStrain, Drag>;
+
+/// What projects.
+using BuiltinProjections = std::tuple<PositionProjection, LineProjection, EdgeSpringProjection, EdgeStrainProjection,
+                                      FlatCurvature, AbsoluteCurvature, SignedFanCurvature, SignedHingeCurvature,
+                                      TriangleStrainProjection, TetrahedronStrainProjection, DragProjection>;
+
+}  // namespace pliant

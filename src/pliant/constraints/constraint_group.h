@@ -1,0 +1,63 @@
+#pragma once
+// All that the solver knows of constraints.
+//
+// A group holds many constraints of one type. Constraint i has the energy  wᵢ/2 ‖zᵢ − pᵢ‖²  with  zᵢ = Aᵢ Sᵢ q  and
+// pᵢ the point of its set nearest to zᵢ (Bouaziz et al. 2014, Eq. 7; thesis Eq. 3.7). Sᵢ selects n vertices (the
+// stencil), Aᵢ is k × n (the reduction, the same for x, y and z), wᵢ = stiffness × measure. S, A and w are data at
+// rest; only the projection z → p is non-linear. So gathering, assembly, energies and threads are written once.
+#include <span>
+#include <string_view>
+
+#include "pliant/core/state_view.h"
+
+namespace pliant {
+
+struct GroupShape {
+  Index count = 0;   ///< constraints
+  int vertices = 1;  ///< n, the size of a stencil
+  int rows = 1;      ///< k, the rows of a reduction
+};
+
+class ConstraintGroup {
+ public:
+  virtual ~ConstraintGroup() = default;
+
+  virtual std::string_view type() const = 0;
+  virtual GroupShape shape() const = 0;
+  /// Vertex indices, count × n.
+  virtual std::span<const Index> stencil() const = 0;
+  /// Coefficients of A, count × k × n.
+  virtual std::span<const Real> reduction() const = 0;
+  /// Rest measure of each constraint (length, area, volume, or 1), times its own stiffness where each has one.
+  virtual std::span<const Real> measure() const = 0;
+
+  /// Called once at the start of a step, before anything reads the group: the place to freeze normals.
+  virtual void begin_step(const StateView& state, Real time_step);
+
+  /// The local step for constraints [begin, end). Writes w (p − z), k × 3 numbers a constraint, to `out`, which begins
+  /// with the first row of constraint `begin`, and returns Σ w/2 ‖z − p‖² [J]. May be called from several threads.
+  virtual Real project(const Positions& positions, std::span<Real> out, Index begin, Index end) const = 0;
+
+  /// Vertices that the group holds exactly (hard pins). They leave the system of equations.
+  virtual std::span<const Index> held_vertices() const;
+  /// Points in space that may be moved while the simulation runs, count × 3; empty for a type that has none.
+  virtual std::span<Real> targets();
+
+  /// Common factor of all weights; 1 where each constraint has a stiffness of its own.
+  Real stiffness() const { return stiffness_; }
+  /// A changed stiffness is taken up at the next step, with one numeric factorization. Refuses what is not positive.
+  void set_stiffness(Real stiffness);
+
+  /// Raised whenever stencil, reduction, measure or the held vertices change: the matrix is then summed anew.
+  std::uint64_t revision() const { return revision_; }
+
+ protected:
+  explicit ConstraintGroup(Real stiffness = 1) { set_stiffness(stiffness); }
+  void changed() { ++revision_; }
+
+ private:
+  Real stiffness_ = 1;
+  std::uint64_t revision_ = 0;
+};
+
+}  // namespace pliant

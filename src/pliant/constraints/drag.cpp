@@ -1,0 +1,60 @@
+#include "pliant/constraints/drag.h"
+
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "pliant/constraints/build.h"
+#include "pliant/core/error.h"
+
+namespace pliant {
+namespace {
+
+std::vector<Real> weights_of(const Drag& options, Index i) {
+  const std::size_t size = options.stencils[i].size();
+  const std::string where = "drag: stencil " + std::to_string(i);
+  if (size < 1 || size > 4) {
+    fail_input(where + " has " + std::to_string(size) + " vertices; give the one to four of an element");
+  }
+  if (options.weights.empty()) return std::vector<Real>(size, 1 / static_cast<Real>(size));
+  const std::span<const Real> given = options.weights[i];
+  const Real sum = std::accumulate(given.begin(), given.end(), Real(0));
+  if (given.size() != size || !(std::abs(sum - 1) <= 1e-6)) {
+    fail_input(where + " has " + std::to_string(given.size()) + " weights with the sum " + std::to_string(sum) +
+               "; give one for each vertex, with the sum 1");
+  }
+  return {given.begin(), given.end()};
+}
+
+}  // namespace
+
+ConstraintSet build(const BodyView& body, const Drag& options) {
+  constexpr std::string_view type = Drag::info.name;
+  const Index count = options.stencils.size();
+  if (count == 0) fail_input("drag: stencils are missing; name the vertices of the point to be dragged");
+  choose_stencils(type, body, {}, options.stencils, {}, 0);
+  check_length(type, "weights", static_cast<std::size_t>(options.weights.size()), !options.weights.empty(), count);
+  check_length(type, "targets", options.targets.list().size(), options.targets.each(), count);
+  check_length(type, "stiffness", options.stiffness.list().size(), options.stiffness.each(), count);
+
+  const StiffnessSplit stiffness(options.stiffness);
+  std::map<std::size_t, std::unique_ptr<Batch<DragProjection>>> batches;
+  for (Index i = 0; i < count; ++i) {
+    const std::span<const Index> stencil = options.stencils[i];
+    const std::vector<Real> weights = weights_of(options, i);
+    Vec3 target = Vec3::Zero();
+    for (std::size_t j = 0; j < stencil.size(); ++j) target += weights[j] * row(body.start, stencil[j]);
+    if (!options.targets.empty()) target = options.targets[i];
+    auto& batch = batches[stencil.size()];
+    if (!batch) {
+      batch = std::make_unique<Batch<DragProjection>>(stiffness.common(), static_cast<int>(stencil.size()));
+    }
+    batch->add(global_stencil(body, stencil), weights, stiffness.of(i), {target.data(), 3});
+  }
+  ConstraintSet set;
+  set.count = count;
+  for (auto& [size, batch] : batches) set.parts.push_back(std::move(batch));
+  return set;
+}
+
+}  // namespace pliant

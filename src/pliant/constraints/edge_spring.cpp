@@ -1,0 +1,24 @@
+#include "pliant/constraints/edge_spring.h"
+
+#include "pliant/constraints/build.h"
+#include "pliant/constraints/edge_rest.h"
+
+namespace pliant {
+
+ConstraintSet build(const BodyView& body, const EdgeSpring& options) {
+  constexpr std::string_view type = EdgeSpring::info.name;
+  const Stencils chosen = choose_stencils(type, body, options.on, options.stencils, mesh_edges(body), 2);
+  check_length(type, "stiffness", options.stiffness.list().size(), options.stiffness.each(), chosen.size());
+  const std::vector<Real> rest_length = rest_lengths(type, body, chosen, options.rest_length);
+
+  const StiffnessSplit stiffness(options.stiffness);
+  auto batch = std::make_unique<Batch<EdgeSpringProjection>>(stiffness.common());
+  const std::array<Real, 2> difference = {-1, 1};
+  for (Index i = 0; i < chosen.size(); ++i) {
+    const Real length = rest_length[static_cast<std::size_t>(i)];
+    batch->add(global_stencil(body, chosen[i]), difference, stiffness.of(i), {&length, 1});
+  }
+  return one_part(std::move(batch));
+}
+
+}  // namespace pliant

@@ -1,0 +1,57 @@
+#pragma once
+// Threads for loops whose iterations write to places of their own. Which thread runs which iteration is left open, so
+// a loop body must not depend on it; sums are made afterwards, in the order of the iterations.
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <type_traits>
+#include <vector>
+
+#include "pliant/core/types.h"
+
+namespace pliant {
+
+class ThreadPool {
+ public:
+  /// threads ≥ 1, or 0 for one thread a processor; a negative count is an input error.
+  explicit ThreadPool(int threads = 0);
+  ~ThreadPool();
+  ThreadPool(const ThreadPool&) = delete;
+  ThreadPool& operator=(const ThreadPool&) = delete;
+
+  int thread_count() const { return static_cast<int>(workers_.size()) + 1; }
+
+  /// Calls body(i) once for every i in [0, count), and returns when all are done. Never allocates. The first exception
+  /// that a body throws is thrown again here.
+  template <class Body>
+  void parallel_for(Index count, Body&& body) {
+    if (workers_.empty() || count <= 1) {
+      for (Index i = 0; i < count; ++i) body(i);
+      return;
+    }
+    using Plain = std::remove_reference_t<Body>;
+    run(count, const_cast<void*>(static_cast<const void*>(&body)),
+        [](void* context, Index i) { (*static_cast<Plain*>(context))(i); });
+  }
+
+ private:
+  using Call = void (*)(void* context, Index i);
+
+  void run(Index count, void* context, Call call);
+  void take_iterations();
+  void work(std::uint32_t seen);
+
+  std::vector<std::thread> workers_;
+  std::atomic<std::uint32_t> generation_{0};  // one more for every loop, and once more to stop
+  std::atomic<Index> next_{0};
+  std::atomic<int> busy_workers_{0};
+  bool stop_ = false;  // this and the rest are written before generation_ is raised
+  Index count_ = 0;
+  void* context_ = nullptr;
+  Call call_ = nullptr;
+  std::mutex failure_mutex_;
+  std::exception_ptr failure_;
+};
+
+}  // namespace pliant

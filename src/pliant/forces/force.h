@@ -1,0 +1,28 @@
+#pragma once
+// External forces: evaluated once a step, at (qₙ, vₙ), before the prediction (thesis Sec. 3.1 and Chapter 5).
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "pliant/core/state_view.h"
+
+namespace pliant {
+
+/// A user's own force derives from this class. Indices are those of the simulation.
+class Force {
+ public:
+  virtual ~Force() = default;
+
+  virtual std::string_view type() const = 0;
+
+  /// Adds this force [N] on every vertex to `forces` (m × 3).
+  virtual void add_to(Positions& forces, const StateView& state, Real time_step) = 0;
+
+  /// Potential energy [J] of a conservative force; 0 for every other.
+  virtual Real potential(const StateView& state) const;
+
+  /// A warning when this force may be unstable with this time step, with the limit in it.
+  virtual std::optional<std::string> warning(const StateView& state, Real time_step) const;
+};
+
+}  // namespace pliant

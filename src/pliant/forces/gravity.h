@@ -1,0 +1,21 @@
+#pragma once
+#include "pliant/forces/force.h"
+
+namespace pliant {
+
+/// f = m g on every vertex (thesis Eq. 5.2).
+class Gravity final : public Force {
+ public:
+  /// acceleration [m/s²]
+  explicit Gravity(const Vec3& acceleration = {0, 0, -9.81}) : acceleration_(acceleration) {}
+
+  std::string_view type() const override { return "gravity"; }
+  void add_to(Positions& forces, const StateView& state, Real time_step) override;
+  /// −Σ m g·x
+  Real potential(const StateView& state) const override;
+
+ private:
+  Vec3 acceleration_;
+};
+
+}  // namespace pliant

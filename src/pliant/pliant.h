@@ -1,0 +1,13 @@
+#pragma once
+// Everything that a first program needs.
+#include "pliant/constraints/builtin.h"
+#include "pliant/core/error.h"
+#include "pliant/forces/gravity.h"
+#include "pliant/forces/mouse_spring.h"
+#include "pliant/forces/test_force.h"
+#include "pliant/forces/wind.h"
+#include "pliant/mesh/io/obj.h"
+#include "pliant/mesh/mass.h"
+#include "pliant/mesh/shapes.h"
+#include "pliant/mesh/topology.h"
+#include "pliant/simulation/simulation.h"

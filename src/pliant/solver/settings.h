@@ -1,0 +1,53 @@
+#pragma once
+// Everything about the solver that a user chooses. All of it may be changed between steps.
+#include <array>
+
+#include "pliant/core/options.h"
+
+namespace pliant {
+
+/// Where the iterations of a step begin.
+enum class Start { prediction, positions };
+constexpr std::array<std::string_view, 2> choice_names(Start) {
+  return {"prediction", "positions"};
+}
+
+/// Which library factorizes the system matrix. `automatic`: CHOLMOD where this build has it, else Eigen.
+enum class Backend { automatic, eigen, cholmod };
+constexpr std::array<std::string_view, 3> choice_names(Backend) {
+  return {"automatic", "eigen", "cholmod"};
+}
+
+/// Precision of the factor; state, differences and sums are double in either. This version has `double_` alone.
+enum class Precision { double_, mixed };
+constexpr std::array<std::string_view, 2> choice_names(Precision) {
+  return {"double", "mixed"};
+}
+
+struct SolverSettings {
+  Real time_step = 1.0 / 60;
+  Index iterations = 10;
+  Real tolerance = 0;
+  Start start = Start::prediction;
+  Backend backend = Backend::automatic;
+  Precision precision = Precision::double_;
+  Index threads = 0;
+
+  template <class Self, class Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field(OptionInfo{"time_step", "s", "h; a larger one is as stable, with more damping", positive}, self.time_step);
+    field(OptionInfo{"iterations", "", "local and global steps in each step; more are stiffer and livelier",
+                     Range{1, 1e9}},
+          self.iterations);
+    field(OptionInfo{"tolerance", "N", "iterate no further once no vertex has a larger residual force; 0: never stop",
+                     not_negative},
+          self.tolerance);
+    field(OptionInfo{"start", "", "iterations begin at the `prediction` s or at the `positions` of the last step"},
+          self.start);
+    field(OptionInfo{"backend", "", "library that factorizes: `automatic`, `eigen` or `cholmod`"}, self.backend);
+    field(OptionInfo{"precision", "", "of the factor: `double`"}, self.precision);
+    field(OptionInfo{"threads", "", "0: one a processor; results do not depend on it", Range{0, 1024}}, self.threads);
+  }
+};
+
+}  // namespace pliant

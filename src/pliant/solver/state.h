@@ -1,0 +1,37 @@
+#pragma once
+#include "pliant/core/state_view.h"
+
+namespace pliant {
+
+/// All that changes from step to step.
+struct State {
+  Positions positions;       ///< qₙ, m × 3 [m]
+  Positions velocities;      ///< vₙ, m × 3 [m/s]
+  std::vector<Real> masses;  ///< m [kg], > 0
+  std::int64_t step = 0;     ///< n, steps taken
+  Real time = 0;             ///< tₙ [s]
+
+  Index vertex_count() const { return static_cast<Index>(positions.rows()); }
+  StateView view() const { return {positions, velocities, masses, step, time}; }
+};
+
+/// What a step tells about itself.
+struct StepReport {
+  Index iterations = 0;  ///< global solves made
+  bool reached_tolerance = false;
+  Real residual = 0;          ///< largest force left on a vertex [N], of the iterate before the last solve
+  double seconds_local = 0;   ///< projections and the sum of the residual
+  double seconds_global = 0;  ///< triangular solves
+  double seconds_factor = 0;  ///< assembly and factorization, when something changed
+  double seconds_total = 0;
+};
+
+/// The objective at the positions that the last step ended with.
+struct Evaluation {
+  Real residual = 0;  ///< largest force left on a vertex that is not held [N]
+  Real inertia = 0;   ///< 1/(2h²) ‖M^½ (q − s)‖² [J]
+  Real elastic = 0;   ///< Σ wᵢ/2 ‖zᵢ − pᵢ‖² [J]
+  Real objective() const { return inertia + elastic; }
+};
+
+}  // namespace pliant
