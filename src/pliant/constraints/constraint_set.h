@@ -23,8 +23,8 @@ struct ConstraintInfo {
 /// A body as the builders see it.
 struct BodyView {
   const Mesh& rest;
-  const Positions& start;  ///< where the vertices are when the constraint is added, m × 3 [m]
-  Index first_vertex;      ///< of this body among all vertices of the simulation
+  Positions start;     ///< where the vertices are when the constraint is added, m × 3 [m]
+  Index first_vertex;  ///< of this body among all vertices of the simulation
   std::string_view name;
 };
 

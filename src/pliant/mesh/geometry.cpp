@@ -112,6 +112,31 @@ void check_tetrahedra(const Mesh& mesh, std::string_view name) {
   }
 }
 
+void check_faces(const Mesh& mesh, std::string_view name) {
+  const PolygonFaces& faces = mesh.faces;
+  const auto corner_count = static_cast<Index>(faces.vertices.size());
+  const bool is_partition =
+      faces.offsets.empty()
+          ? corner_count == 0
+          : faces.offsets.front() == 0 && faces.offsets.back() == corner_count && std::ranges::is_sorted(faces.offsets);
+  const bool has_all_textures =
+      faces.texture_coordinates.empty() || faces.texture_coordinates.size() == faces.vertices.size();
+  if (!is_partition || !has_all_textures) {
+    fail_input(fmt::format("{}: the polygons' offsets, vertices and texture coordinates do not match; see PolygonFaces",
+                           name));
+  }
+  const auto check_corners = [&](const std::vector<Index>& corners, Index lowest, Eigen::Index end,
+                                 std::string_view what) {
+    for (std::size_t c = 0; c < corners.size(); ++c) {
+      if (corners[c] >= lowest && corners[c] < end) continue;
+      fail_input(fmt::format("{}: polygon corner {} refers to {} {}, but the mesh has {}; use indices 0 to {}", name, c,
+                             what, corners[c], end, end - 1));
+    }
+  };
+  check_corners(faces.vertices, 0, mesh.vertex_count(), "vertex");
+  check_corners(faces.texture_coordinates, -1, mesh.texture_coordinates.rows(), "texture coordinate");
+}
+
 }  // namespace
 
 Real triangle_area(const Vec3& x0, const Vec3& x1, const Vec3& x2) {
@@ -174,6 +199,7 @@ void check_mesh(const Mesh& mesh, std::string_view name) {
   check_indices(mesh.vertex_count(), mesh.edges, "edge", name);
   check_indices(mesh.vertex_count(), mesh.triangles, "triangle", name);
   check_indices(mesh.vertex_count(), mesh.tetrahedra, "tetrahedron", name);
+  check_faces(mesh, name);
   check_edges(mesh, name);
   check_triangles(mesh, name);
   check_tetrahedra(mesh, name);

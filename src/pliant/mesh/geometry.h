@@ -45,8 +45,8 @@ BoundingBox bounding_box(const Positions& x);
 /// Indices in messages count from 0. An element has no extent when its measure is under 1e-12 of that power of its own
 /// longest edge, an edge when its ends agree to rounding.
 /// @throws Error (input) naming the first vertex or element and the remedy: no vertices; a coordinate not finite or
-///   past 1e100 m; an index out of range; a vertex repeated within an element; an edge, triangle or tetrahedron
-///   without length, area or volume; an inverted tetrahedron.
+///   past 1e100 m; an index out of range, also in Mesh::faces; a vertex repeated within an element; an edge, triangle
+///   or tetrahedron without length, area or volume; an inverted tetrahedron.
 void check_mesh(const Mesh& mesh, std::string_view name);
 
 }  // namespace pliant

@@ -74,8 +74,8 @@ class Simulation {
   /// New common factor of a group's weights: costs one numeric factorization at the next step.
   void set_stiffness(GroupId id, Real stiffness);
   /// Movable points of a group (positions, drags), in the order of its constraints.
-  Index target_count(GroupId id) const;
-  Vec3 target(GroupId id, Index i) const;
+  Index target_count(GroupId id);
+  Vec3 target(GroupId id, Index i);
   /// Moves point i from the next step on; costs nothing.
   void set_target(GroupId id, Index i, const Vec3& target);
 
@@ -113,7 +113,10 @@ class Simulation {
 
  private:
   BodyView view(BodyId id) const;
-  void rebuild_solver_lists();
+  Group& group(GroupId id);
+  std::span<Real> target_numbers(GroupId id, Index i);
+  static void append_triangles(const Body& owner, std::vector<Triangle>& triangles, std::vector<Real>& areas);
+  void update_problem();
   void check_forces();
 
   SolverSettings settings_;

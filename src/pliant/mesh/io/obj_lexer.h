@@ -15,9 +15,11 @@ class ObjLexer {
   /// `name` is what messages call the text. Both must outlive the lexer.
   ObjLexer(std::string_view text, std::string_view name);
 
-  /// Moves to the first word of the next line that has one; false at the end of the text. What is left of the current
-  /// line is passed over.
+  /// Moves to the next word that is not on the current line; false at the end of the text. To be called at the end of a
+  /// line: before the first word, after an empty one or after skip_rest_of_line().
   bool next_line();
+
+  void skip_rest_of_line();
 
   /// The next word of the current line, empty at its end.
   std::string_view next_word();
@@ -31,14 +33,18 @@ class ObjLexer {
   /// An integer as it stands in the file.
   std::int64_t integer(std::string_view word) const;
 
+  /// The word as messages show it: in quotes, shortened, without control characters.
+  static std::string quoted(std::string_view word);
+
   /// Throws Error (input): `name:line: message`.
   [[noreturn]] void fail(const std::string& message) const { fail_at(line_, message); }
   [[noreturn]] void fail_at(std::int64_t line, const std::string& message) const;
 
  private:
   void skip_blanks();
-  void skip_rest_of_line();
+  void skip_comment();
   void take_line_end();
+  bool is_continuation() const;
   bool is_line_end() const { return *position_ == '\n' || *position_ == '\r'; }
 
   std::string_view name_;

@@ -1,0 +1,117 @@
+// SuiteSparse's CHOLMOD, supernodal (Chen et al. 2008). Built only with PLIANT_CHOLMOD: its Supernodal module is GPL.
+#include "pliant/solver/factorization/cholmod_factorization.h"
+
+#include <cholmod.h>
+
+extern "C" {
+void openblas_set_num_threads(int threads);
+int openblas_get_num_threads();
+}
+
+#include "pliant/core/error.h"
+
+namespace pliant {
+namespace {
+
+/// One thread inside OpenBLAS while it lives: how OpenBLAS splits a product among threads changes the bits.
+class OneBlasThread {
+ public:
+  OneBlasThread() { openblas_set_num_threads(1); }
+  ~OneBlasThread() { openblas_set_num_threads(threads_); }
+  OneBlasThread(const OneBlasThread&) = delete;
+  OneBlasThread& operator=(const OneBlasThread&) = delete;
+
+ private:
+  int threads_ = openblas_get_num_threads();
+};
+
+struct FreeFactor {
+  cholmod_common* common;
+  void operator()(cholmod_factor* factor) const { cholmod_free_factor(&factor, common); }
+};
+
+class CholmodFactorization final : public Factorization {
+ public:
+  CholmodFactorization() {
+    cholmod_start(&common_);
+    common_.supernodal = CHOLMOD_SUPERNODAL;
+    common_.print = 0;
+    // The first of CHOLMOD's own strategies whose fill is acceptable: AMD, then nested dissection by METIS.
+    common_.nmethods = 0;
+  }
+  ~CholmodFactorization() override {
+    symbolic_.reset();
+    cholmod_finish(&common_);
+  }
+
+  std::string_view name() const override { return "cholmod"; }
+
+  void analyze(const LowerMatrix& matrix) override {
+    cholmod_sparse view = view_of(matrix);
+    symbolic_.reset(cholmod_analyze(&view, &common_));
+    check(symbolic_ != nullptr);
+  }
+
+  void factorize(const LowerMatrix& matrix) override {
+    const OneBlasThread one_thread;
+    cholmod_sparse view = view_of(matrix);
+    cholmod_factorize(&view, symbolic_.get(), &common_);
+    check(common_.status == CHOLMOD_OK && symbolic_->minor == symbolic_->n);
+    take_factor();
+  }
+
+ private:
+  static cholmod_sparse view_of(const LowerMatrix& matrix) {
+    cholmod_sparse view{};
+    view.nrow = view.ncol = static_cast<std::size_t>(matrix.size());
+    view.nzmax = matrix.rows.size();
+    // CHOLMOD does not write to its input, though it does not say so in its types.
+    view.p = const_cast<Index*>(matrix.column_starts.data());
+    view.i = const_cast<Index*>(matrix.rows.data());
+    view.x = const_cast<Real*>(matrix.values.data());
+    view.stype = -1;
+    view.itype = CHOLMOD_INT;
+    view.xtype = CHOLMOD_REAL;
+    view.dtype = CHOLMOD_DOUBLE;
+    view.sorted = 1;
+    view.packed = 1;
+    return view;
+  }
+
+  void check(bool succeeded) const {
+    if (succeeded) return;
+    if (common_.status == CHOLMOD_OUT_OF_MEMORY || common_.status == CHOLMOD_TOO_LARGE) {
+      fail_input("the factor of the system matrix does not fit into memory; use a coarser mesh");
+    }
+    fail_input("the system matrix is not positive definite to rounding; lessen the ratio of stiffness to m/h²");
+  }
+
+  void take_factor() {
+    const cholmod_factor& L = *symbolic_;
+    const auto* super = static_cast<const Index*>(L.super);
+    const auto* row_starts = static_cast<const Index*>(L.pi);
+    const auto* value_starts = static_cast<const Index*>(L.px);
+    const auto* rows = static_cast<const Index*>(L.s);
+    const auto* values = static_cast<const Real*>(L.x);
+    factor_.begin({static_cast<const Index*>(L.Perm), L.n});
+    for (std::size_t s = 0; s < L.nsuper; ++s) {
+      const Index columns = super[s + 1] - super[s];
+      const Index height = row_starts[s + 1] - row_starts[s];
+      const Real* panel = values + value_starts[s];
+      factor_.add_supernode(columns, {rows + row_starts[s] + columns, rows + row_starts[s + 1]},
+                            [=](Index r, Index c) { return panel[c * static_cast<std::ptrdiff_t>(height) + r]; });
+    }
+    factor_.finish();
+  }
+
+  cholmod_common common_;
+  std::unique_ptr<cholmod_factor, FreeFactor> symbolic_{nullptr, FreeFactor{&common_}};
+};
+
+}  // namespace
+
+std::unique_ptr<Factorization> make_cholmod_factorization() {
+  return std::make_unique<CholmodFactorization>();
+}
+
+}  // namespace pliant

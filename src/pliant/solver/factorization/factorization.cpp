@@ -1,0 +1,29 @@
+#include "pliant/solver/factorization/factorization.h"
+
+#include "pliant/core/error.h"
+#include "pliant/solver/factorization/cholmod_factorization.h"
+#include "pliant/solver/factorization/eigen_factorization.h"
+
+namespace pliant {
+namespace {
+
+#ifdef PLIANT_HAS_CHOLMOD
+constexpr bool has_cholmod = true;
+#else
+constexpr bool has_cholmod = false;
+#endif
+
+}  // namespace
+
+#ifndef PLIANT_HAS_CHOLMOD
+std::unique_ptr<Factorization> make_cholmod_factorization() {
+  fail_input("backend: this build has no CHOLMOD; build with -DPLIANT_CHOLMOD=ON, or use `eigen`");
+}
+#endif
+
+std::unique_ptr<Factorization> make_factorization(Backend backend) {
+  if (backend == Backend::automatic) backend = has_cholmod ? Backend::cholmod : Backend::eigen;
+  return backend == Backend::cholmod ? make_cholmod_factorization() : make_eigen_factorization();
+}
+
+}  // namespace pliant

@@ -1,0 +1,151 @@
+#include "pliant/solver/solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <thread>
+
+#include "pliant/core/error.h"
+
+namespace pliant {
+namespace {
+
+/// Positions past this count as diverged [m]: energies of such bodies overflow.
+constexpr Real farthest = 1e100;
+
+/// Slots for which another thread is worth waking, when the number of threads is left to us.
+constexpr std::size_t slots_per_thread = 8192;
+
+int useful_threads(Index asked, std::size_t slots) {
+  if (asked > 0) return asked;
+  const auto processors = static_cast<std::size_t>(std::max(1U, std::thread::hardware_concurrency()));
+  return static_cast<int>(std::clamp<std::size_t>(slots / slots_per_thread, 1, processors));
+}
+
+}  // namespace
+
+Solver::Solver(const SolverSettings& settings) : threads_(std::make_unique<ThreadPool>(1)) {
+  set_settings(settings);
+}
+
+void Solver::set_settings(const SolverSettings& settings) {
+  check_options("settings", settings);
+  if (settings.precision != Precision::double_) {
+    fail_input("settings: precision: `mixed` is not in this version; use `double`");
+  }
+  const bool new_backend = !factorization_ || settings.backend != settings_.backend;
+  settings_ = settings;
+  if (new_backend) {
+    factorization_ = make_factorization(settings_.backend);
+    pattern_analyzed_ = false;
+    factor_time_step_ = 0;
+  }
+  groups_laid_out_ = groups_laid_out_ && (settings_.threads == 0 || settings_.threads == thread_count());
+  history_.reserve(std::min(history_limit, static_cast<std::size_t>(settings_.iterations)));
+}
+
+void Solver::set_problem(Index vertex_count, std::vector<ConstraintGroup*> groups, std::vector<Force*> forces) {
+  vertex_count_ = vertex_count;
+  groups_ = std::move(groups);
+  forces_ = std::move(forces);
+  groups_laid_out_ = false;
+  if (s_.rows() == vertex_count) return;
+  for (Positions* x : {&force_, &s_, &q_, &residual_, &correction_}) x->setZero(vertex_count, 3);
+  predicted_time_step_ = 0;
+}
+
+bool Solver::groups_changed() const {
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    if (groups_[g]->revision() != stamps_[g].revision) return true;
+  }
+  return false;
+}
+
+bool Solver::stiffness_changed() const {
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    if (groups_[g]->stiffness() != stamps_[g].stiffness) return true;
+  }
+  return false;
+}
+
+void Solver::prepare(const State& state) {
+  for (ConstraintGroup* group : groups_) group->begin_step(state.view(), settings_.time_step);
+  if (!groups_laid_out_ || groups_changed()) lay_out_groups();
+  if (factor_time_step_ != settings_.time_step || stiffness_changed()) factorize(state);
+  history_.clear();
+}
+
+void Solver::lay_out_groups() {
+  local_step_.set_groups(vertex_count_, groups_);
+  const int threads = useful_threads(settings_.threads, local_step_.slot_count());
+  if (threads != thread_count()) threads_ = std::make_unique<ThreadPool>(threads);
+  system_matrix_.set_groups(vertex_count_, groups_);
+  stamps_.clear();
+  for (const ConstraintGroup* group : groups_) stamps_.push_back({group->revision(), group->stiffness()});
+  is_held_.assign(static_cast<std::size_t>(vertex_count_), 0);
+  for (const ConstraintGroup* group : groups_) {
+    for (const Index vertex : group->held_vertices()) is_held_[static_cast<std::size_t>(vertex)] = 1;
+  }
+  groups_laid_out_ = true;
+  pattern_analyzed_ = false;
+  factor_time_step_ = 0;
+}
+
+void Solver::weigh_inertia(const State& state, Real time_step) {
+  inertia_weights_.resize(state.masses.size());
+  for (std::size_t i = 0; i < inertia_weights_.size(); ++i) {
+    inertia_weights_[i] = is_held_[i] ? 0 : state.masses[i] / (time_step * time_step);
+  }
+}
+
+void Solver::factorize(const State& state) {
+  const Real h = settings_.time_step;
+  weigh_inertia(state, h);
+  for (std::size_t g = 0; g < groups_.size(); ++g) stamps_[g].stiffness = groups_[g]->stiffness();
+  factor_time_step_ = 0;  // until this succeeds
+  system_matrix_.sum(state.masses, h, groups_, is_held_);
+  if (!pattern_analyzed_) factorization_->analyze(system_matrix_.matrix());
+  pattern_analyzed_ = true;
+  factorization_->factorize(system_matrix_.matrix());
+  factor_time_step_ = h;
+}
+
+void Solver::check_finite(const State& state) const {
+  // One pass for the common case; which vertex it was is asked only when there is one.
+  if (q_.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <= farthest) return;
+  for (Index i = 0; i < vertex_count_; ++i) {
+    if (!(q_.row(i).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <= farthest)) report_divergence(state, i);
+  }
+}
+
+void Solver::report_divergence(const State& state, Index vertex) const {
+  throw Error(ErrorKind::diverged, "step " + std::to_string(state.step + 1) +
+                                       " (t = " + std::to_string(state.time + settings_.time_step) + " s): vertex " +
+                                       std::to_string(vertex) +
+                                       " would leave for a place that is not finite: " + reason(state, vertex));
+}
+
+std::string Solver::reason(const State& state, Index vertex) const {
+  const auto is_far = [](const auto& x) { return !(x.cwiseAbs().maxCoeff() <= farthest) || !x.allFinite(); };
+  Positions alone(vertex_count_, 3);
+  for (Force* force : forces_) {
+    alone.setZero();
+    force->add_to(alone, state.view(), settings_.time_step);
+    const Real mass = state.masses[static_cast<std::size_t>(vertex)];
+    if (is_far(alone.row(vertex) * settings_.time_step * settings_.time_step / mass)) {
+      return "the force `" + std::string(force->type()) + "` on it has grown without bound; lessen it" +
+             (force->type() == "wind" ? ", or give the wind `area` `rest` or the model `relative`" : "");
+    }
+  }
+  if (is_far(s_.row(vertex))) return "its velocity has grown without bound; lessen the forces or the time step";
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const Index constraint = local_step_.first_not_finite(g);
+    if (constraint >= 0) {
+      return "constraint " + std::to_string(constraint) + " of type " + std::string(groups_[g]->type()) +
+             " has a force that is not finite; lessen its stiffness";
+    }
+  }
+  return "the system of equations is too badly conditioned; lessen the ratio of stiffness to m/h²";
+}
+
+}  // namespace pliant

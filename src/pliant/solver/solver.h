@@ -1,0 +1,78 @@
+#pragma once
+// The solver: thesis Algorithm 1 in residual form. step.cpp has the algorithm on one screen; here is what it needs.
+#include "pliant/core/thread_pool.h"
+#include "pliant/forces/force.h"
+#include "pliant/solver/factorization/factorization.h"
+#include "pliant/solver/local_step.h"
+#include "pliant/solver/state.h"
+
+namespace pliant {
+
+class Solver {
+ public:
+  explicit Solver(const SolverSettings& settings);
+
+  /// Takes effect at the next step: a new time step, back end or number of threads costs a factorization or less.
+  void set_settings(const SolverSettings& settings);
+
+  /// The problem. Groups and forces must outlive the solver or be replaced here first.
+  void set_problem(Index vertex_count, std::vector<ConstraintGroup*> groups, std::vector<Force*> forces);
+
+  /// Takes one step. Never allocates, unless a group, the time step or the back end has changed. Throws Error(diverged)
+  /// and leaves the state as it was when a position would not be finite.
+  StepReport step(State& state);
+
+  /// One local step at the positions of the state, against the last step's prediction.
+  Evaluation evaluate(const State& state);
+  Real elastic_energy(std::size_t group) const { return local_step_.elastic_energy(group); }
+
+  /// E(q) at the iterates of the last step, at most `history_limit` of them.
+  std::span<const Real> objective_history() const { return history_; }
+  static constexpr std::size_t history_limit = 4096;
+
+  std::string_view backend() const { return factorization_ ? factorization_->name() : std::string_view{}; }
+  int thread_count() const { return threads_->thread_count(); }
+
+ private:
+  /// A group's part of what the factor was made from.
+  struct GroupStamp {
+    std::uint64_t revision;
+    Real stiffness;
+  };
+
+  void prepare(const State& state);
+  void lay_out_groups();
+  void weigh_inertia(const State& state, Real time_step);
+  void factorize(const State& state);
+  bool groups_changed() const;
+  bool stiffness_changed() const;
+  void predict(const State& state);
+  void place_held_vertices(Positions& q) const;
+  void record(const LocalResult& result);
+  void check_finite(const State& state) const;
+  [[noreturn]] void report_divergence(const State& state, Index vertex) const;
+  std::string reason(const State& state, Index vertex) const;
+  void commit(State& state);
+
+  SolverSettings settings_;
+  Index vertex_count_ = 0;
+  std::vector<ConstraintGroup*> groups_;
+  std::vector<Force*> forces_;
+
+  std::unique_ptr<ThreadPool> threads_;
+  LocalStep local_step_;
+  SystemMatrix system_matrix_;
+  std::unique_ptr<Factorization> factorization_;
+  std::vector<GroupStamp> stamps_;  // of the groups in the factor
+  Real factor_time_step_ = 0;       // 0: there is no factor
+  bool groups_laid_out_ = false;
+  bool pattern_analyzed_ = false;
+
+  std::vector<char> is_held_;
+  std::vector<Real> inertia_weights_;  // M/h², 0 at held vertices
+  Real predicted_time_step_ = 0;       // h of s_; 0: nothing has been predicted yet
+  Positions force_, s_, q_, residual_, correction_;
+  std::vector<Real> history_;
+};
+
+}  // namespace pliant

@@ -1,0 +1,83 @@
+// Projective Dynamics, one step (thesis Algorithm 1; Bouaziz et al. 2014, Algorithm 1), in residual form: with
+// r(q) = M/h² (s − q) + Σ wᵢ SᵢᵀAᵢᵀ (pᵢ − zᵢ), minus the gradient of the objective, the global solve Y q' = b is
+// q' = q + Y⁻¹ r. The margin has the line numbers of Algorithm 1.
+#include <algorithm>
+
+#include "pliant/core/stopwatch.h"
+#include "pliant/solver/solver.h"
+
+namespace pliant {
+
+StepReport Solver::step(State& state) {
+  const Stopwatch total;
+  StepReport report;
+  prepare(state);
+  report.seconds_factor = total.seconds();
+
+  /* 1-2 */ predict(state);  // s = q + h v + h² M⁻¹ f
+  /* 3   */ q_ = settings_.start == Start::prediction ? s_ : state.positions;
+  place_held_vertices(q_);
+  /* 4   */ while (report.iterations < settings_.iterations) {
+    const Stopwatch local;
+    /* 5 */ const LocalResult found = local_step_.run(q_, s_, inertia_weights_, is_held_, residual_, *threads_);
+    record(found);
+    report.residual = found.residual;
+    report.seconds_local += local.seconds();
+    report.reached_tolerance = found.residual <= settings_.tolerance;
+    if (report.reached_tolerance) break;
+
+    const Stopwatch global;
+    /* 6 */ factorization_->solve(residual_, correction_);
+    q_ += correction_;
+    ++report.iterations;
+    report.seconds_global += global.seconds();
+  }
+  check_finite(state);
+  /* 8   */ commit(state);  // v = (q − qₙ)/h, qₙ = q
+  report.seconds_total = total.seconds();
+  return report;
+}
+
+void Solver::predict(const State& state) {
+  force_.setZero();
+  for (Force* force : forces_) force->add_to(force_, state.view(), settings_.time_step);
+  const Real h = settings_.time_step;
+  for (Index i = 0; i < vertex_count_; ++i) {
+    const Real mass = state.masses[static_cast<std::size_t>(i)];
+    s_.row(i) = state.positions.row(i) + h * state.velocities.row(i) + h * h / mass * force_.row(i);
+  }
+  predicted_time_step_ = h;
+}
+
+void Solver::place_held_vertices(Positions& q) const {
+  for (ConstraintGroup* group : groups_) {
+    const std::span<const Index> held = group->held_vertices();
+    const std::span<const Real> targets = group->targets();
+    for (std::size_t i = 0; i < held.size(); ++i) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        q(held[i], static_cast<Index>(axis)) = targets[3 * i + axis];
+      }
+    }
+  }
+}
+
+void Solver::record(const LocalResult& result) {
+  if (history_.size() < history_.capacity()) history_.push_back(result.inertia + result.elastic);
+}
+
+void Solver::commit(State& state) {
+  state.velocities = (q_ - state.positions) / settings_.time_step;
+  state.positions = q_;
+  ++state.step;
+  state.time += settings_.time_step;
+}
+
+Evaluation Solver::evaluate(const State& state) {
+  if (!groups_laid_out_ || groups_changed()) lay_out_groups();
+  if (predicted_time_step_ == 0) s_ = state.positions;  // nothing has been predicted yet: there is no inertia term
+  weigh_inertia(state, predicted_time_step_ == 0 ? settings_.time_step : predicted_time_step_);
+  const LocalResult found = local_step_.run(state.positions, s_, inertia_weights_, is_held_, residual_, *threads_);
+  return {found.residual, found.inertia, found.elastic};
+}
+
+}  // namespace pliant

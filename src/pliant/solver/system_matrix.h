@@ -1,0 +1,47 @@
+#pragma once
+// Y = M/h² + Σ_g k_g L_g, m × m, for all three coordinates at once (thesis Eq. 3.10 and Sec. 4.2).
+//
+// Each group keeps its matrix at unit stiffness, L_g = Σ measureᵢ SᵢᵀAᵢᵀAᵢSᵢ, on the union of all patterns. A changed
+// stiffness or time step sums them anew: no entry is ever subtracted, and the pattern, hence the symbolic analysis,
+// stays. Held vertices keep their rows and columns in the pattern, emptied but for the diagonal, so that pinning and
+// releasing costs a numeric factorization alone.
+#include "pliant/constraints/constraint_group.h"
+
+namespace pliant {
+
+/// The lower triangle of a symmetric matrix by columns; every column begins with its diagonal entry, rows ascend.
+struct LowerMatrix {
+  std::vector<Index> column_starts = {0};
+  std::vector<Index> rows;
+  std::vector<Real> values;
+
+  Index size() const { return static_cast<Index>(column_starts.size()) - 1; }
+};
+
+class SystemMatrix {
+ public:
+  /// Finds the union pattern and the unit matrices. Throws Error(input) past 2³¹ − 1 entries.
+  void set_groups(Index vertex_count, std::span<const ConstraintGroup* const> groups);
+
+  /// Sums the matrix for these masses [kg], this time step [s] and the groups' stiffnesses.
+  void sum(std::span<const Real> masses, Real time_step, std::span<const ConstraintGroup* const> groups,
+           std::span<const char> is_held);
+
+  const LowerMatrix& matrix() const { return matrix_; }
+
+ private:
+  /// Entries of L_g: values at places of the union pattern.
+  struct UnitMatrix {
+    std::vector<Index> places;
+    std::vector<Real> values;
+  };
+
+  void find_pattern(Index vertex_count, std::span<const ConstraintGroup* const> groups);
+  UnitMatrix unit_matrix(const ConstraintGroup& group, std::vector<Real>& sums, std::vector<char>& touched) const;
+  Index place(Index row, Index column) const;
+
+  LowerMatrix matrix_;
+  std::vector<UnitMatrix> units_;
+};
+
+}  // namespace pliant

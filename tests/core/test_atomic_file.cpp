@@ -1,0 +1,67 @@
+#include <filesystem>
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "../mesh/meshes.h"
+#include "../mesh/temporary_folder.h"
+#include "pliant/core/atomic_file.h"
+
+namespace fs = std::filesystem;
+using namespace pliant;
+using namespace pliant_tests;
+
+TEST_CASE("an atomic file takes its name only at the commit") {
+  const TemporaryFolder folder;
+  const fs::path path = folder.write("a.txt", "old");
+  SUBCASE("committed") {
+    AtomicFile file(path);
+    file.write("ne");
+    file.write("w");
+    CHECK(TemporaryFolder::read(path) == "old");
+    file.commit();
+    CHECK(TemporaryFolder::read(path) == "new");
+  }
+  SUBCASE("given up") {
+    { AtomicFile(path).write("new"); }
+    CHECK(TemporaryFolder::read(path) == "old");
+  }
+  CHECK(folder.file_count() == 1);
+}
+
+TEST_CASE("two writers of one name do not meet, nor does a leftover disturb") {
+  const TemporaryFolder folder;
+  const fs::path path = folder.path() / "a";
+  folder.write("a.tmp-0", "left over");
+  AtomicFile first(path);
+  AtomicFile second(path);
+  first.write("first");
+  second.write("second");
+  first.commit();
+  CHECK(TemporaryFolder::read(path) == "first");
+  second.commit();
+  CHECK(TemporaryFolder::read(path) == "second");
+  CHECK(TemporaryFolder::read(folder.path() / "a.tmp-0") == "left over");
+}
+
+TEST_CASE("a link is followed") {
+  const TemporaryFolder folder;
+  const fs::path target = folder.write("target", "old");
+  fs::create_symlink(target, folder.path() / "link");
+  write_file_atomically(folder.path() / "link", "new");
+  CHECK(fs::is_symlink(folder.path() / "link"));
+  CHECK(TemporaryFolder::read(target) == "new");
+}
+
+TEST_CASE("what cannot be written is an output error with the path and the reason") {
+  const TemporaryFolder folder;
+  const auto message_for = [](const fs::path& path) {
+    return error_of([&] { write_file_atomically(path, "x"); }, ErrorKind::output);
+  };
+  const fs::path absent = folder.path() / "absent" / "a";
+  CHECK(contains(message_for(absent), absent.string() + ": cannot be written: No such file or directory;"));
+  CHECK(contains(message_for(folder.path()), "Is a directory"));
+  CHECK(contains(message_for("/dev/null"), "Invalid argument"));
+  CHECK(fs::is_character_file("/dev/null"));
+  CHECK(folder.file_count() == 0);
+}
