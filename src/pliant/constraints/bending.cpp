@@ -1,7 +1,5 @@
 #include "pliant/constraints/bending.h"
 
-#include <Eigen/Geometry>
-
 #include "pliant/constraints/build.h"
 #include "pliant/constraints/curvature.h"
 #include "pliant/core/error.h"

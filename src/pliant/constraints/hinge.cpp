@@ -1,7 +1,5 @@
 #include "pliant/constraints/hinge.h"
 
-#include <Eigen/Geometry>
-
 #include "pliant/constraints/build.h"
 #include "pliant/constraints/curvature.h"
 #include "pliant/mesh/topology.h"

@@ -1,7 +1,5 @@
 #include "pliant/constraints/strain_rest.h"
 
-#include <Eigen/Dense>
-
 namespace pliant {
 namespace {
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <numbers>
 
-#include <Eigen/Geometry>
-
 namespace pliant {
 
 Wind::Wind(std::vector<Triangle> triangles, std::vector<Real> rest_areas, const WindOptions& options)

@@ -1,0 +1,15 @@
+#pragma once
+// Suggestions for a word that is not on a list.
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pliant {
+
+/// The names, those that need the fewest edits to become `word` first (Levenshtein distance; then in the given order).
+std::vector<std::string_view> nearest_names(std::string_view word, std::vector<std::string_view> names);
+
+/// The same as text: "columns, rows, size".
+std::string nearest_names_text(std::string_view word, std::vector<std::string_view> names);
+
+}  // namespace pliant
