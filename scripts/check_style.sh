@@ -5,7 +5,8 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 max_header_lines=199
 max_source_lines=499
 
-mapfile -t files < <(git ls-files --cached --others --exclude-standard -- '*.h' '*.cpp')
+mapfile -t files < <(git ls-files --cached --others --exclude-standard -- '*.h' '*.cpp' |
+  while read -r file; do [[ ! -e "$file" ]] || echo "$file"; done) # git lists what was deleted until it is committed
 if [[ ${#files[@]} -eq 0 ]]; then
   echo "check_style.sh: git lists no C++ files here" >&2
   exit 1

@@ -26,7 +26,12 @@ if ((changed)); then
     exit 0
   fi
 elif [[ ${#files[@]} -eq 0 ]]; then
-  mapfile -t files < <(git ls-files --cached --others --exclude-standard -- '*.cpp' ':!examples/consumer')
+  mapfile -t files < <(git ls-files --cached --others --exclude-standard -- '*.cpp' ':!examples/consumer' |
+    while read -r file; do [[ ! -e "$file" ]] || echo "$file"; done)
+fi
+if [[ ${#files[@]} -eq 0 ]]; then
+  echo "tidy.sh: found no sources to check" >&2
+  exit 1
 fi
 
 cmake --preset clang >/dev/null

@@ -3,9 +3,9 @@
 
 #include <doctest/doctest.h>
 
-#include "../mesh/meshes.h"
-#include "../mesh/temporary_folder.h"
 #include "pliant/core/atomic_file.h"
+#include "tests/mesh/meshes.h"
+#include "tests/support/temporary_folder.h"
 
 namespace fs = std::filesystem;
 using namespace pliant;

@@ -29,12 +29,12 @@ struct Bending {
   static constexpr ConstraintInfo info{"bending", "1/(2a) Σ (cot α + cot β)(xⱼ − x₀)", "the vectors of length ‖v_g‖",
                                        "½ κ a (‖v‖ − ‖v_g‖)²", "thesis Sec. 4.4.4, Eq. 4.4"};
 
-  Selection on;
-  Stencils stencils;
+  Selection on{};
+  Stencils stencils{};
   Values stiffness = 1e-3;
   Orientation orientation = Orientation::absolute;
-  Ragged<Real> cotangents;
-  Values areas;
+  Ragged<Real> cotangents{};
+  Values areas{};
 
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& field) {

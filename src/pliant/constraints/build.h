@@ -37,7 +37,7 @@ ConstraintSet one_part(std::unique_ptr<ConstraintGroup> group);
 
 template <class Element>
 Stencils to_stencils(const std::vector<Element>& elements) {
-  Stencils stencils;
+  Stencils stencils{};
   stencils.values.reserve(elements.size() * std::tuple_size_v<Element>);
   stencils.offsets.reserve(elements.size() + 1);
   for (const Element& element : elements) stencils.add(element);

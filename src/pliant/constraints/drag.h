@@ -12,10 +12,10 @@ struct Drag {
   static constexpr ConstraintInfo info{"drag", "Σ bⱼ xⱼ", "the target t", "½ k ‖Σ bⱼ xⱼ − t‖²",
                                        "thesis Sec. 5.2, made implicit"};
 
-  Stencils stencils;
-  Ragged<Real> weights;
+  Stencils stencils{};
+  Ragged<Real> weights{};
   Values stiffness = 1e3;
-  Points targets;
+  Points targets{};
 
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& field) {

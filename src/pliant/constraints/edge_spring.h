@@ -16,10 +16,10 @@ struct EdgeSpring {
   static constexpr ConstraintInfo info{"edge_spring", "x₁ − x₀", "the vectors of length L", "½ k (‖x₁ − x₀‖ − L)²",
                                        "thesis Sec. 4.4.3 (w = 2k)"};
 
-  Selection on;
-  Stencils stencils;
+  Selection on{};
+  Stencils stencils{};
   Values stiffness = 1e4;
-  Values rest_length;
+  Values rest_length{};
 
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& field) {

@@ -24,11 +24,11 @@ struct EdgeStrain {
   static constexpr ConstraintInfo info{"edge_strain", "(x₁ − x₀)/L", "the vectors of length min to max",
                                        "½ w (‖z‖ − 1)², w = EA·L or k·a", "Bouaziz et al. 2014, Sec. 5.1"};
 
-  Selection on;
-  Stencils stencils;
+  Selection on{};
+  Stencils stencils{};
   FibreMeasure measure = FibreMeasure::rope;
   Values stiffness = 1e3;
-  Values rest_length;
+  Values rest_length{};
   Values min_stretch = 1;
   Values max_stretch = 1;
 

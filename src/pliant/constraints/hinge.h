@@ -19,8 +19,8 @@ struct HingeBending {
   static constexpr ConstraintInfo info{"hinge", "Σ cᵢ xᵢ over two triangles", "the vectors of length ‖z_g‖",
                                        "½ κ/(A₀ + A₁) (‖z‖ − ‖z_g‖)²", "Bergou et al. 2006, Sec. 4"};
 
-  Selection on;
-  Stencils stencils;
+  Selection on{};
+  Stencils stencils{};
   Values stiffness = 1e-3;
   Orientation orientation = Orientation::absolute;
 

@@ -14,11 +14,11 @@ struct Line {
   static constexpr ConstraintInfo info{"line", "xᵢ", "the line o + λ d, ‖d‖ = 1", "½ k dist(xᵢ, line)²",
                                        "thesis Sec. 4.4.2, Eq. 4.2"};
 
-  Selection on;
-  Stencils stencils;
+  Selection on{};
+  Stencils stencils{};
   Values stiffness = 1e5;
-  Points direction;
-  Points origin;
+  Points direction{};
+  Points origin{};
 
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& field) {

@@ -20,11 +20,11 @@ constexpr std::array<std::string_view, 2> choice_names(Hold) {
 struct Position {
   static constexpr ConstraintInfo info{"position", "xᵢ", "the target t", "½ k ‖xᵢ − t‖²", "thesis Sec. 4.4.1"};
 
-  Selection on;
-  Stencils stencils;
+  Selection on{};
+  Stencils stencils{};
   Hold hold = Hold::hard;
   Values stiffness = 1e5;
-  Points targets;
+  Points targets{};
 
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& field) {

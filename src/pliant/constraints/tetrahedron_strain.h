@@ -14,8 +14,8 @@ struct TetrahedronStrain {
   static constexpr ConstraintInfo info{"tetrahedron_strain", "F (3 × 3)", "F with stretches from min to max, det > 0",
                                        "½ k v ‖F − p‖²", "Bouaziz et al. 2014, Sec. 5.1"};
 
-  Selection on;
-  Stencils stencils;
+  Selection on{};
+  Stencils stencils{};
   Values stiffness = 1e5;
   Values min_stretch = 1;
   Values max_stretch = 1;

@@ -15,8 +15,8 @@ struct TriangleStrain {
   static constexpr ConstraintInfo info{"triangle_strain", "F (3 × 2)", "F with stretches from min to max",
                                        "½ k a ‖F − p‖²", "Bouaziz et al. 2014, Sec. 5.1"};
 
-  Selection on;
-  Stencils stencils;
+  Selection on{};
+  Stencils stencils{};
   Values stiffness = 1e3;
   Values min_stretch = 1;
   Values max_stretch = 1;

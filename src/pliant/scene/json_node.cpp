@@ -130,10 +130,13 @@ Json parse_json(std::string_view text, std::string_view file) {
 }
 
 std::string printable(std::string_view text) {
-  constexpr std::size_t longest = 160;
-  std::string result(text.substr(0, longest));
+  std::size_t length = std::min(text.size(), std::size_t{160});
+  if (length < text.size()) {
+    while (length > 0 && (static_cast<unsigned char>(text[length]) & 0xC0U) == 0x80U) --length;  // inside a character
+  }
+  std::string result(text.substr(0, length));
   std::ranges::replace_if(result, [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; }, ' ');
-  if (text.size() > longest) result += "...";
+  if (length < text.size()) result += "...";
   return result;
 }
 
@@ -194,9 +197,8 @@ void Node::fail(std::string_view what) const {
 }
 
 void Node::fail_type(std::string_view wanted) const {
-  std::string_view found = value_->type_name();
-  if (value_->is_array()) found = "list";
-  fail(fmt::format("{} is wanted here, not {} {}", wanted, found == "object" || found == "array" ? "an" : "a", found));
+  const std::string_view found = value_->is_array() ? "list" : value_->type_name();
+  fail(fmt::format("{} is wanted here, not {}{}", wanted, value_->is_object() ? "an " : "a ", found));
 }
 
 }  // namespace pliant

@@ -103,7 +103,7 @@ void Simulation::remove(GroupId id) {
   lists_changed_ = true;
 }
 
-Group& Simulation::group(GroupId id) {
+const Group& Simulation::group(GroupId id) const {
   const auto found = groups_.find(id);
   if (found == groups_.end()) fail_input("group " + std::to_string(static_cast<Index>(id)) + " does not exist");
   return found->second;
@@ -113,7 +113,7 @@ void Simulation::set_stiffness(GroupId id, Real stiffness) {
   for (const auto& part : group(id).set.parts) part->set_stiffness(stiffness);
 }
 
-std::span<Real> Simulation::target_numbers(GroupId id, Index i) {
+std::span<Real> Simulation::target_numbers(GroupId id, Index i) const {
   const Group& owner = group(id);
   auto place = static_cast<std::size_t>(i);
   for (const auto& part : owner.set.parts) {
@@ -125,13 +125,13 @@ std::span<Real> Simulation::target_numbers(GroupId id, Index i) {
              "; positions and drags have one for each constraint");
 }
 
-Index Simulation::target_count(GroupId id) {
+Index Simulation::target_count(GroupId id) const {
   std::size_t numbers = 0;
   for (const auto& part : group(id).set.parts) numbers += part->targets().size();
   return static_cast<Index>(numbers / 3);
 }
 
-Vec3 Simulation::target(GroupId id, Index i) {
+Vec3 Simulation::target(GroupId id, Index i) const {
   return Eigen::Map<const Vec3>(target_numbers(id, i).data());
 }
 

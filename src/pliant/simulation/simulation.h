@@ -34,9 +34,9 @@ struct Body {
 };
 
 struct BodyOptions {
-  std::string name;      ///< in messages; default "body 0", "body 1", ...
-  Positions start;       ///< m × 3 [m]; default: the rest positions
-  Positions velocities;  ///< m × 3 [m/s]; default: zero
+  std::string name{};      ///< in messages; default "body 0", "body 1", ...
+  Positions start{};       ///< m × 3 [m]; default: the rest positions
+  Positions velocities{};  ///< m × 3 [m/s]; default: zero
 };
 
 /// Constraints of one type on one body, as a user sees them.
@@ -74,8 +74,8 @@ class Simulation {
   /// New common factor of a group's weights: costs one numeric factorization at the next step.
   void set_stiffness(GroupId id, Real stiffness);
   /// Movable points of a group (positions, drags), in the order of its constraints.
-  Index target_count(GroupId id);
-  Vec3 target(GroupId id, Index i);
+  Index target_count(GroupId id) const;
+  Vec3 target(GroupId id, Index i) const;
   /// Moves point i from the next step on; costs nothing.
   void set_target(GroupId id, Index i, const Vec3& target);
 
@@ -113,8 +113,8 @@ class Simulation {
 
  private:
   BodyView view(BodyId id) const;
-  Group& group(GroupId id);
-  std::span<Real> target_numbers(GroupId id, Index i);
+  const Group& group(GroupId id) const;
+  std::span<Real> target_numbers(GroupId id, Index i) const;
   static void append_triangles(const Body& owner, std::vector<Triangle>& triangles, std::vector<Real>& areas);
   void update_problem();
   void check_forces();

@@ -14,11 +14,16 @@
 // coordinates of a vertex, and a zero, go through a sweep together in four lanes, so each entry of L is read once a
 // sweep and serves three right-hand sides.
 #include "pliant/core/types.h"
+#include "pliant/solver/factorization/sweeps.h"
 
 namespace pliant {
 
 class SupernodalFactor {
  public:
+  SupernodalFactor() = default;
+  SupernodalFactor(const SupernodalFactor&) = delete;
+  SupernodalFactor& operator=(const SupernodalFactor&) = delete;
+
   /// Forgets the factor and begins another of this size; permutation[i] is the vertex in place i.
   void begin(std::span<const Index> permutation);
   /// Adds the next supernode: columns [c0, c0 + columns), rows below the block ascending. entry(r, c) gives L at local
@@ -36,17 +41,6 @@ class SupernodalFactor {
   std::size_t entry_count() const { return values_.size(); }
 
  private:
-  struct Supernode {
-    Index first_column;
-    Index columns;
-    Index rows_below;
-    std::size_t first_row;    // in rows_
-    std::size_t first_value;  // in values_
-  };
-
-  void forward();
-  void backward();
-
   std::vector<Index> permutation_;
   std::vector<Supernode> supernodes_;
   std::vector<Index> rows_;

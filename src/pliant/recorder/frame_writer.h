@@ -1,0 +1,31 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+
+#include "pliant/simulation/simulation.h"
+
+namespace pliant {
+
+/// Writes the positions of a run, frame by frame. Derive from it for a format of one's own.
+class FrameWriter {
+ public:
+  virtual ~FrameWriter() = default;
+
+  /// The format's name, for run.json.
+  virtual std::string_view format() const = 0;
+  /// Where the frames are, for people: a file, or a pattern of files.
+  virtual std::filesystem::path path() const = 0;
+  /// Writes one more frame, m × 3 [m]. When it returns, or throws Error(output), all frames written before it are
+  /// whole on the disk.
+  virtual void add(const Positions& positions) = 0;
+};
+
+/// All frames in `folder`/frames.npy: float64, frames × m × 3, C order. The vertices are those of all bodies in turn.
+std::unique_ptr<FrameWriter> make_npy_writer(const std::filesystem::path& folder, Index vertex_count);
+
+/// One file a frame, `folder`/frame_00000.obj and so on; several bodies are objects of that file (`o`, by their names).
+std::unique_ptr<FrameWriter> make_obj_writer(const std::filesystem::path& folder, std::span<const Body> bodies);
+
+}  // namespace pliant

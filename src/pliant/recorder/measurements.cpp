@@ -1,0 +1,94 @@
+#include "pliant/recorder/measurements.h"
+
+#include <array>
+#include <string>
+
+#include <fmt/format.h>
+
+namespace pliant {
+namespace {
+
+struct Column {
+  std::string_view name;
+  Real (*value)(const Measurements&);
+};
+
+constexpr std::array before_elastic = {
+    Column{"time", [](const Measurements& row) { return row.time; }},
+    Column{"kinetic", [](const Measurements& row) { return row.kinetic; }},
+};
+constexpr std::array after_elastic = {
+    Column{"gravitational", [](const Measurements& row) { return row.gravitational; }},
+    Column{"total", [](const Measurements& row) { return row.total; }},
+    Column{"speed_sum", [](const Measurements& row) { return row.speed_sum; }},
+    Column{"momentum", [](const Measurements& row) { return row.momentum.norm(); }},
+    Column{"angular_momentum_x", [](const Measurements& row) { return row.angular_momentum[0]; }},
+    Column{"angular_momentum_y", [](const Measurements& row) { return row.angular_momentum[1]; }},
+    Column{"angular_momentum_z", [](const Measurements& row) { return row.angular_momentum[2]; }},
+    Column{"residual", [](const Measurements& row) { return row.residual; }},
+    Column{"objective", [](const Measurements& row) { return row.objective; }},
+    Column{"iterations", [](const Measurements& row) { return static_cast<Real>(row.report.iterations); }},
+    Column{"ms_local", [](const Measurements& row) { return 1e3 * row.report.seconds_local; }},
+    Column{"ms_global", [](const Measurements& row) { return 1e3 * row.report.seconds_global; }},
+    Column{"ms_total", [](const Measurements& row) { return 1e3 * row.report.seconds_total; }},
+};
+
+/// A field of a CSV file (RFC 4180, Sec. 2).
+std::string quoted(std::string_view text) {
+  if (text.find_first_of(",\"\r\n") == text.npos) return std::string(text);
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"') result += '"';
+    result += c;
+  }
+  return result + '"';
+}
+
+}  // namespace
+
+Measurements measure(Simulation& simulation, const StepReport& report) {
+  const Evaluation evaluation = simulation.evaluate();
+  const State& state = simulation.state();
+  Measurements row;
+  row.step = state.step;
+  row.time = state.time;
+  row.report = report;
+  row.residual = evaluation.residual;
+  row.objective = evaluation.objective();
+  for (Index i = 0; i < state.vertex_count(); ++i) {
+    const Real mass = state.masses[static_cast<std::size_t>(i)];
+    const Vec3 v = pliant::row(state.velocities, i);
+    row.kinetic += mass / 2 * v.squaredNorm();
+    row.speed_sum += v.norm();
+    row.momentum += mass * v;
+    row.angular_momentum += mass * pliant::row(state.positions, i).cross(v);
+  }
+  row.total = row.kinetic;
+  for (const auto& [id, group] : simulation.groups()) {
+    row.elastic.push_back(simulation.elastic_energy(id));
+    row.total += row.elastic.back();
+  }
+  for (const auto& [id, force] : simulation.forces()) row.gravitational += force->potential(state.view());
+  row.total += row.gravitational;
+  return row;
+}
+
+MeasurementsWriter::MeasurementsWriter(const std::filesystem::path& path, const Simulation& simulation) : file_(path) {
+  std::string line = "step";
+  for (const Column& column : before_elastic) line += fmt::format(",{}", column.name);
+  for (const auto& [id, group] : simulation.groups()) line += ',' + quoted("elastic " + group.name);
+  for (const Column& column : after_elastic) line += fmt::format(",{}", column.name);
+  file_.write(line + '\n');
+  file_.flush();
+}
+
+void MeasurementsWriter::add(const Measurements& row) {
+  std::string line = std::to_string(row.step);
+  for (const Column& column : before_elastic) line += fmt::format(",{}", column.value(row));
+  for (const Real energy : row.elastic) line += fmt::format(",{}", energy);
+  for (const Column& column : after_elastic) line += fmt::format(",{}", column.value(row));
+  file_.write(line + '\n');
+  file_.flush();
+}
+
+}  // namespace pliant

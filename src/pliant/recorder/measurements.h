@@ -1,0 +1,42 @@
+#pragma once
+// What a run is judged by: energies, momenta, residual and times, one row a recorded step.
+#include <vector>
+
+#include "pliant/recorder/output_file.h"
+#include "pliant/simulation/simulation.h"
+
+namespace pliant {
+
+/// The state after a step. Energies [J] are those of its positions and velocities; none of them is damped or shifted.
+struct Measurements {
+  std::int64_t step = 0;
+  Real time = 0;              ///< [s]
+  Real kinetic = 0;           ///< Σ m ‖v‖²/2
+  std::vector<Real> elastic;  ///< of each group, in the order of Simulation::groups()
+  Real gravitational = 0;     ///< the potentials of all forces that have one
+  Real total = 0;             ///< the sum of the energies
+  Real speed_sum = 0;         ///< Σ ‖v‖ [m/s]
+  Vec3 momentum = Vec3::Zero();          ///< Σ m v [N·s]
+  Vec3 angular_momentum = Vec3::Zero();  ///< Σ m x × v about the origin [N·m·s]
+  Real residual = 0;                     ///< largest force left on a vertex by the step's last iterate [N]
+  Real objective = 0;                    ///< of that iterate [J]
+  StepReport report;                     ///< of the step; all zero for the start
+};
+
+/// Measures the state; costs one local step.
+Measurements measure(Simulation& simulation, const StepReport& report);
+
+/// Writes measurements.csv: a line of column names, then a row for each measurement. Numbers are the shortest that read
+/// back to the same bits.
+class MeasurementsWriter {
+ public:
+  /// Makes the file and writes the names. The groups are those of now. @throws Error (output)
+  MeasurementsWriter(const std::filesystem::path& path, const Simulation& simulation);
+
+  void add(const Measurements& row);
+
+ private:
+  OutputFile file_;
+};
+
+}  // namespace pliant

@@ -1,0 +1,90 @@
+#include <algorithm>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "pliant/mesh/io/obj.h"
+#include "pliant/mesh/topology.h"
+#include "pliant/recorder/frame_writer.h"
+
+namespace pliant {
+namespace {
+
+/// The faces that a mesh shows: its polygons, else its triangles, else the surface of its tetrahedra.
+PolygonFaces visible_faces(const Mesh& mesh) {
+  if (mesh.faces.face_count() > 0) return mesh.faces;
+  const std::vector<Triangle> triangles =
+      mesh.triangles.empty() ? boundary_triangles(mesh.tetrahedra) : mesh.triangles;
+  PolygonFaces faces;
+  faces.offsets.push_back(0);
+  for (const Triangle& triangle : triangles) {
+    faces.vertices.insert(faces.vertices.end(), triangle.begin(), triangle.end());
+    faces.offsets.push_back(static_cast<Index>(faces.vertices.size()));
+  }
+  return faces;
+}
+
+/// Appends faces whose vertices and texture coordinates start at the given ones.
+void append_faces(PolygonFaces& all, const PolygonFaces& faces, Index first_vertex, Index first_texture) {
+  const auto first_corner = static_cast<Index>(all.vertices.size());
+  for (std::size_t f = 1; f < faces.offsets.size(); ++f) all.offsets.push_back(first_corner + faces.offsets[f]);
+  for (std::size_t corner = 0; corner < faces.vertices.size(); ++corner) {
+    all.vertices.push_back(first_vertex + faces.vertices[corner]);
+    const Index texture = faces.texture_coordinates.empty() ? -1 : faces.texture_coordinates[corner];
+    all.texture_coordinates.push_back(texture < 0 ? -1 : first_texture + texture);
+  }
+}
+
+/// The bodies as objects of one mesh, their vertices in the simulation's order.
+Mesh one_mesh(std::span<const Body> bodies) {
+  Mesh all;
+  all.faces.offsets.push_back(0);
+  for (const Body& body : bodies) {
+    all.vertices.conservativeResize(body.first_vertex + body.mesh.vertex_count(), 3);
+    all.vertices.bottomRows(body.mesh.vertex_count()) = body.mesh.vertices;
+    const auto first_texture = static_cast<Index>(all.texture_coordinates.rows());
+    const Index first_face = all.faces.face_count();
+    append_faces(all.faces, visible_faces(body.mesh), body.first_vertex, first_texture);
+    all.texture_coordinates.conservativeResize(first_texture + body.mesh.texture_coordinates.rows(), 2);
+    all.texture_coordinates.bottomRows(body.mesh.texture_coordinates.rows()) = body.mesh.texture_coordinates;
+    for (const Edge& edge : body.mesh.edges) {
+      all.edges.push_back({body.first_vertex + edge[0], body.first_vertex + edge[1]});
+    }
+    FaceGroup object{body.name, FaceGroupKind::object,
+                     std::vector<Index>(static_cast<std::size_t>(all.faces.face_count() - first_face))};
+    std::iota(object.faces.begin(), object.faces.end(), first_face);
+    all.groups.push_back(std::move(object));
+    for (FaceGroup group : body.mesh.groups) {
+      if (group.kind == FaceGroupKind::object) continue;  // a face is in one object at most, and that is the body
+      for (Index& face : group.faces) face += first_face;
+      all.groups.push_back(std::move(group));
+    }
+  }
+  return all;
+}
+
+class ObjFrames final : public FrameWriter {
+ public:
+  ObjFrames(std::filesystem::path folder, Mesh mesh) : folder_(std::move(folder)), mesh_(std::move(mesh)) {}
+
+  std::string_view format() const override { return "obj"; }
+  std::filesystem::path path() const override { return folder_ / "frame_*.obj"; }
+  void add(const Positions& positions) override {
+    write_obj(folder_ / fmt::format("frame_{:05}.obj", frame_count_), mesh_, positions);
+    ++frame_count_;
+  }
+
+ private:
+  std::filesystem::path folder_;
+  Mesh mesh_;
+  std::int64_t frame_count_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<FrameWriter> make_obj_writer(const std::filesystem::path& folder, std::span<const Body> bodies) {
+  Mesh mesh = bodies.size() == 1 ? bodies.front().mesh : one_mesh(bodies);
+  return std::make_unique<ObjFrames>(folder, std::move(mesh));
+}
+
+}  // namespace pliant

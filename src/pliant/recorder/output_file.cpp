@@ -1,0 +1,36 @@
+#include "pliant/recorder/output_file.h"
+
+#include <cerrno>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "pliant/core/error.h"
+
+namespace pliant {
+
+OutputFile::OutputFile(std::filesystem::path path)
+    : path_(std::move(path)), file_(std::fopen(path_.string().c_str(), "wb")) {
+  if (!file_) fail(errno);
+}
+
+void OutputFile::write(std::string_view bytes) {
+  if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) fail(errno);
+}
+
+void OutputFile::write_at_start(std::string_view bytes) {
+  if (std::fseek(file_.get(), 0, SEEK_SET) != 0) fail(errno);
+  write(bytes);
+  if (std::fseek(file_.get(), 0, SEEK_END) != 0) fail(errno);
+}
+
+void OutputFile::flush() {
+  if (std::fflush(file_.get()) != 0) fail(errno);
+}
+
+void OutputFile::fail(int error_number) const {
+  throw Error(ErrorKind::output, fmt::format("{}: cannot be written: {}; choose another place or make room",
+                                             path_.string(), std::generic_category().message(error_number)));
+}
+
+}  // namespace pliant

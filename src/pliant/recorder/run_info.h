@@ -1,0 +1,33 @@
+#pragma once
+// run.json: what was run, with what, and how it ended.
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "pliant/simulation/simulation.h"
+
+namespace pliant {
+
+/// How a run ended.
+enum class Outcome { ok, diverged, interrupted, failed };
+constexpr std::array<std::string_view, 4> choice_names(Outcome) {
+  return {"ok", "diverged", "interrupted", "failed"};
+}
+
+/// What the simulation does not know about its run.
+struct RunInfo {
+  std::string scene;         ///< its name
+  std::string source;        ///< the file or the built-in scene it was read from
+  std::string frame_format;  ///< "none" when no frames were written
+  std::int64_t every = 1;    ///< steps from record to record
+  std::int64_t wanted_steps = 0;
+  std::int64_t frames = 0;
+  double wall_seconds = 0;
+  Outcome outcome = Outcome::ok;
+  std::string error;  ///< the message when it did not end well
+};
+
+/// Writes the file, whole or not at all. @throws Error (output)
+void write_run_info(const std::filesystem::path& path, const RunInfo& info, const Simulation& simulation);
+
+}  // namespace pliant

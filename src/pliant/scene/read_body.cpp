@@ -1,0 +1,121 @@
+#include "pliant/constraints/builtin.h"
+#include "pliant/scene/option_reader.h"
+#include "pliant/scene/read_mesh.h"
+#include "pliant/scene/scene_reader.h"
+
+namespace pliant {
+namespace {
+
+Positions read_velocities(const Node& node, Index vertex_count) {
+  if (node.has("velocity") && node.has("velocities")) node.require_one_of({"velocity", "velocities"});
+  Positions velocities;
+  read_optional(node, "velocities", velocities);
+  if (const auto common = node.find("velocity")) {
+    Vec3 velocity;
+    read(*common, velocity);
+    velocities = velocity.transpose().replicate(vertex_count, 1);
+  }
+  return velocities;
+}
+
+/// Refuses a list of other than one row a vertex, which the simulation would take for "not given" when empty.
+void check_rows(const Node& node, std::string_view key, Index vertex_count) {
+  if (const auto rows = node.find(key)) rows->require_list(static_cast<std::size_t>(vertex_count), "(one a vertex)");
+}
+
+/// Adds constraints of the type Constraint if that is what `type` names.
+template <class Constraint>
+bool add_constraint(const Node& node, std::string_view type, const SceneBody& body, auto&& add) {
+  if (Constraint::info.name != type) return false;
+  Constraint options;
+  read_options(node, options, {"type", "name"}, &body);
+  add(options);
+  return true;
+}
+
+template <class... Constraint>
+void add_constraint(const Node& node, const SceneBody& body, std::tuple<Constraint...>*, auto&& add) {
+  const Node type = node.require("type");
+  std::string name;
+  read(type, name);
+  if ((add_constraint<Constraint>(node, name, body, add) || ...)) return;
+  type.fail(fmt::format("'{}' is no constraint; known, the nearest first: {}", printable(name),
+                        nearest_names_text(name, {Constraint::info.name...})));
+}
+
+}  // namespace
+
+void SceneReader::read_body(const Node& node) {
+  node.check_keys({"name", "mesh", "transform", "mass", "start_positions", "velocity", "velocities", "constraints"});
+  BodyOptions options;
+  options.name = fmt::format("body {}", bodies.size());
+  read_optional(node, "name", options.name);
+  if (bodies.contains(options.name)) {
+    node.find("name").value_or(node).fail(
+        fmt::format("the name '{}' is another body's; choose another", printable(options.name)));
+  }
+
+  Mesh mesh = read_mesh(node.require("mesh"), folder);
+  untransformed.push_back(mesh.vertices);
+  if (const auto transform = node.find("transform")) apply_transform(*transform, mesh.vertices);
+  const Mass mass = read_mass(node.require("mass"));
+  const Index vertex_count = mesh.vertex_count();
+  check_rows(node, "start_positions", vertex_count);
+  check_rows(node, "velocities", vertex_count);
+  read_optional(node, "start_positions", options.start);
+  options.velocities = read_velocities(node, vertex_count);
+
+  const std::string name = options.name;
+  const BodyId id = node.locate([&] { return simulation.add_body(std::move(mesh), mass, std::move(options)); });
+  bodies.emplace(name, id);
+  const auto constraints = node.find("constraints");
+  if (!constraints) return;
+  constraints->require_list();
+  for (std::size_t i = 0; i < constraints->value().size(); ++i) read_constraint((*constraints)[i], id);
+}
+
+void SceneReader::read_constraint(const Node& node, BodyId id) {
+  node.require_object();
+  add_constraint(node, body(id), static_cast<BuiltinConstraints*>(nullptr), [&](const auto& options) {
+    const std::string name = group_name(node, id, options.info.name);
+    const GroupId group = node.locate([&] { return simulation.add(id, options, name); });
+    const ConstraintSet& set = simulation.groups().at(group).set;
+    if (set.count == 0 && set.skipped == 0) {
+      node.fail("makes no constraint, since the mesh has none of its stencils in the selection; select more, or remove it");
+    }
+    groups.emplace(name, group);
+  });
+}
+
+/// The name given, which must be new; else the type, with the body in front where there are several, and a number
+/// behind where that is taken.
+std::string SceneReader::group_name(const Node& node, BodyId id, std::string_view type) const {
+  if (const auto given = node.find("name")) {
+    std::string name;
+    read(*given, name);
+    if (groups.contains(name)) {
+      given->fail(fmt::format("the name '{}' is another group's; choose another", printable(name)));
+    }
+    return name;
+  }
+  const std::string base = fmt::format("{}.{}", simulation.body(id).name, type);
+  std::string name = base;
+  for (int i = 2; groups.contains(name); ++i) name = fmt::format("{} {}", base, i);
+  return name;
+}
+
+BodyId SceneReader::read_body_name(const Node& node) const {
+  const auto given = node.find("body");
+  if (!given && bodies.size() == 1) return bodies.begin()->second;
+  if (!given) node.fail("there are several bodies; name one with the key 'body'");
+  std::string name;
+  read(*given, name);
+  const auto found = bodies.find(name);
+  if (found != bodies.end()) return found->second;
+  std::vector<std::string_view> names;
+  for (const auto& [known, id] : bodies) names.push_back(known);
+  given->fail(fmt::format("there is no body '{}'; known, the nearest first: {}", printable(name),
+                          nearest_names_text(name, names)));
+}
+
+}  // namespace pliant

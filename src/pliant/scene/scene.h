@@ -1,0 +1,71 @@
+#pragma once
+// Scene files: JSON that says what to simulate. docs/scenes.md describes the format.
+//
+//     Scene scene = load_scene("curtain.json");
+//     for (std::int64_t i = 0; i < scene.steps; ++i) scene.step();
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "pliant/scene/timeline.h"
+#include "pliant/simulation/simulation.h"
+
+namespace pliant {
+
+/// What the frames of a run are written as: one array, one OBJ file each, or nothing.
+enum class FrameFormat { npy, obj, none };
+constexpr std::array<std::string_view, 3> choice_names(FrameFormat) {
+  return {"npy", "obj", "none"};
+}
+
+struct OutputSettings {
+  FrameFormat format = FrameFormat::npy;
+  std::int64_t every = 1;  ///< record the start and every n-th step, ≥ 1
+
+  template <class Self, class Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field(OptionInfo{"format", "", "of the frames: `npy`, `obj` or `none`"}, self.format);
+    field(OptionInfo{"every", "", "record the start and every n-th step"}, self.every);
+  }
+};
+
+/// A simulation made ready to run, with what the scene says about the run.
+struct Scene {
+  std::string name;  ///< default: the file's, without its extension
+  std::string description;
+  std::int64_t steps = 300;  ///< ≥ 0
+  OutputSettings output;
+  Simulation simulation;
+  Timeline timeline;
+
+  /// Makes the moves that are due and takes one step.
+  StepReport step();
+};
+
+/// Values that take the place of the scene's own.
+struct SceneOverrides {
+  std::optional<std::int64_t> steps;
+  std::optional<Real> time_step;  ///< [s]; moves keep their times, or their steps where those are given
+  std::optional<Index> iterations;
+  std::optional<Real> tolerance;  ///< [N]
+  std::optional<Index> threads;
+  std::optional<Backend> backend;
+  std::optional<FrameFormat> format;
+  std::optional<std::int64_t> every;
+};
+
+/// Reads a scene file; paths in it start at its folder.
+/// @throws Error (input), one line: `file:line:column: what` for a slip of syntax, else `file: path.to.key[3]: what;
+///   remedy` with the place in the JSON.
+Scene load_scene(const std::filesystem::path& file, const SceneOverrides& overrides = {});
+
+/// The same for a text. `name` is what messages call it, and the scene's name unless it has one; paths in the text
+/// start at `folder`.
+Scene parse_scene(std::string_view text, const std::filesystem::path& folder, std::string_view name,
+                  const SceneOverrides& overrides = {});
+
+/// The "description" of a scene, "" when it has none, without making its simulation. Throws as parse_scene does.
+std::string scene_description(std::string_view text, std::string_view name);
+
+}  // namespace pliant
