@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "pliant/core/error.h"
 
 namespace pliant {
@@ -74,13 +76,20 @@ void check_length(std::string_view type, std::string_view option, std::size_t le
              std::to_string(count) + " constraints; give one for all, or one each");
 }
 
+void check_given(std::string_view option, const Values& values) {
+  if (values.each() || !values.empty()) return;
+  fail_input(std::string(option) + ": there is none; give one for all constraints, or one each");
+}
+
 void check_limits(std::string_view type, const Values& min_stretch, const Values& max_stretch, Index count) {
+  check_given("min_stretch", min_stretch);
+  check_given("max_stretch", max_stretch);
   check_length(type, "min_stretch", min_stretch.list().size(), min_stretch.each(), count);
   check_length(type, "max_stretch", max_stretch.list().size(), max_stretch.each(), count);
   for (Index i = 0; i < count; ++i) {
     if (min_stretch[i] <= max_stretch[i]) continue;
-    fail_input(std::string(type) + ": min_stretch " + std::to_string(min_stretch[i]) + " is above max_stretch " +
-               std::to_string(max_stretch[i]) + " at constraint " + std::to_string(i) + "; exchange them");
+    fail_input(fmt::format("{}: min_stretch {} is above max_stretch {} at constraint {}; exchange them", type,
+                           min_stretch[i], max_stretch[i], i));
   }
 }
 

@@ -21,9 +21,12 @@ void check_limits(std::string_view type, const Values& min_stretch, const Values
 /// Throws unless the area or volume of element i at rest is positive and finite; `remedy` begins with its name.
 void check_rest_measure(std::string_view type, const BodyView& body, Index i, Real measure, std::string_view remedy);
 
+/// Throws when there is no value at all, for an option that cannot do without.
+void check_given(std::string_view option, const Values& values);
+
 /// Stiffness as a group has it: the common factor, and the factor of constraint i that goes into its measure.
 struct StiffnessSplit {
-  explicit StiffnessSplit(const Values& stiffness) : values(stiffness) {}
+  explicit StiffnessSplit(const Values& stiffness) : values(stiffness) { check_given("stiffness", stiffness); }
   Real common() const { return values.each() ? 1 : values[0]; }
   Real of(Index i) const { return values.each() ? values[i] : 1; }
   const Values& values;

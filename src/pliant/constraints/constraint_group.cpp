@@ -1,7 +1,8 @@
 #include "pliant/constraints/constraint_group.h"
 
 #include <cmath>
-#include <string>
+
+#include <fmt/format.h>
 
 #include "pliant/core/error.h"
 
@@ -19,8 +20,8 @@ std::span<Real> ConstraintGroup::targets() {
 
 void ConstraintGroup::set_stiffness(Real stiffness) {
   if (!(stiffness > 0) || !std::isfinite(stiffness)) {
-    fail_input("stiffness: " + std::to_string(stiffness) +
-               " is not a positive finite number; give one, or remove the constraints");
+    fail_input(
+        fmt::format("stiffness: {} is not a positive finite number; give one, or remove the constraints", stiffness));
   }
   stiffness_ = stiffness;
 }

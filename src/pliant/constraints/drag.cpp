@@ -1,8 +1,9 @@
 #include "pliant/constraints/drag.h"
 
 #include <cmath>
-#include <map>
 #include <numeric>
+
+#include <fmt/format.h>
 
 #include "pliant/constraints/build.h"
 #include "pliant/core/error.h"
@@ -20,8 +21,8 @@ std::vector<Real> weights_of(const Drag& options, Index i) {
   const std::span<const Real> given = options.weights[i];
   const Real sum = std::accumulate(given.begin(), given.end(), Real(0));
   if (given.size() != size || !(std::abs(sum - 1) <= 1e-6)) {
-    fail_input(where + " has " + std::to_string(given.size()) + " weights with the sum " + std::to_string(sum) +
-               "; give one for each vertex, with the sum 1");
+    fail_input(fmt::format("{} has {} weights with the sum {}; give one for each vertex, with the sum 1", where,
+                           given.size(), sum));
   }
   return {given.begin(), given.end()};
 }
@@ -38,22 +39,23 @@ ConstraintSet build(const BodyView& body, const Drag& options) {
   check_length(type, "stiffness", options.stiffness.list().size(), options.stiffness.each(), count);
 
   const StiffnessSplit stiffness(options.stiffness);
-  std::map<std::size_t, std::unique_ptr<Batch<DragProjection>>> batches;
+  ConstraintSet set;
+  set.count = count;
+  Batch<DragProjection>* batch = nullptr;
   for (Index i = 0; i < count; ++i) {
     const std::span<const Index> stencil = options.stencils[i];
     const std::vector<Real> weights = weights_of(options, i);
     Vec3 target = Vec3::Zero();
     for (std::size_t j = 0; j < stencil.size(); ++j) target += weights[j] * row(body.start, stencil[j]);
     if (!options.targets.empty()) target = options.targets[i];
-    auto& batch = batches[stencil.size()];
-    if (!batch) {
-      batch = std::make_unique<Batch<DragProjection>>(stiffness.common(), static_cast<int>(stencil.size()));
+    const auto size = static_cast<int>(stencil.size());
+    if (batch == nullptr || batch->shape().vertices != size) {  // a part for each run of one size keeps the order
+      auto part = std::make_unique<Batch<DragProjection>>(stiffness.common(), size);
+      batch = part.get();
+      set.parts.push_back(std::move(part));
     }
     batch->add(global_stencil(body, stencil), weights, stiffness.of(i), {target.data(), 3});
   }
-  ConstraintSet set;
-  set.count = count;
-  for (auto& [size, batch] : batches) set.parts.push_back(std::move(batch));
   return set;
 }
 

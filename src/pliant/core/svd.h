@@ -38,7 +38,7 @@ void jacobi_rotation(ThreeRows<columns>& B, Eigen::Matrix<Real, columns, columns
   const Real alpha = B.col(i).squaredNorm();
   const Real beta = B.col(j).squaredNorm();
   const Real gamma = B.col(i).dot(B.col(j));
-  if (!(std::abs(gamma) > std::numeric_limits<Real>::epsilon() / 4 * std::sqrt(alpha * beta))) return;
+  if (!(std::abs(gamma) > std::numeric_limits<Real>::epsilon() / 4 * std::sqrt(alpha) * std::sqrt(beta))) return;
   const Real zeta = (beta - alpha) / (2 * gamma);
   const Real t = std::copysign(1 / (std::abs(zeta) + std::sqrt(1 + zeta * zeta)), zeta);
   const Real c = 1 / std::sqrt(1 + t * t);

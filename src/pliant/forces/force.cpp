@@ -2,6 +2,10 @@
 
 namespace pliant {
 
+std::optional<Index> Force::vertex_out_of_range(Index) const {
+  return std::nullopt;
+}
+
 Real Force::potential(const StateView&) const {
   return 0;
 }

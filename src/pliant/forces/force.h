@@ -18,6 +18,9 @@ class Force {
   /// Adds this force [N] on every vertex to `forces` (m × 3).
   virtual void add_to(Positions& forces, const StateView& state, Real time_step) = 0;
 
+  /// A vertex it acts on that is none of `vertex_count`, if there is one: such a force is refused.
+  virtual std::optional<Index> vertex_out_of_range(Index vertex_count) const;
+
   /// Potential energy [J] of a conservative force; 0 for every other.
   virtual Real potential(const StateView& state) const;
 

@@ -1,6 +1,12 @@
 #include "pliant/forces/gravity.h"
 
+#include "pliant/core/error.h"
+
 namespace pliant {
+
+Gravity::Gravity(const Vec3& acceleration) : acceleration_(acceleration) {
+  if (!acceleration_.allFinite()) fail_input("gravity: the acceleration is not finite; give three finite numbers");
+}
 
 void Gravity::add_to(Positions& forces, const StateView& state, Real) {
   for (Index i = 0; i < forces.rows(); ++i) {

@@ -6,8 +6,8 @@ namespace pliant {
 /// f = m g on every vertex (thesis Eq. 5.2).
 class Gravity final : public Force {
  public:
-  /// acceleration [m/s²]
-  explicit Gravity(const Vec3& acceleration = {0, 0, -9.81}) : acceleration_(acceleration) {}
+  /// acceleration [m/s²]. Throws Error(input) when it is not finite.
+  explicit Gravity(const Vec3& acceleration = {0, 0, -9.81});
 
   std::string_view type() const override { return "gravity"; }
   void add_to(Positions& forces, const StateView& state, Real time_step) override;

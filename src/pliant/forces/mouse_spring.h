@@ -28,9 +28,11 @@ class MouseSpring final : public Force {
 
   std::string_view type() const override { return "mouse_spring"; }
   void add_to(Positions& forces, const StateView& state, Real time_step) override;
+  std::optional<Index> vertex_out_of_range(Index vertex_count) const override;
   std::optional<std::string> warning(const StateView& state, Real time_step) const override;
 
-  void set_anchor(const Vec3& anchor) { options_.anchor = anchor; }
+  /// Throws Error(input) when it is not finite.
+  void set_anchor(const Vec3& anchor);
 
  private:
   Index vertex_;

@@ -22,4 +22,11 @@ void TestForce::add_to(Positions& forces, const StateView& state, Real) {
   }
 }
 
+std::optional<Index> TestForce::vertex_out_of_range(Index vertex_count) const {
+  for (const Index vertex : vertices_) {
+    if (vertex < 0 || vertex >= vertex_count) return vertex;
+  }
+  return std::nullopt;
+}
+
 }  // namespace pliant

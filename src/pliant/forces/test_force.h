@@ -17,6 +17,7 @@ class TestForce final : public Force {
 
   std::string_view type() const override { return "test_force"; }
   void add_to(Positions& forces, const StateView& state, Real time_step) override;
+  std::optional<Index> vertex_out_of_range(Index vertex_count) const override;
 
   bool is_active(std::int64_t step) const { return begin_ <= step && step < end_; }
   const std::vector<Index>& vertices() const { return vertices_; }

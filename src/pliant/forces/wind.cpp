@@ -59,4 +59,13 @@ void Wind::add_to(Positions& forces, const StateView& state, Real time_step) {
   }
 }
 
+std::optional<Index> Wind::vertex_out_of_range(Index vertex_count) const {
+  for (const Triangle& triangle : triangles_) {
+    for (const Index vertex : triangle) {
+      if (vertex < 0 || vertex >= vertex_count) return vertex;
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace pliant

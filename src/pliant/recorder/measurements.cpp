@@ -34,7 +34,7 @@ constexpr std::array after_elastic = {
 };
 
 /// A field of a CSV file (RFC 4180, Sec. 2).
-std::string quoted(std::string_view text) {
+std::string csv_field(std::string_view text) {
   if (text.find_first_of(",\"\r\n") == text.npos) return std::string(text);
   std::string result = "\"";
   for (const char c : text) {
@@ -76,7 +76,7 @@ Measurements measure(Simulation& simulation, const StepReport& report) {
 MeasurementsWriter::MeasurementsWriter(const std::filesystem::path& path, const Simulation& simulation) : file_(path) {
   std::string line = "step";
   for (const Column& column : before_elastic) line += fmt::format(",{}", column.name);
-  for (const auto& [id, group] : simulation.groups()) line += ',' + quoted("elastic " + group.name);
+  for (const auto& [id, group] : simulation.groups()) line += ',' + csv_field("elastic_" + group.name);
   for (const Column& column : after_elastic) line += fmt::format(",{}", column.name);
   file_.write(line + '\n');
   file_.flush();

@@ -10,12 +10,12 @@ namespace pliant {
 /// The state after a step. Energies [J] are those of its positions and velocities; none of them is damped or shifted.
 struct Measurements {
   std::int64_t step = 0;
-  Real time = 0;              ///< [s]
-  Real kinetic = 0;           ///< Σ m ‖v‖²/2
-  std::vector<Real> elastic;  ///< of each group, in the order of Simulation::groups()
-  Real gravitational = 0;     ///< the potentials of all forces that have one
-  Real total = 0;             ///< the sum of the energies
-  Real speed_sum = 0;         ///< Σ ‖v‖ [m/s]
+  Real time = 0;                         ///< [s]
+  Real kinetic = 0;                      ///< Σ m ‖v‖²/2
+  std::vector<Real> elastic;             ///< of each group, in the order of Simulation::groups()
+  Real gravitational = 0;                ///< the potentials of all forces that have one
+  Real total = 0;                        ///< the sum of the energies
+  Real speed_sum = 0;                    ///< Σ ‖v‖ [m/s]
   Vec3 momentum = Vec3::Zero();          ///< Σ m v [N·s]
   Vec3 angular_momentum = Vec3::Zero();  ///< Σ m x × v about the origin [N·m·s]
   Real residual = 0;                     ///< largest force left on a vertex by the step's last iterate [N]

@@ -13,8 +13,7 @@ namespace {
 /// The faces that a mesh shows: its polygons, else its triangles, else the surface of its tetrahedra.
 PolygonFaces visible_faces(const Mesh& mesh) {
   if (mesh.faces.face_count() > 0) return mesh.faces;
-  const std::vector<Triangle> triangles =
-      mesh.triangles.empty() ? boundary_triangles(mesh.tetrahedra) : mesh.triangles;
+  const std::vector<Triangle> triangles = mesh.triangles.empty() ? boundary_triangles(mesh.tetrahedra) : mesh.triangles;
   PolygonFaces faces;
   faces.offsets.push_back(0);
   for (const Triangle& triangle : triangles) {

@@ -55,9 +55,10 @@ class TreeBuilder {
     const auto line = 1 + std::ranges::count(before, '\n');
     const std::size_t line_start = before.rfind('\n') + 1;  // npos + 1 is 0
     std::string_view what = error.what();
-    if (const std::size_t end_of_place = what.find(": "); end_of_place != what.npos) what.remove_prefix(end_of_place + 2);
-    fail_input(fmt::format("{}:{}:{}: {}; mend the JSON", file_, line, before.size() - line_start + 1,
-                           printable(what)));
+    if (const std::size_t end_of_place = what.find(": "); end_of_place != what.npos)
+      what.remove_prefix(end_of_place + 2);
+    fail_input(
+        fmt::format("{}:{}:{}: {}; mend the JSON", file_, line, before.size() - line_start + 1, printable(what)));
   }
 
  private:
@@ -135,7 +136,8 @@ std::string printable(std::string_view text) {
     while (length > 0 && (static_cast<unsigned char>(text[length]) & 0xC0U) == 0x80U) --length;  // inside a character
   }
   std::string result(text.substr(0, length));
-  std::ranges::replace_if(result, [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; }, ' ');
+  std::ranges::replace_if(
+      result, [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; }, ' ');
   if (length < text.size()) result += "...";
   return result;
 }

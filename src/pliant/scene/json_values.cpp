@@ -34,8 +34,7 @@ Index to_index(const Json& value, auto&& place) {
 Index to_vertex(const Json& value, Index vertex_count, auto&& place) {
   const Index vertex = to_index(value, place);
   if (vertex < 0 || vertex >= vertex_count) {
-    place().fail(
-        fmt::format("vertex {} is out of range; the body has vertices 0 to {}", vertex, vertex_count - 1));
+    place().fail(fmt::format("vertex {} is out of range; the body has vertices 0 to {}", vertex, vertex_count - 1));
   }
   return vertex;
 }

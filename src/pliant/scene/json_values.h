@@ -54,7 +54,7 @@ std::vector<std::array<Index, n>> read_elements(const Node& node, Index vertex_c
 
 /// One of the names of an enumeration.
 template <class Choice>
-  requires std::is_enum_v<Choice>
+requires std::is_enum_v<Choice>
 void read(const Node& node, Choice& choice) {
   constexpr auto names = choice_names(Choice{});
   std::string name;

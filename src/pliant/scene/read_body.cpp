@@ -81,7 +81,8 @@ void SceneReader::read_constraint(const Node& node, BodyId id) {
     const GroupId group = node.locate([&] { return simulation.add(id, options, name); });
     const ConstraintSet& set = simulation.groups().at(group).set;
     if (set.count == 0 && set.skipped == 0) {
-      node.fail("makes no constraint, since the mesh has none of its stencils in the selection; select more, or remove it");
+      node.fail(
+          "makes no constraint, since the mesh has none of its stencils in the selection; select more, or remove it");
     }
     groups.emplace(name, group);
   });

@@ -80,8 +80,8 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& folder, st
   const Node root(name, json);
   root.require_object();
   check_version(root);
-  root.check_keys({"pliant", "name", "description", "settings", "steps", "gravity", "bodies", "forces", "moves",
-                   "output"});
+  root.check_keys(
+      {"pliant", "name", "description", "settings", "steps", "gravity", "bodies", "forces", "moves", "output"});
   Scene scene;
   scene.name = std::filesystem::path(name).stem().string();
   read_run(root, overrides, scene);

@@ -19,9 +19,7 @@ struct SceneReader {
   std::map<std::string, BodyId, std::less<>> bodies = {};
   std::map<std::string, GroupId, std::less<>> groups = {};
 
-  SceneBody body(BodyId id) const {
-    return {simulation.body(id).mesh, untransformed[static_cast<std::size_t>(id)]};
-  }
+  SceneBody body(BodyId id) const { return {simulation.body(id).mesh, untransformed[static_cast<std::size_t>(id)]}; }
 
   void read_body(const Node& node);
   void read_force(const Node& node);

@@ -55,8 +55,7 @@ std::vector<Index> in_half_space(const Node& node, const SceneBody& body) {
   const Real length = normal.stableNorm();
   if (!(length > 0)) node.require("normal").fail("a normal of length 0 has no direction; give another");
   const Real slack = tolerance * bounding_box(body.mesh.vertices).diagonal();
-  return vertices_where(body.mesh.vertices,
-                        [&](const Vec3& p) { return (p - point).dot(normal / length) >= -slack; });
+  return vertices_where(body.mesh.vertices, [&](const Vec3& p) { return (p - point).dot(normal / length) >= -slack; });
 }
 
 std::vector<Index> nearest(const Node& node, const SceneBody& body) {

@@ -7,7 +7,7 @@ namespace pliant {
 
 /// A body as selections and options see it.
 struct SceneBody {
-  const Mesh& mesh;                 ///< at rest, after the transform
+  const Mesh& mesh;                ///< at rest, after the transform
   const Positions& untransformed;  ///< the same vertices before it, m × 3 [m]
 };
 

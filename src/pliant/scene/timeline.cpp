@@ -18,7 +18,8 @@ void Timeline::add(Simulation& simulation, Move move) {
   }
   const auto moved = static_cast<std::size_t>(move.index ? 1 : count);
   if (move.to.empty() || (move.to.each() && move.to.list().size() != moved)) {
-    fail_input(fmt::format("{} points for {} constraints; give one for all, or one each", move.to.list().size(), moved));
+    fail_input(
+        fmt::format("{} points for {} constraints; give one for all, or one each", move.to.list().size(), moved));
   }
   for (const Vec3& point : move.to.list()) {
     if (!point.allFinite()) fail_input("a point is not finite; give three finite numbers");

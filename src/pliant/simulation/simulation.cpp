@@ -141,6 +141,11 @@ void Simulation::set_target(GroupId id, Index i, const Vec3& target) {
 }
 
 ForceId Simulation::add_force(std::unique_ptr<Force> force) {
+  if (!force) fail_input("force: there is none; give one");
+  if (const std::optional<Index> vertex = force->vertex_out_of_range(state_.vertex_count())) {
+    fail_input(std::string(force->type()) + ": vertex " + std::to_string(*vertex) +
+               " is out of range; the simulation has " + std::to_string(state_.vertex_count()) + " vertices");
+  }
   const ForceId id{next_force_++};
   forces_.emplace(id, std::move(force));
   lists_changed_ = true;
@@ -228,8 +233,9 @@ std::span<const Real> Simulation::objective_history() const {
 }
 
 void Simulation::set_state(const Positions& positions, const Positions& velocities) {
-  state_.positions = checked(positions, state_.positions, "positions", "all");
+  Positions checked_positions = checked(positions, state_.positions, "positions", "all");
   state_.velocities = checked(velocities, state_.velocities, "velocities", "all");
+  state_.positions = std::move(checked_positions);
 }
 
 std::string_view Simulation::backend() const {

@@ -79,6 +79,7 @@ class Simulation {
   /// Moves point i from the next step on; costs nothing.
   void set_target(GroupId id, Index i, const Vec3& target);
 
+  /// Refuses a force on a vertex that there is not: add the bodies first.
   ForceId add_force(std::unique_ptr<Force> force);
   /// Wind on all triangles of one body, or of every body there is.
   ForceId add_wind(const WindOptions& options);

@@ -13,6 +13,11 @@ namespace {
 constexpr Index constraints_per_chunk = 1024;
 constexpr Index vertices_per_chunk = 1024;
 
+/// The larger one; NaN when one is NaN, so that no tolerance is ever reached with it.
+Real larger(Real a, Real b) {
+  return a > b || std::isnan(a) ? a : b;
+}
+
 }  // namespace
 
 void LocalStep::set_groups(Index vertex_count, std::span<ConstraintGroup* const> groups) {
@@ -86,7 +91,7 @@ LocalResult LocalStep::run(const Positions& q, const Positions& s, std::span<con
   for (const Real energy : chunk_energies_) result.elastic += energy;
   for (const VertexSums& sums : vertex_sums_) {
     result.inertia += sums.inertia;
-    result.residual = std::max(result.residual, sums.squared_residual);
+    result.residual = larger(result.residual, sums.squared_residual);
   }
   result.residual = std::sqrt(result.residual);
   return result;
@@ -102,18 +107,23 @@ LocalStep::VertexSums LocalStep::gather(Index begin, Index end, const Positions&
       std::fill_n(out, 3, Real(0));
       continue;
     }
-    std::array<Real, 3> sum;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const Real d = s.data()[3 * i + axis] - q.data()[3 * i + axis];
-      sum[axis] = inertia_weights[i] * d;
-      sums.inertia += inertia_weights[i] / 2 * d * d;
-    }
+    Real x = 0, y = 0, z = 0;
     for (std::size_t entry = gather_offsets_[i]; entry < gather_offsets_[i + 1]; ++entry) {
       const Real* slot = slots_.data() + 3 * static_cast<std::size_t>(gather_slots_[entry]);
-      for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += gather_coefficients_[entry] * slot[axis];
+      const Real coefficient = gather_coefficients_[entry];
+      x += coefficient * slot[0];
+      y += coefficient * slot[1];
+      z += coefficient * slot[2];
     }
-    std::copy_n(sum.begin(), 3, out);
-    sums.squared_residual = std::max(sums.squared_residual, sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]);
+    const Real* from = q.data() + 3 * i;
+    const Real* to = s.data() + 3 * i;
+    const Real weight = inertia_weights[i];
+    const Real dx = to[0] - from[0], dy = to[1] - from[1], dz = to[2] - from[2];
+    sums.inertia += weight / 2 * (dx * dx + dy * dy + dz * dz);
+    out[0] = x + weight * dx;
+    out[1] = y + weight * dy;
+    out[2] = z + weight * dz;
+    sums.squared_residual = std::max(sums.squared_residual, out[0] * out[0] + out[1] * out[1] + out[2] * out[2]);
   }
   return sums;
 }

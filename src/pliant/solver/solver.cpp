@@ -5,6 +5,8 @@
 #include <string>
 #include <thread>
 
+#include <fmt/format.h>
+
 #include "pliant/core/error.h"
 
 namespace pliant {
@@ -12,6 +14,12 @@ namespace {
 
 /// Positions past this count as diverged [m]: energies of such bodies overflow.
 constexpr Real farthest = 1e100;
+
+/// Whether a coordinate is past that, or not a number.
+template <class Coordinates>
+bool is_far(const Coordinates& x) {
+  return !(x.cwiseAbs().template maxCoeff<Eigen::PropagateNaN>() <= farthest);
+}
 
 /// Slots for which another thread is worth waking, when the number of threads is left to us.
 constexpr std::size_t slots_per_thread = 8192;
@@ -33,13 +41,12 @@ void Solver::set_settings(const SolverSettings& settings) {
   if (settings.precision != Precision::double_) {
     fail_input("settings: precision: `mixed` is not in this version; use `double`");
   }
-  const bool new_backend = !factorization_ || settings.backend != settings_.backend;
-  settings_ = settings;
-  if (new_backend) {
-    factorization_ = make_factorization(settings_.backend);
+  if (!factorization_ || settings.backend != settings_.backend) {
+    factorization_ = make_factorization(settings.backend);
     pattern_analyzed_ = false;
     factor_time_step_ = 0;
   }
+  settings_ = settings;
   groups_laid_out_ = groups_laid_out_ && (settings_.threads == 0 || settings_.threads == thread_count());
   history_.reserve(std::min(history_limit, static_cast<std::size_t>(settings_.iterations)));
 }
@@ -112,21 +119,23 @@ void Solver::factorize(const State& state) {
 
 void Solver::check_finite(const State& state) const {
   // One pass for the common case; which vertex it was is asked only when there is one.
-  if (q_.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <= farthest) return;
-  for (Index i = 0; i < vertex_count_; ++i) {
-    if (!(q_.row(i).cwiseAbs().maxCoeff<Eigen::PropagateNaN>() <= farthest)) report_divergence(state, i);
+  if (!is_far(q_)) return;
+  // Where the prediction is far already, the cause is that vertex; one solve then takes its whole body along.
+  for (const Positions* x : {&s_, &q_}) {
+    for (Index i = 0; i < vertex_count_; ++i) {
+      const bool is_prediction_of_held = x == &s_ && is_held_[static_cast<std::size_t>(i)];
+      if (!is_prediction_of_held && is_far(x->row(i))) report_divergence(state, i);
+    }
   }
 }
 
 void Solver::report_divergence(const State& state, Index vertex) const {
-  throw Error(ErrorKind::diverged, "step " + std::to_string(state.step + 1) +
-                                       " (t = " + std::to_string(state.time + settings_.time_step) + " s): vertex " +
-                                       std::to_string(vertex) +
-                                       " would leave for a place that is not finite: " + reason(state, vertex));
+  throw Error(ErrorKind::diverged,
+              fmt::format("step {} (t = {} s): vertex {} would leave for a place that is not finite: {}",
+                          state.step + 1, state.time + settings_.time_step, vertex, reason(state, vertex)));
 }
 
 std::string Solver::reason(const State& state, Index vertex) const {
-  const auto is_far = [](const auto& x) { return !(x.cwiseAbs().maxCoeff() <= farthest) || !x.allFinite(); };
   Positions alone(vertex_count_, 3);
   for (Force* force : forces_) {
     alone.setZero();

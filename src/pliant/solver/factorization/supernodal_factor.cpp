@@ -1,6 +1,5 @@
 #include "pliant/solver/factorization/supernodal_factor.h"
 
-#include <algorithm>
 #include <cstdint>
 
 namespace pliant {
@@ -21,7 +20,7 @@ void SupernodalFactor::finish() {
 void SupernodalFactor::solve(const Positions& b, Positions& x) {
   for (std::size_t i = 0; i < permutation_.size(); ++i) {
     const Real* from = b.data() + 3 * static_cast<std::ptrdiff_t>(permutation_[i]);
-    std::copy_n(from, 3, x_ + 4 * i);
+    for (std::size_t axis = 0; axis < 3; ++axis) x_[4 * i + axis] = from[axis];
   }
   const SweepData data{supernodes_.data(), supernodes_.size(), rows_.data(), values_.data(), x_};
   sweeps().forward(data);
@@ -29,7 +28,7 @@ void SupernodalFactor::solve(const Positions& b, Positions& x) {
   for (std::size_t i = 0; i < permutation_.size(); ++i) {
     const Real* from = x_ + 4 * i;
     Real* to = x.data() + 3 * static_cast<std::ptrdiff_t>(permutation_[i]);
-    std::copy_n(from, 3, to);
+    for (std::size_t axis = 0; axis < 3; ++axis) to[axis] = from[axis];
   }
 }
 

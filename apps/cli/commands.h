@@ -1,0 +1,13 @@
+#pragma once
+// The sub-commands of `pliant`, one file each. A sub-command adds itself to the program and, when it is chosen, leaves
+// its exit code in `exit_code`; errors are thrown to main.
+#include <CLI/CLI.hpp>
+
+namespace pliant_cli {
+
+inline constexpr int exit_interrupted = 130;
+
+void add_run_command(CLI::App& program, int& exit_code);
+void add_scenes_command(CLI::App& program);
+
+}  // namespace pliant_cli

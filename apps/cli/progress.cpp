@@ -1,0 +1,46 @@
+#include "progress.h"
+
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "terminal.h"
+
+namespace pliant_cli {
+namespace {
+
+std::string duration_text(double seconds) {
+  if (seconds < 90) return fmt::format("{:.0f} s", std::ceil(seconds));
+  if (seconds < 5400) return fmt::format("{:.0f} min", std::ceil(seconds / 60));
+  return fmt::format("{:.1f} h", seconds / 3600);
+}
+
+}  // namespace
+
+Progress::Progress(std::int64_t steps, Show show)
+    : steps_(steps), active_(show == Show::on_terminal && has_error_terminal()) {}
+
+void Progress::update(std::int64_t done, double residual) {
+  using namespace std::chrono_literals;
+  const Clock::time_point now = Clock::now();
+  if (!active_ || done < 1 || now - last_ < 100ms) return;
+  last_ = now;
+  const double per_step = std::chrono::duration<double>(now - start_).count() / static_cast<double>(done);
+  fmt::print(stderr,
+             "\r\x1b[K"
+             "step {} of {}   {:.3g} ms a step   residual {:.2e} N   {} left",
+             done, steps_, 1e3 * per_step, residual, duration_text(per_step * static_cast<double>(steps_ - done)));
+  std::fflush(stderr);
+  shown_ = true;
+}
+
+void Progress::clear() {
+  if (!shown_) return;
+  fmt::print(stderr, "\r\x1b[K");
+  std::fflush(stderr);
+  shown_ = false;
+}
+
+}  // namespace pliant_cli

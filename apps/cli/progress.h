@@ -1,0 +1,32 @@
+#pragma once
+#include <chrono>
+#include <cstdint>
+
+namespace pliant_cli {
+
+/// One line on a terminal, written anew a few times a second.
+class Progress {
+ public:
+  enum class Show { never, on_terminal };
+
+  Progress(std::int64_t steps, Show show);
+  ~Progress() { clear(); }
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// After `done` steps; residual [N] of the last record.
+  void update(std::int64_t done, double residual);
+  /// Takes the line away, so that something else can be printed.
+  void clear();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  std::int64_t steps_;
+  bool active_;
+  bool shown_ = false;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point last_ = start_;
+};
+
+}  // namespace pliant_cli

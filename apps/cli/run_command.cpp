@@ -1,0 +1,173 @@
+// pliant run: a scene to files.
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "commands.h"
+#include "pliant/recorder/recorder.h"
+#include "pliant/scene/builtin_scenes.h"
+#include "pliant/scene/nearest_names.h"
+#include "pliant/scene/scene.h"
+#include "progress.h"
+#include "terminal.h"
+
+namespace pliant_cli {
+namespace {
+
+namespace fs = std::filesystem;
+using pliant::Outcome;
+using pliant::Scene;
+
+struct RunOptions {
+  std::string scene;
+  fs::path out;
+  bool quiet = false;
+  pliant::SceneOverrides overrides;
+};
+
+/// An option whose value is one of the names of an enumeration.
+template <class Choice>
+void add_choice(CLI::App& command, const std::string& name, std::optional<Choice>& choice, const std::string& help) {
+  constexpr auto names = choice_names(Choice{});
+  const auto take = [&choice, names](const std::string& value) {
+    choice = static_cast<Choice>(std::ranges::find(names, std::string_view(value)) - names.begin());
+  };
+  command.add_option_function<std::string>(name, take, help)
+      ->check(CLI::IsMember(std::vector<std::string>(names.begin(), names.end())));
+}
+
+/// A file where there is one of that name, else a built-in scene.
+Scene open_scene(const RunOptions& options) {
+  std::error_code ignored;
+  if (fs::exists(options.scene, ignored)) return pliant::load_scene(options.scene, options.overrides);
+  std::vector<std::string_view> names;
+  for (const pliant::BuiltinScene& scene : pliant::builtin_scenes()) {
+    if (scene.name == options.scene) return pliant::parse_scene(scene.text, {}, scene.name, options.overrides);
+    names.push_back(scene.name);
+  }
+  pliant::fail_input(
+      fmt::format("{}: neither a file nor a built-in scene; `pliant scenes` lists those, the nearest first: {}",
+                  options.scene, pliant::nearest_names_text(options.scene, names)));
+}
+
+std::unique_ptr<pliant::FrameWriter> make_frame_writer(const Scene& scene, const fs::path& folder) {
+  switch (scene.output.format) {
+    case pliant::FrameFormat::npy:
+      return pliant::make_npy_writer(folder, scene.simulation.state().vertex_count());
+    case pliant::FrameFormat::obj:
+      return pliant::make_obj_writer(folder, scene.simulation.bodies());
+    case pliant::FrameFormat::none:
+      break;
+  }
+  return nullptr;
+}
+
+/// Prints each warning once, when it has come.
+class Warnings {
+ public:
+  void print(const pliant::Simulation& simulation, Progress& progress) {
+    for (; printed_ < simulation.warnings().size(); ++printed_) {
+      progress.clear();
+      fmt::print(stderr, "warning: {}\n", simulation.warnings()[printed_]);
+    }
+  }
+
+ private:
+  std::size_t printed_ = 0;
+};
+
+void simulate(Scene& scene, pliant::Recorder& recorder, const RunOptions& options) {
+  Progress progress(scene.steps, options.quiet ? Progress::Show::never : Progress::Show::on_terminal);
+  Warnings warnings;
+  warnings.print(scene.simulation, progress);
+  recorder.record(scene.simulation, {});
+  for (std::int64_t step = 0; step < scene.steps && !was_interrupted(); ++step) {
+    const pliant::StepReport report = scene.step();
+    recorder.record(scene.simulation, report);
+    warnings.print(scene.simulation, progress);
+    progress.update(step + 1, recorder.residual());
+  }
+}
+
+std::string size_text(std::uintmax_t bytes) {
+  if (bytes < 1000) return fmt::format("{} B", bytes);
+  if (bytes < 1000 * 1000) return fmt::format("{:.1f} kB", static_cast<double>(bytes) * 1e-3);
+  return fmt::format("{:.1f} MB", static_cast<double>(bytes) * 1e-6);
+}
+
+void print_summary(const Scene& scene, const pliant::RunInfo& info, std::int64_t frames, const fs::path& folder) {
+  const std::int64_t steps = scene.simulation.state().step;
+  fmt::print("{}: {} of {} steps, {:.3g} s simulated in {:.3g} s", scene.name, steps, scene.steps,
+             scene.simulation.state().time, info.wall_seconds);
+  if (steps > 0) fmt::print(", {:.3g} ms a step", 1e3 * info.wall_seconds / static_cast<double>(steps));
+  fmt::print(" ({}, {} threads)\n", scene.simulation.backend(), scene.simulation.thread_count());
+  std::error_code ignored;
+  if (scene.output.format == pliant::FrameFormat::obj) {
+    fmt::print("  {}  {} files\n", (folder / "frame_*.obj").string(), frames);
+  }
+  for (const std::string_view name : {"frames.npy", "measurements.csv", "run.json"}) {
+    const fs::path file = folder / name;
+    if (!fs::exists(file, ignored)) continue;
+    fmt::print("  {}  {}\n", file.string(), size_text(fs::file_size(file, ignored)));
+  }
+}
+
+/// Simulates and records; what was recorded is whole however it ends, and run.json says how that was.
+int run_scene(const RunOptions& options) {
+  Scene scene = open_scene(options);
+  const fs::path folder = options.out.empty() ? fs::path("out") / fs::path(options.scene).stem() : options.out;
+  pliant::prepare_run_folder(folder);
+  pliant::Recorder recorder(folder, make_frame_writer(scene, folder), scene.output.every, scene.simulation);
+  catch_interrupts();
+
+  pliant::RunInfo info;
+  info.scene = scene.name;
+  info.source = options.scene;
+  info.wanted_steps = scene.steps;
+  const auto begin = std::chrono::steady_clock::now();
+  const auto finish = [&](Outcome outcome) {
+    info.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    info.outcome = outcome;
+    recorder.finish(info, scene.simulation);
+  };
+  try {
+    simulate(scene, recorder, options);
+  } catch (const pliant::Error& error) {
+    info.error = error.what();
+    if (error.kind() == pliant::ErrorKind::output) throw;  // run.json would meet the same full disk
+    finish(error.kind() == pliant::ErrorKind::diverged ? Outcome::diverged : Outcome::failed);
+    throw;
+  }
+  const bool interrupted = was_interrupted() && scene.simulation.state().step < scene.steps;
+  finish(interrupted ? Outcome::interrupted : Outcome::ok);
+  if (!options.quiet) print_summary(scene, info, recorder.frame_count(), folder);
+  return interrupted ? exit_interrupted : 0;
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& program, int& exit_code) {
+  CLI::App* command = program.add_subcommand("run", "Simulate a scene; write frames, measurements.csv and run.json");
+  const auto options = std::make_shared<RunOptions>();
+  pliant::SceneOverrides& overrides = options->overrides;
+  command->add_option("scene", options->scene, "A scene file, or the name of a built-in scene")->required();
+  command->add_option("--out", options->out,
+                      "Folder for the files, default out/SCENE; what an earlier run left there is replaced");
+  command->add_option("--steps", overrides.steps, "Steps to take");
+  command->add_option("--iterations", overrides.iterations, "Local and global steps in each step");
+  command->add_option("--time-step", overrides.time_step, "Length of a step [s]");
+  command->add_option("--tolerance", overrides.tolerance, "Iterate no further below this residual [N]; 0: never stop");
+  command->add_option("--threads", overrides.threads, "0: one a processor; results do not depend on it");
+  add_choice(*command, "--backend", overrides.backend, "Library that factorizes: automatic, eigen or cholmod");
+  add_choice(*command, "--format", overrides.format, "Of the frames: npy, obj or none");
+  command->add_option("--every", overrides.every, "Record the start and every n-th step");
+  command->add_flag("--quiet", options->quiet, "Print warnings and errors only");
+  command->footer("Example:\n  pliant run curtain_wind --out out/curtain --steps 120 --format obj");
+  command->callback([options, &exit_code] { exit_code = run_scene(*options); });
+}
+
+}  // namespace pliant_cli

@@ -1,0 +1,21 @@
+// A curtain of a square metre, pinned at two corners, falls for a second.
+#include <cstdio>
+
+#include <pliant/pliant.h>
+
+int main() {
+  //! [first steps]
+  pliant::Simulation simulation;
+  const auto cloth = simulation.add_body(pliant::grid({.columns = 32, .rows = 32}), pliant::Mass::area_density(0.2));
+  simulation.add(cloth, pliant::EdgeSpring{.stiffness = 1e3});
+  simulation.add(cloth, pliant::Bending{.stiffness = 1e-4});
+  simulation.add(cloth, pliant::Position{.on = {992, 1023}});
+  simulation.add_force(std::make_unique<pliant::Gravity>());
+  simulation.add_wind({.velocity = {0, 3, 0}, .gust_strength = 0.5});
+
+  for (int i = 0; i < 60; ++i) simulation.step();
+  pliant::write_obj("curtain.obj", simulation.body(cloth).mesh, simulation.state().positions);
+  //! [first steps]
+  std::printf("curtain.obj: the curtain after %.1f s\n", simulation.state().time);
+  return 0;
+}
