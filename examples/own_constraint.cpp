@@ -39,8 +39,8 @@ int main() {
   const auto cloth = simulation.add_body(pliant::grid({.columns = 30, .rows = 30, .plane = pliant::Plane::xy}),
                                          pliant::Mass::area_density(0.2));
   simulation.add(cloth, pliant::EdgeSpring{.stiffness = 1e3});
-  simulation.add(cloth, pliant::Position{.on = {0, 29}});
-  const std::array<double, 4> sphere = {0.5, 0.5, -0.4, 0.3};
+  simulation.add(cloth, pliant::Position{.on = {0, 29, 870, 899}});
+  const std::array<double, 4> sphere = {0.5, 0.5, -0.3, 0.3};
   simulation.add_set(cloth, outside_sphere(simulation.state().vertex_count(), sphere), "outside_sphere");
   simulation.add_force(std::make_unique<pliant::Gravity>());
   for (int i = 0; i < 90; ++i) simulation.step();
