@@ -6,7 +6,7 @@ set(PLIANT_SCENES_INSTALL_DIR "${CMAKE_INSTALL_DATADIR}/pliant/scenes")
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/pliant")
 
 install(TARGETS pliant EXPORT pliantTargets INCLUDES DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
-if(TARGET pliant_cli)
+if(PLIANT_BUILD_CLI)
   install(TARGETS pliant_cli)
 endif()
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/src/pliant" "${PROJECT_BINARY_DIR}/generated/pliant"

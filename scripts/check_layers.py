@@ -58,6 +58,16 @@ def is_allowed(target, allowed):
     return any(target == entry or target.startswith(entry + "/") for entry in allowed)
 
 
+def climbs_out(file, name):
+    """Whether "name", taken from where `file` lies, leaves the top folder that `file` is in."""
+    depth = file.count("/") - 1
+    for part in name.split("/"):
+        depth += -1 if part == ".." else 1
+        if depth < 0:
+            return True
+    return False
+
+
 def library_offence(layer, target):
     """What is wrong with a file of `layer` (None: the umbrella header) including "pliant/`target`"."""
     target_layer = target.split("/")[0] if "/" in target else None
@@ -102,7 +112,7 @@ def file_offences(root, path):
         message = None
         if name.startswith("pliant/"):
             target = name[len("pliant/"):]
-            if not is_quoted:
+            if in_library and not is_quoted:
                 message = f'<{name}> is our own: write "{name}"'
             elif in_library:
                 message = library_offence(layer, target)
@@ -110,8 +120,8 @@ def file_offences(root, path):
                 message = f"{name} is private to the library"
         elif in_library and is_quoted:
             message = f'"{name}" should be written "pliant/<layer>/<file>.h"'
-        elif ".." in name.split("/"):
-            message = f'"{name}" climbs out of its folder'
+        elif climbs_out(file, name):
+            message = f'"{name}" leaves {parts[0]}/; the library is included as "pliant/<layer>/<file>.h"'
         elif layer in NO_FILES and name in FILE_HEADERS:
             message = f"{layer} must not read or write files: <{name}>"
         else:
@@ -179,7 +189,12 @@ SELF_TEST = [
     ("examples/a.cpp", '"pliant/pliant.h"', False),
     ("examples/a.cpp", "<fmt/format.h>", True),
     ("tests/mesh/a.cpp", "<doctest/doctest.h>", False),
+    ("examples/a.cpp", "<pliant/pliant.h>", False),
     ("tests/mesh/a.cpp", '"tests/support/b.h"', False),
+    ("tests/mesh/a.cpp", '"../support/b.h"', False),
+    ("tests/mesh/a.cpp", '"../../src/pliant/mesh/b.h"', True),
+    ("tests/mesh/a.cpp", '"pliant/mesh/detail/b.h"', True),
+    ("src/pliant/mesh/io/a.cpp", '"pliant/mesh/io/detail/b.h"', False),
 ]
 
 

@@ -1,7 +1,9 @@
+#include <csignal>
 #include <filesystem>
 #include <string>
 
 #include <doctest/doctest.h>
+#include <sys/resource.h>
 
 #include "pliant/core/atomic_file.h"
 #include "tests/mesh/meshes.h"
@@ -51,6 +53,45 @@ TEST_CASE("a link is followed") {
   write_file_atomically(folder.path() / "link", "new");
   CHECK(fs::is_symlink(folder.path() / "link"));
   CHECK(TemporaryFolder::read(target) == "new");
+}
+
+namespace {
+
+/// A limit on the size of files, which makes writing fail as a full disk does.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) : old_handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    REQUIRE(getrlimit(RLIMIT_FSIZE, &old_limit_) == 0);
+    const rlimit limit{bytes, old_limit_.rlim_max};
+    REQUIRE(setrlimit(RLIMIT_FSIZE, &limit) == 0);
+  }
+  ~FileSizeLimit() {
+    setrlimit(RLIMIT_FSIZE, &old_limit_);
+    std::signal(SIGXFSZ, old_handler_);
+  }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+ private:
+  void (*old_handler_)(int);
+  rlimit old_limit_{};
+};
+
+}  // namespace
+
+TEST_CASE("a write that fails, at once or only at the flush, leaves the old file and no temporary") {
+  const TemporaryFolder folder;
+  const fs::path path = folder.write("a", "old");
+  for (const std::size_t size : {std::size_t{1001}, std::size_t{1} << 20}) {
+    std::string message;
+    {
+      const FileSizeLimit limit(1000);
+      message = error_of([&] { write_file_atomically(path, std::string(size, 'x')); }, ErrorKind::output);
+    }
+    CHECK(contains(message, path.string() + ": cannot be written: File too large;"));
+    CHECK(TemporaryFolder::read(path) == "old");
+    CHECK(folder.file_count() == 1);
+  }
 }
 
 TEST_CASE("what cannot be written is an output error with the path and the reason") {

@@ -27,7 +27,7 @@ fs::path resolved(const fs::path& path) {
 
 }  // namespace
 
-AtomicFile::AtomicFile(fs::path path) : path_(resolved(path)) {
+AtomicFile::AtomicFile(const fs::path& path) : path_(resolved(path)) {
   std::error_code ignored;
   const fs::file_status status = fs::status(path_, ignored);
   if (fs::is_directory(status)) fail(EISDIR);

@@ -12,7 +12,7 @@ class AtomicFile {
  public:
   /// Opens the temporary, `path` with ".tmp-0" (or the first free number) behind it.
   /// @throws Error (output) with the path and the system's reason, as do all members.
-  explicit AtomicFile(std::filesystem::path path);
+  explicit AtomicFile(const std::filesystem::path& path);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;

@@ -241,7 +241,8 @@ Mesh cylinder(const CylinderOptions& options) {
   mesh.vertices.resize(options.caps == Caps::closed ? top + 1 : bottom, 3);
   for (Index v = 0; v < bottom; ++v) {
     const auto [cos, sin] = on_circle(v % n, n);
-    const Real part = Real{1} * (v / n) / (options.rows - 1);
+    const Index row_index = v / n;
+    const Real part = Real{1} * row_index / (options.rows - 1);
     mesh.vertices.row(v) << options.radius * cos, options.radius * sin, options.height * part;
   }
   for (Index first = 0; first + n < bottom; first += n) {

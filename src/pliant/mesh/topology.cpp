@@ -265,6 +265,7 @@ std::vector<Triangle> boundary_triangles(std::span<const Tetrahedron> tetrahedra
   }
   std::ranges::sort(lonely);
   std::vector<Triangle> surface;
+  surface.reserve(lonely.size());
   for (std::size_t face : lonely) surface.push_back(face_of(face));
   return surface;
 }

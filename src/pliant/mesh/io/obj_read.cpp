@@ -13,8 +13,8 @@
 #include <fmt/ranges.h>
 
 #include "pliant/core/error.h"
+#include "pliant/mesh/io/detail/obj_lexer.h"
 #include "pliant/mesh/io/obj.h"
-#include "pliant/mesh/io/obj_lexer.h"
 #include "pliant/mesh/io/read_file.h"
 
 namespace pliant {

@@ -1,4 +1,4 @@
-#include "pliant/mesh/io/obj_lexer.h"
+#include "pliant/mesh/io/detail/obj_lexer.h"
 
 #include <algorithm>
 #include <charconv>
