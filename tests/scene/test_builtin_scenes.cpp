@@ -40,6 +40,7 @@ TEST_CASE("nearest names") {
   using Names = std::vector<std::string_view>;
   CHECK(pliant::nearest_names("flg", {"bar", "chain", "flag"}) == Names{"flag", "bar", "chain"});
   CHECK(pliant::nearest_names("", {"abc", "a", "b"}) == Names{"a", "b", "abc"});
+  CHECK(pliant::nearest_names("edge", {"line", "edge_strain"}) == Names{"edge_strain", "line"});
   CHECK(pliant::nearest_names_text("x", {}).empty());
 }
 

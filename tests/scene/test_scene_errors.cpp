@@ -153,7 +153,7 @@ TEST_CASE("names must be known where they are used, and new where they are given
       {"\"shape\": \"grid\"", "\"shape\": \"gird\"", "s.json: bodies[0].mesh.shape: 'gird' is no shape",
        "first: grid,"},
       {"\"type\": \"edge_spring\"", "\"type\": \"edge\"", "s.json: bodies[0].constraints[1].type: 'edge' is no",
-       "first: hinge,"},
+       "first: edge_spring,"},
       {"\"type\": \"wind\"", "\"type\": \"gravity\"", "s.json: forces[0].type: 'gravity' is no force", "its own key"},
       {"\"type\": \"wind\"", "\"type\": \"wind\", \"body\": \"shet\"",
        "s.json: forces[0].body: there is no body 'shet'", "sheet"},

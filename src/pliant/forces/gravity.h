@@ -1,4 +1,5 @@
 #pragma once
+#include "pliant/core/options.h"
 #include "pliant/forces/force.h"
 
 namespace pliant {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -29,7 +30,10 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::vector<std::string_view> nearest_names(std::string_view word, std::vector<std::string_view> names) {
   word = word.substr(0, 64);  // no name is longer, and the cost grows with the length
-  std::ranges::stable_sort(names, {}, [&](std::string_view name) { return edit_distance(word, name); });
+  std::ranges::stable_sort(names, {}, [&](std::string_view name) {
+    const bool is_beginning = !word.empty() && name.starts_with(word);
+    return std::pair(!is_beginning, edit_distance(word, name));
+  });
   return names;
 }
 

@@ -6,7 +6,8 @@
 
 namespace pliant {
 
-/// The names, those that need the fewest edits to become `word` first (Levenshtein distance; then in the given order).
+/// The names that begin with `word`, then the others; each kind by the edits that turn one into the other (Levenshtein
+/// distance), then in the given order.
 std::vector<std::string_view> nearest_names(std::string_view word, std::vector<std::string_view> names);
 
 /// The same as text: "columns, rows, size".

@@ -2,8 +2,8 @@
 
 #include "pliant/forces/gravity.h"
 #include "pliant/mesh/io/read_file.h"
-#include "pliant/scene/option_reader.h"
-#include "pliant/scene/scene_reader.h"
+#include "pliant/scene/detail/option_reader.h"
+#include "pliant/scene/detail/scene_reader.h"
 
 namespace pliant {
 namespace {

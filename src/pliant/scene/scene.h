@@ -45,14 +45,14 @@ struct Scene {
 
 /// Values that take the place of the scene's own.
 struct SceneOverrides {
-  std::optional<std::int64_t> steps;
-  std::optional<Real> time_step;  ///< [s]; moves keep their times, or their steps where those are given
-  std::optional<Index> iterations;
-  std::optional<Real> tolerance;  ///< [N]
-  std::optional<Index> threads;
-  std::optional<Backend> backend;
-  std::optional<FrameFormat> format;
-  std::optional<std::int64_t> every;
+  std::optional<std::int64_t> steps = {};
+  std::optional<Real> time_step = {};  ///< [s]; moves keep their times, or their steps where those are given
+  std::optional<Index> iterations = {};
+  std::optional<Real> tolerance = {};  ///< [N]
+  std::optional<Index> threads = {};
+  std::optional<Backend> backend = {};
+  std::optional<FrameFormat> format = {};
+  std::optional<std::int64_t> every = {};
 };
 
 /// Reads a scene file; paths in it start at its folder.

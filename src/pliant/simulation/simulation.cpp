@@ -56,7 +56,7 @@ BodyId Simulation::add_body(Mesh mesh, const Mass& mass, BodyOptions options) {
   append(state_.velocities, velocities);
   state_.masses.insert(state_.masses.end(), masses.begin(), masses.end());
   bodies_.push_back({std::move(options.name), std::move(mesh), first_vertex});
-  lists_changed_ = true;
+  groups_changed_ = true;
   return BodyId(static_cast<Index>(bodies_.size()) - 1);
 }
 
@@ -94,13 +94,13 @@ GroupId Simulation::add_set(BodyId id, ConstraintSet set, std::string type, std:
   }
   const GroupId group{next_group_++};
   groups_.emplace(group, Group{std::move(name), std::move(type), id, std::move(set)});
-  lists_changed_ = true;
+  groups_changed_ = true;
   return group;
 }
 
 void Simulation::remove(GroupId id) {
   if (groups_.erase(id) == 0) fail_input("group " + std::to_string(static_cast<Index>(id)) + " does not exist");
-  lists_changed_ = true;
+  groups_changed_ = true;
 }
 
 const Group& Simulation::group(GroupId id) const {
@@ -148,7 +148,7 @@ ForceId Simulation::add_force(std::unique_ptr<Force> force) {
   }
   const ForceId id{next_force_++};
   forces_.emplace(id, std::move(force));
-  lists_changed_ = true;
+  forces_changed_ = true;
   return id;
 }
 
@@ -176,7 +176,7 @@ void Simulation::append_triangles(const Body& owner, std::vector<Triangle>& tria
 
 void Simulation::remove(ForceId id) {
   if (forces_.erase(id) == 0) fail_input("force " + std::to_string(static_cast<Index>(id)) + " does not exist");
-  lists_changed_ = true;
+  forces_changed_ = true;
 }
 
 void Simulation::set_settings(const SolverSettings& settings) {
@@ -194,17 +194,22 @@ void Simulation::check_forces() {
 }
 
 void Simulation::update_problem() {
-  if (!lists_changed_) return;
   if (bodies_.empty()) fail_input("the simulation has no body; add one before the first step");
-  std::vector<ConstraintGroup*> groups;
-  for (const auto& [id, owner] : groups_) {
-    for (const auto& part : owner.set.parts) groups.push_back(part.get());
+  if (groups_changed_) {
+    std::vector<ConstraintGroup*> groups;
+    for (const auto& [id, owner] : groups_) {
+      for (const auto& part : owner.set.parts) groups.push_back(part.get());
+    }
+    solver_->set_groups(state_.vertex_count(), std::move(groups));
+    groups_changed_ = false;
   }
-  std::vector<Force*> forces;
-  for (const auto& [id, force] : forces_) forces.push_back(force.get());
-  solver_->set_problem(state_.vertex_count(), std::move(groups), std::move(forces));
-  check_forces();
-  lists_changed_ = false;
+  if (forces_changed_) {
+    std::vector<Force*> forces;
+    for (const auto& [id, force] : forces_) forces.push_back(force.get());
+    solver_->set_forces(std::move(forces));
+    check_forces();
+    forces_changed_ = false;
+  }
 }
 
 StepReport Simulation::step() {

@@ -129,7 +129,8 @@ class Simulation {
   std::vector<std::string> warnings_;
   Index next_group_ = 0;
   Index next_force_ = 0;
-  bool lists_changed_ = true;
+  bool groups_changed_ = true;
+  bool forces_changed_ = true;
 };
 
 }  // namespace pliant

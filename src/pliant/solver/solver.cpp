@@ -47,14 +47,18 @@ void Solver::set_settings(const SolverSettings& settings) {
     factor_time_step_ = 0;
   }
   settings_ = settings;
-  groups_laid_out_ = groups_laid_out_ && (settings_.threads == 0 || settings_.threads == thread_count());
+  start_threads();
   history_.reserve(std::min(history_limit, static_cast<std::size_t>(settings_.iterations)));
 }
 
-void Solver::set_problem(Index vertex_count, std::vector<ConstraintGroup*> groups, std::vector<Force*> forces) {
+void Solver::start_threads() {
+  const int threads = useful_threads(settings_.threads, local_step_.slot_count());
+  if (threads != thread_count()) threads_ = std::make_unique<ThreadPool>(threads);
+}
+
+void Solver::set_groups(Index vertex_count, std::vector<ConstraintGroup*> groups) {
   vertex_count_ = vertex_count;
   groups_ = std::move(groups);
-  forces_ = std::move(forces);
   groups_laid_out_ = false;
   if (s_.rows() == vertex_count) return;
   for (Positions* x : {&force_, &s_, &q_, &residual_, &correction_}) x->setZero(vertex_count, 3);
@@ -84,9 +88,8 @@ void Solver::prepare(const State& state) {
 
 void Solver::lay_out_groups() {
   local_step_.set_groups(vertex_count_, groups_);
-  const int threads = useful_threads(settings_.threads, local_step_.slot_count());
-  if (threads != thread_count()) threads_ = std::make_unique<ThreadPool>(threads);
-  system_matrix_.set_groups(vertex_count_, groups_);
+  start_threads();
+  if (system_matrix_.set_groups(vertex_count_, groups_)) pattern_analyzed_ = false;
   stamps_.clear();
   for (const ConstraintGroup* group : groups_) stamps_.push_back({group->revision(), group->stiffness()});
   is_held_.assign(static_cast<std::size_t>(vertex_count_), 0);
@@ -94,7 +97,6 @@ void Solver::lay_out_groups() {
     for (const Index vertex : group->held_vertices()) is_held_[static_cast<std::size_t>(vertex)] = 1;
   }
   groups_laid_out_ = true;
-  pattern_analyzed_ = false;
   factor_time_step_ = 0;
 }
 

@@ -15,8 +15,10 @@ class Solver {
   /// Takes effect at the next step: a new time step, back end or number of threads costs a factorization or less.
   void set_settings(const SolverSettings& settings);
 
-  /// The problem. Groups and forces must outlive the solver or be replaced here first.
-  void set_problem(Index vertex_count, std::vector<ConstraintGroup*> groups, std::vector<Force*> forces);
+  /// The problem. Groups and forces must outlive the solver or be replaced here first. New groups cost a numeric
+  /// factorization, and an ordering when they connect vertices that were not connected; new forces cost nothing.
+  void set_groups(Index vertex_count, std::vector<ConstraintGroup*> groups);
+  void set_forces(std::vector<Force*> forces) { forces_ = std::move(forces); }
 
   /// Takes one step. Never allocates, unless a group, the time step or the back end has changed. Throws Error(diverged)
   /// and leaves the state as it was when a position would not be finite.
@@ -42,6 +44,7 @@ class Solver {
 
   void prepare(const State& state);
   void lay_out_groups();
+  void start_threads();
   void weigh_inertia(const State& state, Real time_step);
   void factorize(const State& state);
   bool groups_changed() const;

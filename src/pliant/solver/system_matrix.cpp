@@ -29,13 +29,15 @@ std::size_t at(Index i) {
 
 }  // namespace
 
-void SystemMatrix::set_groups(Index vertex_count, std::span<const ConstraintGroup* const> groups) {
+bool SystemMatrix::set_groups(Index vertex_count, std::span<const ConstraintGroup* const> groups) {
+  const LowerMatrix before = std::exchange(matrix_, {});
   find_pattern(vertex_count, groups);
   matrix_.values.assign(matrix_.rows.size(), 0);
   units_.clear();
   std::vector<Real> sums(matrix_.rows.size(), 0);
   std::vector<char> touched(matrix_.rows.size(), 0);
   for (const ConstraintGroup* group : groups) units_.push_back(unit_matrix(*group, sums, touched));
+  return matrix_.rows != before.rows || matrix_.column_starts != before.column_starts;
 }
 
 void SystemMatrix::find_pattern(Index vertex_count, std::span<const ConstraintGroup* const> groups) {
@@ -52,7 +54,6 @@ void SystemMatrix::find_pattern(Index vertex_count, std::span<const ConstraintGr
   std::vector<std::size_t> next(bucket_ends.begin(), bucket_ends.end() - 1);
   for_all_pairs([&](Index row, Index column, auto...) { entries[next[at(column)]++] = row; });
 
-  matrix_ = {};
   matrix_.column_starts.reserve(at(vertex_count) + 1);
   for (Index column = 0; column < vertex_count; ++column) {
     const auto begin = entries.begin() + static_cast<std::ptrdiff_t>(bucket_ends[at(column)]);

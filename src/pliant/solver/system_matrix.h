@@ -20,8 +20,9 @@ struct LowerMatrix {
 
 class SystemMatrix {
  public:
-  /// Finds the union pattern and the unit matrices. Throws Error(input) past 2³¹ − 1 entries.
-  void set_groups(Index vertex_count, std::span<const ConstraintGroup* const> groups);
+  /// Finds the union pattern and the unit matrices. Returns whether the pattern is another than before. Throws
+  /// Error(input) past 2³¹ − 1 entries.
+  bool set_groups(Index vertex_count, std::span<const ConstraintGroup* const> groups);
 
   /// Sums the matrix for these masses [kg], this time step [s] and the groups' stiffnesses.
   void sum(std::span<const Real> masses, Real time_step, std::span<const ConstraintGroup* const> groups,

@@ -1,7 +1,7 @@
 #include "pliant/constraints/builtin.h"
-#include "pliant/scene/option_reader.h"
-#include "pliant/scene/read_mesh.h"
-#include "pliant/scene/scene_reader.h"
+#include "pliant/scene/detail/option_reader.h"
+#include "pliant/scene/detail/read_mesh.h"
+#include "pliant/scene/detail/scene_reader.h"
 
 namespace pliant {
 namespace {

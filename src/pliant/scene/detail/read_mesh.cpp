@@ -1,4 +1,4 @@
-#include "pliant/scene/read_mesh.h"
+#include "pliant/scene/detail/read_mesh.h"
 
 #include <algorithm>
 #include <array>
@@ -7,8 +7,8 @@
 #include <Eigen/Geometry>
 
 #include "pliant/mesh/io/obj.h"
-#include "pliant/scene/json_values.h"
-#include "pliant/scene/shape_options.h"
+#include "pliant/scene/detail/json_values.h"
+#include "pliant/scene/detail/shape_options.h"
 
 namespace pliant {
 namespace {

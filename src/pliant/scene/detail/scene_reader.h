@@ -5,8 +5,8 @@
 #include <set>
 #include <string>
 
-#include "pliant/scene/json_node.h"
-#include "pliant/scene/selection.h"
+#include "pliant/scene/detail/json_node.h"
+#include "pliant/scene/detail/selection.h"
 #include "pliant/scene/timeline.h"
 
 namespace pliant {

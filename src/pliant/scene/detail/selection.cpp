@@ -1,4 +1,4 @@
-#include "pliant/scene/selection.h"
+#include "pliant/scene/detail/selection.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 
 #include "pliant/mesh/geometry.h"
 #include "pliant/mesh/topology.h"
-#include "pliant/scene/json_values.h"
+#include "pliant/scene/detail/json_values.h"
 #include "pliant/scene/nearest_names.h"
 
 namespace pliant {

@@ -1,7 +1,7 @@
 #pragma once
 #include "pliant/core/options.h"
 #include "pliant/mesh/mesh.h"
-#include "pliant/scene/json_node.h"
+#include "pliant/scene/detail/json_node.h"
 
 namespace pliant {
 

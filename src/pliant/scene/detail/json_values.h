@@ -7,7 +7,7 @@
 
 #include "pliant/core/options.h"
 #include "pliant/core/types.h"
-#include "pliant/scene/json_node.h"
+#include "pliant/scene/detail/json_node.h"
 #include "pliant/scene/nearest_names.h"
 
 namespace pliant {

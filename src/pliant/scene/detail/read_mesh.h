@@ -3,7 +3,7 @@
 
 #include "pliant/mesh/mass.h"
 #include "pliant/mesh/mesh.h"
-#include "pliant/scene/json_node.h"
+#include "pliant/scene/detail/json_node.h"
 
 namespace pliant {
 

@@ -1,4 +1,4 @@
-#include "pliant/scene/json_values.h"
+#include "pliant/scene/detail/json_values.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,7 +1,7 @@
 #pragma once
 // Options from JSON, written once over the list that every type makes of its options (core/options.h).
-#include "pliant/scene/json_values.h"
-#include "pliant/scene/selection.h"
+#include "pliant/scene/detail/json_values.h"
+#include "pliant/scene/detail/selection.h"
 
 namespace pliant {
 

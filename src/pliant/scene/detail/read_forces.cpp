@@ -3,8 +3,8 @@
 
 #include "pliant/forces/mouse_spring.h"
 #include "pliant/forces/test_force.h"
-#include "pliant/scene/option_reader.h"
-#include "pliant/scene/scene_reader.h"
+#include "pliant/scene/detail/option_reader.h"
+#include "pliant/scene/detail/scene_reader.h"
 
 namespace pliant {
 namespace {

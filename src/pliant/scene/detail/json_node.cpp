@@ -1,4 +1,4 @@
-#include "pliant/scene/json_node.h"
+#include "pliant/scene/detail/json_node.h"
 
 #include <algorithm>
 

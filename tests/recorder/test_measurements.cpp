@@ -1,0 +1,152 @@
+// What is measured agrees with closed forms, and its file reads back.
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <sstream>
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "pliant/constraints/edge_spring.h"
+#include "pliant/constraints/position.h"
+#include "pliant/forces/gravity.h"
+#include "pliant/mesh/shapes.h"
+#include "pliant/recorder/recorder.h"
+#include "tests/support/temporary_folder.h"
+
+namespace {
+
+using namespace pliant;
+using pliant_tests::TemporaryFolder;
+
+constexpr Real h = 1.0 / 60;
+
+/// The columns of a CSV file without quoted fields.
+std::map<std::string, std::vector<Real>> read_columns(const std::string& text) {
+  std::istringstream lines(text);
+  std::string line;
+  std::vector<std::string> names;
+  std::map<std::string, std::vector<Real>> columns;
+  while (std::getline(lines, line)) {
+    std::istringstream fields(line);
+    std::string field;
+    for (std::size_t i = 0; std::getline(fields, field, ','); ++i) {
+      if (!columns.contains("step")) {
+        names.push_back(field);
+        continue;
+      }
+      Real number = 0;
+      const auto result = std::from_chars(field.data(), field.data() + field.size(), number);
+      CHECK(result.ec == std::errc());
+      CHECK(result.ptr == field.data() + field.size());
+      REQUIRE(i < names.size());
+      columns[names[i]].push_back(number);
+    }
+    for (const std::string& name : names) columns[name];
+  }
+  return columns;
+}
+
+TEST_CASE("free fall: implicit Euler's loss of energy in closed form") {
+  // vₙ = −g h n, zₙ = z₀ − g h² n(n + 1)/2, so E(n) − E(0) = −m g² h² n/2.
+  Simulation simulation;
+  simulation.add_body(grid({.columns = 4, .rows = 4}), Mass::total(3));
+  simulation.add_force(std::make_unique<Gravity>());
+  const Real start = measure(simulation, {}).total;
+  for (int n = 1; n <= 50; ++n) {
+    const Measurements row = measure(simulation, simulation.step());
+    CHECK(row.step == n);
+    CHECK(std::abs(row.kinetic - 1.5 * std::pow(9.81 * h * n, 2)) < 1e-12 * row.kinetic);
+    CHECK(std::abs(row.total - (start - 1.5 * 9.81 * 9.81 * h * h * n)) < 1e-11 * (1 + row.kinetic));
+    CHECK(std::abs(row.speed_sum - 16 * 9.81 * h * n) < 1e-10);
+    CHECK((row.momentum - Vec3(0, 0, -3 * 9.81 * h * n)).norm() < 1e-11);
+  }
+}
+
+TEST_CASE("elastic energy, momenta and residual of a spring drawn apart") {
+  Simulation simulation({.time_step = 0.01, .iterations = 1});
+  Mesh rod;
+  rod.vertices = Positions{{0, 0, 0}, {1, 0, 0}};
+  rod.edges = {{0, 1}};
+  BodyOptions options;
+  options.start = Positions{{0, 0, 0}, {1.5, 0, 0}};
+  options.velocities = Positions{{0, 2, 0}, {0, 0, 3}};
+  const BodyId body = simulation.add_body(rod, Mass::each({2, 4}), options);
+  simulation.add(body, EdgeSpring{.stiffness = 100}, "spring");
+  const Measurements row = measure(simulation, {});
+  REQUIRE(row.elastic.size() == 1);
+  CHECK(std::abs(row.elastic[0] - 0.5 * 100 * 0.25) < 1e-13);
+  CHECK(row.kinetic == 2 * 4 / 2.0 + 4 * 9 / 2.0);
+  CHECK(row.gravitational == 0);
+  CHECK(row.total == row.kinetic + row.elastic[0]);
+  CHECK(row.momentum == Vec3(0, 4, 12));
+  CHECK(row.angular_momentum == Vec3(0, -18, 0));
+  CHECK(row.speed_sum == 5);
+}
+
+TEST_CASE("the file has a row for each record, and numbers that read back to the same bits") {
+  const TemporaryFolder folder;
+  Simulation simulation;
+  const BodyId body = simulation.add_body(grid({.columns = 4, .rows = 4}), Mass::total(1));
+  simulation.add(body, EdgeSpring{.stiffness = 50}, "springs");
+  simulation.add(body, Position{.on = {12, 15}}, "pins, hard");
+  simulation.add_force(std::make_unique<Gravity>());
+  Recorder recorder(folder.path(), make_npy_writer(folder.path(), 16), 3, simulation);
+  recorder.record(simulation, {});
+  std::vector<Measurements> rows = {measure(simulation, {})};
+  for (int i = 1; i <= 10; ++i) {
+    const StepReport report = simulation.step();
+    recorder.record(simulation, report);
+    if (i % 3 == 0) rows.push_back(measure(simulation, report));
+  }
+  CHECK(recorder.frame_count() == 4);
+  std::string text = TemporaryFolder::read(folder.path() / "measurements.csv");
+  const std::size_t quoted = text.find("\"elastic_pins, hard\"");
+  REQUIRE(quoted != text.npos);
+  text.replace(quoted, 20, "elastic_pins");
+  const auto columns = read_columns(text);
+  CHECK(columns.size() == 18);
+  for (const auto& [name, values] : columns) {
+    CAPTURE(name);
+    REQUIRE(values.size() == rows.size());
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    CHECK(columns.at("step")[i] == 3.0 * static_cast<Real>(i));
+    CHECK(columns.at("time")[i] == rows[i].time);
+    CHECK(columns.at("kinetic")[i] == rows[i].kinetic);
+    CHECK(columns.at("elastic_springs")[i] == rows[i].elastic[0]);
+    CHECK(columns.at("elastic_pins")[i] == 0);
+    CHECK(columns.at("gravitational")[i] == rows[i].gravitational);
+    CHECK(columns.at("total")[i] == rows[i].total);
+    CHECK(columns.at("momentum")[i] == rows[i].momentum.norm());
+    CHECK(columns.at("angular_momentum_y")[i] == rows[i].angular_momentum[1]);
+    CHECK(columns.at("residual")[i] == rows[i].residual);
+    CHECK(columns.at("objective")[i] == rows[i].objective);
+    CHECK(columns.at("iterations")[i] == (i == 0 ? 0 : 10));
+  }
+  CHECK(columns.at("residual")[3] > 0);
+}
+
+TEST_CASE("a folder for a run is made; what an earlier run left is removed, the rest stays") {
+  const TemporaryFolder folder;
+  const auto runs = folder.path() / "a" / "b";
+  prepare_run_folder(runs);
+  for (const char* name : {"frames.npy", "run.json", "measurements.csv", "frame_00012.obj", "frame_123456.obj",
+                           "frame_1.obj", "frame_0000x.obj", "notes.txt"}) {
+    folder.write(std::string("a/b/") + name, "x");
+  }
+  prepare_run_folder(runs);
+  std::vector<std::string> left;
+  for (const auto& entry : std::filesystem::directory_iterator(runs)) left.push_back(entry.path().filename().string());
+  std::ranges::sort(left);
+  CHECK(left == std::vector<std::string>{"frame_0000x.obj", "frame_1.obj", "notes.txt"});
+  try {
+    prepare_run_folder(folder.write("file", "x"));
+    FAIL("no error");
+  } catch (const Error& error) {
+    CHECK(error.kind() == ErrorKind::output);
+  }
+}
+
+}  // namespace
