@@ -13,13 +13,15 @@ build/release/bin/pliant run "$scene" --out "$out" "$@"
 
 cat <<EOF
 
-$out now holds
-$(ls -l --human-readable "$out" | awk 'NR > 1 {printf "  %-24s %s\n", $NF, $5}' | head -n 12)
-
+What lies in $out:
+  frames.npy        the curtain's vertices, frames x vertices x 3 in metres: numpy.load("$out/frames.npy")
+  measurements.csv  time, energies, momentum, residual and milliseconds of every step
+  run.json          every setting, the versions, the totals
 Next:
   change $scene, say the wind's velocity, and run this again;
-  write frames that Blender and other programs read:
-    build/release/bin/pliant run $scene --out ${out}_obj --format obj
-  see what else there is:
+  write a mesh a frame, for Blender and others:
+    build/release/bin/pliant run $scene --format obj --out ${out}_obj
+  see the other scenes and options:
+    build/release/bin/pliant scenes
     build/release/bin/pliant run --help
 EOF

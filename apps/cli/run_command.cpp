@@ -120,9 +120,9 @@ void print_summary(const Scene& scene, const pliant::RunInfo& info, std::int64_t
 int run_scene(const RunOptions& options) {
   Scene scene = open_scene(options);
   const fs::path folder = options.out.empty() ? fs::path("out") / fs::path(options.scene).stem() : options.out;
+  catch_interrupts();
   pliant::prepare_run_folder(folder);
   pliant::Recorder recorder(folder, make_frame_writer(scene, folder), scene.output.every, scene.simulation);
-  catch_interrupts();
 
   pliant::RunInfo info;
   info.scene = scene.name;

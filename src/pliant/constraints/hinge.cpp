@@ -44,9 +44,8 @@ ConstraintSet build(const BodyView& body, const HingeBending& options) {
   }
   ConstraintSet set = batches.take();
   if (options.stencils.empty()) {
-    set.skipped = all.boundary_edge_count + all.nonmanifold_edge_count + all.degenerate_edge_count;
-    set.skipped_reason = "edges of the mesh: " + std::to_string(all.boundary_edge_count) + " on the boundary, " +
-                         std::to_string(all.nonmanifold_edge_count) + " non-manifold, " +
+    set.skipped = all.nonmanifold_edge_count + all.degenerate_edge_count;
+    set.skipped_reason = "edges of the mesh: " + std::to_string(all.nonmanifold_edge_count) + " non-manifold, " +
                          std::to_string(all.degenerate_edge_count) + " between triangles of the same vertices";
   }
   return set;

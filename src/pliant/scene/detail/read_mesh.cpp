@@ -4,8 +4,6 @@
 #include <array>
 #include <numbers>
 
-#include <Eigen/Geometry>
-
 #include "pliant/mesh/io/obj.h"
 #include "pliant/scene/detail/json_values.h"
 #include "pliant/scene/detail/shape_options.h"

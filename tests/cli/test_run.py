@@ -1,0 +1,198 @@
+"""The command line program as its users meet it: exit codes, files, messages. $PLIANT is the program."""
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+import numpy
+
+PLIANT = os.environ["PLIANT"]
+
+CHAIN = {
+    "pliant": 1,
+    "steps": 20,
+    "settings": {"threads": 1},
+    "bodies": [{
+        "name": "rope",
+        "mesh": {"shape": "chain", "links": 9, "direction": [1, 0, 0]},
+        "mass": {"per_vertex": 0.1},
+        "constraints": [
+            {"type": "position", "name": "hook", "on": [0]},
+            {"type": "edge_spring", "name": "links", "stiffness": 1000},
+        ],
+    }],
+}
+
+
+class Run(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = pathlib.Path(temporary.name)
+        self.out = self.folder / "out"
+
+    def write_scene(self, changes=None, name="scene.json"):
+        path = self.folder / name
+        path.write_text(json.dumps(CHAIN | (changes or {})))
+        return path
+
+    def pliant(self, *arguments, expect=0):
+        done = subprocess.run([PLIANT, *map(str, arguments)], capture_output=True, text=True, timeout=120,
+                              cwd=self.folder)
+        self.assertEqual(done.returncode, expect, done.stderr)
+        if expect in (2, 3, 4):
+            errors = [line for line in done.stderr.splitlines() if not line.startswith("warning: ")]
+            self.assertEqual(len(errors), 1, done.stderr)
+            self.assertTrue(errors[0].startswith("pliant: error: "), done.stderr)
+        return done
+
+    def run_info(self):
+        return json.loads((self.out / "run.json").read_text())
+
+    def rows(self):
+        return len((self.out / "measurements.csv").read_text().splitlines()) - 1
+
+    def test_a_run_leaves_its_three_files(self):
+        done = self.pliant("run", self.write_scene(), "--out", self.out)
+        self.assertIn("20 of 20 steps", done.stdout)
+        self.assertEqual(done.stderr, "")
+        frames = numpy.load(self.out / "frames.npy")
+        self.assertEqual(frames.shape, (21, 10, 3))
+        self.assertEqual(frames.dtype, numpy.float64)
+        self.assertTrue(frames.flags["C_CONTIGUOUS"])
+        numpy.testing.assert_array_equal(frames[:, 0], numpy.zeros((21, 3)))
+        self.assertLess(frames[20, 9, 2], -0.3)
+        self.assertEqual(self.rows(), 21)
+        info = self.run_info()
+        self.assertEqual(info["outcome"], "ok")
+        self.assertEqual(info["scene"], "scene")
+        self.assertEqual(info["counts"], {"vertices": 10, "constraints": {"edge_spring": 9, "position": 1}})
+        self.assertEqual(info["totals"]["steps"], 20)
+        self.assertEqual(info["totals"]["frames"], 21)
+        self.assertEqual(info["used"]["threads"], 1)
+        self.assertEqual(info["warnings"], [])
+        self.assertEqual([group["name"] for group in info["groups"]], ["hook", "links"])
+
+    def test_options_take_the_place_of_the_scene_s_settings(self):
+        done = self.pliant("run", self.write_scene(), "--out", self.out, "--steps", 7, "--iterations", 3, "--time-step",
+                           0.01, "--threads", 2, "--every", 3, "--tolerance", 0.5, "--backend", "eigen", "--quiet")
+        self.assertEqual(done.stdout, "")
+        self.assertEqual(numpy.load(self.out / "frames.npy").shape, (3, 10, 3))
+        info = self.run_info()
+        settings = {"time_step": 0.01, "iterations": 3, "tolerance": 0.5, "threads": 2, "backend": "eigen"}
+        self.assertEqual(info["settings"], info["settings"] | settings)
+        self.assertEqual(info["output"], {"format": "npy", "every": 3})
+        self.assertEqual(info["used"]["backend"], "eigen")
+
+    def test_two_runs_give_the_same_frames_and_replace_each_other(self):
+        scene = self.write_scene()
+        self.pliant("run", scene, "--out", self.out)
+        first = (self.out / "frames.npy").read_bytes()
+        self.pliant("run", scene, "--out", self.out, "--threads", 3)
+        self.assertEqual((self.out / "frames.npy").read_bytes(), first)
+        self.pliant("run", scene, "--out", self.out, "--format", "obj", "--steps", 2)
+        names = sorted(path.name for path in self.out.iterdir())
+        frames = [f"frame_0000{i}.obj" for i in range(3)]
+        self.assertEqual(names, frames + ["measurements.csv", "run.json"])
+        self.pliant("run", scene, "--out", self.out, "--format", "none")
+        self.assertEqual(sorted(path.name for path in self.out.iterdir()), ["measurements.csv", "run.json"])
+
+    def test_built_in_scenes(self):
+        listing = self.pliant("scenes").stdout
+        names = [line.split()[0] for line in listing.splitlines()]
+        self.assertLessEqual({"curtain", "curtain_wind", "flag", "torus", "sheet_metal_and_cloth", "chain", "bar"},
+                             set(names))
+        self.pliant("run", "chain", "--steps", 3)
+        self.out = self.folder / "out" / "chain"  # where runs go that do not say where
+        self.assertEqual(self.run_info()["scene"], "chain")
+        error = self.pliant("run", "curtan", expect=2).stderr
+        self.assertIn("curtain", error)
+        self.assertIn("pliant scenes", error)
+
+    def test_help_and_version(self):
+        self.assertRegex(self.pliant("--version").stdout, r"^pliant \d+\.\d+\.\d+ ")
+        self.assertIn("Example", self.pliant("run", "--help").stdout)
+
+    def test_slips_of_the_command_line_exit_with_2(self):
+        scene = self.write_scene()
+        for arguments in [[], ["run"], ["walk"], ["run", scene, "--step", 3], ["run", scene, "--steps", "3x"],
+                          ["run", scene, "--steps", -1], ["run", scene, "--format", "png"],
+                          ["run", scene, "--iterations", 0], ["run", scene, "--time-step", "nan"],
+                          ["run", scene, "--every", 0], ["run", scene, "--threads", -1],
+                          ["run", self.folder / "none.json"], ["run", self.folder]]:
+            with self.subTest(arguments=arguments):
+                self.pliant(*arguments, expect=2)
+        self.assertFalse((self.folder / "out").exists())
+
+    def test_a_slip_in_the_scene_leaves_no_output(self):
+        scene = self.write_scene({"stepz": 3})
+        error = self.pliant("run", scene, "--out", self.out, expect=2).stderr
+        self.assertIn("scene.json: stepz: unknown key", error)
+        self.assertFalse(self.out.exists())
+
+    def test_divergence_exits_with_3_and_leaves_what_came_before(self):
+        scene = self.write_scene({"forces": [{"type": "test_force", "vertex": 5, "force": [1e308, 0, 0],
+                                              "frames": [4, 9]}], "settings": {"time_step": 100}})
+        error = self.pliant("run", scene, "--out", self.out, expect=3).stderr
+        self.assertRegex(error, r"vertex \d+")
+        frames = numpy.load(self.out / "frames.npy")
+        info = self.run_info()
+        self.assertEqual(info["outcome"], "diverged")
+        self.assertIn(info["error"], error)
+        self.assertEqual(len(frames), info["totals"]["frames"])
+        self.assertEqual(len(frames), self.rows())
+        self.assertEqual(len(frames), 5)
+        self.assertTrue(numpy.isfinite(frames).all())
+
+    def test_output_that_cannot_be_written_exits_with_4(self):
+        scene = self.write_scene()
+        self.pliant("run", scene, "--out", scene, expect=4)
+        self.pliant("run", scene, "--out", "/proc/pliant", expect=4)
+        for name in ["frames.npy", "measurements.csv"]:
+            self.out.mkdir(exist_ok=True)
+            (self.out / name).symlink_to("/dev/full")
+            error = self.pliant("run", scene, "--out", self.out, expect=4).stderr
+            self.assertIn(f"{name}: cannot be written: No space left on device", error)
+            (self.out / name).unlink()
+        with open("/dev/full", "w") as full:
+            self.assertEqual(subprocess.run([PLIANT, "scenes"], stdout=full, stderr=subprocess.DEVNULL).returncode, 4)
+
+    def start_endless_run(self, *arguments):
+        """Starts a run that would never end, and waits for its first ten frames."""
+        process = subprocess.Popen([PLIANT, "run", self.write_scene(), "--out", self.out, "--steps", "100000000",
+                                    *arguments], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        path = self.out / "frames.npy"
+        deadline = time.monotonic() + 60
+        while time.monotonic() < deadline and not (path.exists() and path.stat().st_size >= 128 + 10 * 240):
+            time.sleep(0.01)
+        return process
+
+    def test_an_interrupt_leaves_whole_files(self):
+        for sent in [signal.SIGINT, signal.SIGTERM]:
+            self.out = self.folder / sent.name
+            process = self.start_endless_run("--every", "7")
+            process.send_signal(sent)
+            self.assertEqual(process.wait(timeout=60), 130)
+            frames = numpy.load(self.out / "frames.npy")
+            info = self.run_info()
+            self.assertEqual(info["outcome"], "interrupted")
+            self.assertEqual(len(frames), info["totals"]["frames"])
+            self.assertEqual((self.out / "frames.npy").stat().st_size, 128 + 240 * len(frames))
+            self.assertEqual(self.rows(), len(frames))
+            self.assertEqual(info["totals"]["steps"] // 7 + 1, len(frames))
+
+    def test_a_killed_run_leaves_whole_frames(self):
+        process = self.start_endless_run()
+        process.kill()
+        process.wait()
+        frames = numpy.load(self.out / "frames.npy")
+        self.assertGreaterEqual(len(frames), 9)
+        self.assertTrue(numpy.isfinite(frames).all())
+
+
+if __name__ == "__main__":
+    unittest.main()

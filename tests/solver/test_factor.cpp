@@ -1,0 +1,164 @@
+#include <random>
+
+#include <Eigen/Cholesky>
+#include <doctest/doctest.h>
+
+#include "../core/random.h"
+#include "../mesh/meshes.h"
+#include "pliant/constraints/batch.h"
+#include "pliant/constraints/builtin.h"
+#include "pliant/core/error.h"
+#include "pliant/solver/factorization/factorization.h"
+
+using namespace pliant;
+using namespace pliant_tests;
+
+namespace {
+
+LowerMatrix lower_of(const Eigen::MatrixXd& dense) {
+  LowerMatrix lower;
+  for (Index column = 0; column < dense.cols(); ++column) {
+    for (Index row = column; row < dense.rows(); ++row) {
+      if (row != column && dense(row, column) == 0) continue;
+      lower.rows.push_back(row);
+      lower.values.push_back(dense(row, column));
+    }
+    lower.column_starts.push_back(static_cast<Index>(lower.rows.size()));
+  }
+  return lower;
+}
+
+Eigen::MatrixXd dense_of(const LowerMatrix& lower) {
+  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(lower.size(), lower.size());
+  for (Index column = 0; column < lower.size(); ++column) {
+    for (Index e = lower.column_starts[static_cast<std::size_t>(column)];
+         e < lower.column_starts[static_cast<std::size_t>(column) + 1]; ++e) {
+      const Index row = lower.rows[static_cast<std::size_t>(e)];
+      dense(row, column) = dense(column, row) = lower.values[static_cast<std::size_t>(e)];
+    }
+  }
+  return dense;
+}
+
+/// Diagonally dominant, with about this share of its entries.
+Eigen::MatrixXd random_matrix(Random& random, Index size, Real density) {
+  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(size, size);
+  for (Index i = 0; i < size; ++i) {
+    for (Index j = 0; j < i; ++j) {
+      if (random.uniform(0, 1) > density) continue;
+      dense(i, j) = dense(j, i) = random.uniform(-1, 1);
+    }
+  }
+  for (Index i = 0; i < size; ++i) dense(i, i) = dense.row(i).cwiseAbs().sum() + random.uniform(0.01, 1);
+  return dense;
+}
+
+void check_solve(Factorization& factorization, const Eigen::MatrixXd& dense, Random& random) {
+  factorization.factorize(lower_of(dense));
+  const Positions b = random.positions(dense.rows(), 1);
+  Positions x(b.rows(), 3);
+  factorization.solve(b, x);
+  const Positions expected = dense.llt().solve(Eigen::MatrixXd(b));
+  CHECK((x - expected).norm() < 1e-12 * expected.norm());
+}
+
+template <class Check>
+void for_each_backend(Check&& check) {
+  for (const Backend backend : {Backend::eigen, Backend::cholmod}) {
+    std::unique_ptr<Factorization> factorization;
+    try {
+      factorization = make_factorization(backend);
+    } catch (const Error& error) {
+      MESSAGE("skipped: ", error.what());
+      continue;
+    }
+    CAPTURE(factorization->name());
+    check(*factorization);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("the triangular solves agree with a dense solve, whatever the pattern") {
+  for_each_backend([](Factorization& factorization) {
+    Random random;
+    for (const Index size : {1, 2, 3, 7, 30, 120}) {
+      for (const Real density : {0.0, 0.02, 0.1, 0.5, 1.0}) {
+        CAPTURE(size);
+        CAPTURE(density);
+        const Eigen::MatrixXd dense = random_matrix(random, size, density);
+        factorization.analyze(lower_of(dense));
+        check_solve(factorization, dense, random);
+        CHECK(factorization.factor().size() == size);
+        CHECK(factorization.factor().entry_count() >= static_cast<std::size_t>(size));
+        // Other values on the same pattern need no new analysis.
+        check_solve(factorization, 3 * dense + Eigen::MatrixXd(dense.diagonal().asDiagonal()), random);
+      }
+    }
+  });
+}
+
+TEST_CASE("a matrix that is not positive definite is refused, and the next good one is taken") {
+  for_each_backend([](Factorization& factorization) {
+    Random random;
+    const Eigen::MatrixXd good = random_matrix(random, 20, 0.3);
+    factorization.analyze(lower_of(good));
+    const std::string message = error_of([&] { factorization.factorize(lower_of(-good)); });
+    CHECK(contains(message, "not positive definite"));
+    check_solve(factorization, good, random);
+  });
+}
+
+TEST_CASE("the system matrix is M/h² plus the sum of w SᵀAᵀAS") {
+  Random random;
+  const Index vertex_count = 9;
+  const Real time_step = 0.02;
+  Batch<TriangleStrainProjection> triangles(3);
+  Batch<EdgeSpringProjection> edges(5);
+  Batch<DragProjection> drags(7, 4);
+  const std::array<Real, 3> fields = {1, 1, 1};
+  std::vector<Real> masses;
+  for (Index i = 0; i < vertex_count; ++i) masses.push_back(random.uniform(0.5, 2));
+  const std::array<ConstraintGroup*, 3> groups = {&triangles, &edges, &drags};
+  Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(vertex_count, vertex_count);
+  std::vector<char> is_held(static_cast<std::size_t>(vertex_count), 0);
+
+  const auto add = [&](auto& batch, Index rows, Index n, std::size_t field_count) {
+    std::vector<Index> stencil;
+    while (static_cast<Index>(stencil.size()) < n) {
+      const Index vertex = random.index(vertex_count);
+      if (std::ranges::find(stencil, vertex) == stencil.end()) stencil.push_back(vertex);
+    }
+    Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> A(rows, n);
+    for (Index i = 0; i < A.size(); ++i) A.data()[i] = random.uniform(-1, 1);
+    const Real measure = random.uniform(0.1, 2);
+    batch.add(stencil, {A.data(), static_cast<std::size_t>(A.size())}, measure,
+              std::span<const Real>(fields).first(field_count));
+    Eigen::MatrixXd AS = Eigen::MatrixXd::Zero(rows, vertex_count);
+    for (Index j = 0; j < n; ++j) AS.col(stencil[static_cast<std::size_t>(j)]) = A.col(j);
+    expected += batch.stiffness() * measure * AS.transpose() * AS;
+  };
+  for (int i = 0; i < 12; ++i) {
+    add(triangles, 2, 3, 2);
+    add(edges, 1, 2, 1);
+    add(drags, 1, 4, 3);
+  }
+  for (Index i = 0; i < vertex_count; ++i) {
+    expected(i, i) += masses[static_cast<std::size_t>(i)] / (time_step * time_step);
+  }
+
+  SystemMatrix system;
+  system.set_groups(vertex_count, groups);
+  SUBCASE("of free vertices") {}
+  SUBCASE("with held vertices, whose rows keep their diagonal alone") {
+    for (const Index held : {2, 5}) {
+      is_held[static_cast<std::size_t>(held)] = 1;
+      const Real diagonal = expected(held, held);
+      expected.row(held).setZero();
+      expected.col(held).setZero();
+      expected(held, held) = diagonal;
+    }
+  }
+  system.sum(masses, time_step, groups, is_held);
+  CHECK((dense_of(system.matrix()) - expected).cwiseAbs().maxCoeff() < 1e-12 * expected.maxCoeff());
+}
