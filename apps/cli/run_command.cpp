@@ -104,7 +104,7 @@ void print_summary(const Scene& scene, const pliant::RunInfo& info, std::int64_t
   fmt::print("{}: {} of {} steps, {:.3g} s simulated in {:.3g} s", scene.name, steps, scene.steps,
              scene.simulation.state().time, info.wall_seconds);
   if (steps > 0) fmt::print(", {:.3g} ms a step", 1e3 * info.wall_seconds / static_cast<double>(steps));
-  fmt::print(" ({}, {} threads)\n", scene.simulation.backend(), scene.simulation.thread_count());
+  fmt::print(" ({}, threads: {})\n", scene.simulation.backend(), scene.simulation.thread_count());
   std::error_code ignored;
   if (scene.output.format == pliant::FrameFormat::obj) {
     fmt::print("  {}  {} files\n", (folder / "frame_*.obj").string(), frames);

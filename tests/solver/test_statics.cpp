@@ -58,7 +58,7 @@ TEST_CASE("a chain between two pins sags as the discrete catenary") {
 }
 
 TEST_CASE("the stretch of a rope does not depend on the number of its links") {
-  // EA = 500 N; the rope of 1 kg lengthens by its weight times L/(2 EA), less the half of a link's mass at each end.
+  // EA = 500 N; a rope of 1 kg lengthens by m g L/(2 EA), exactly so when its mass is lumped to the vertices.
   for (const Index links : {1, 4, 32}) {
     Simulation simulation(converged(1e-11, 8));
     const BodyId body = simulation.add_body(chain({.links = links}), Mass::total(1));

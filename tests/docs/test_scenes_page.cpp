@@ -1,0 +1,97 @@
+// docs/scenes.md shows a scene that can be read, and says of every option what the program says.
+#include <sstream>
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "pliant/constraints/builtin.h"
+#include "pliant/forces/mouse_spring.h"
+#include "pliant/forces/wind.h"
+#include "pliant/scene/scene.h"
+#include "tests/support/temporary_folder.h"
+
+namespace {
+
+using namespace pliant;
+using pliant_tests::TemporaryFolder;
+
+const std::string& page() {
+  static const std::string text = TemporaryFolder::read(std::string(PLIANT_SOURCE_DIR) + "/docs/scenes.md");
+  return text;
+}
+
+/// The example between ```jsonc and ```, without its comments.
+std::string example() {
+  const std::size_t begin = page().find("```jsonc\n") + 9;
+  std::istringstream lines(page().substr(begin, page().find("```", begin) - begin));
+  std::string scene;
+  for (std::string line; std::getline(lines, line);) scene += line.substr(0, line.find("//")) + '\n';
+  return scene;
+}
+
+std::string number_text(Real number) {
+  std::ostringstream text;
+  text << number;
+  return text.str();
+}
+
+std::string default_text(const Values& values) {
+  return values.empty() ? "" : number_text(values[0]);
+}
+std::string default_text(const Vec3& v) {
+  return "[" + number_text(v[0]) + ", " + number_text(v[1]) + ", " + number_text(v[2]) + "]";
+}
+std::string default_text(const Selection&) {
+  return "\"all\"";
+}
+template <class Option>
+std::string default_text(const Option& option) {
+  if constexpr (std::is_enum_v<Option>) {
+    return '"' + std::string(choice_names(option)[static_cast<std::size_t>(option)]) + '"';
+  } else if constexpr (std::is_arithmetic_v<Option>) {
+    return number_text(static_cast<Real>(option));
+  } else {
+    return "";
+  }
+}
+
+template <class Options>
+void check_rows() {
+  const Options options;
+  Options::visit(options, [](const OptionInfo& info, const auto& option) {
+    std::string row = "| `" + std::string(info.name) + "` | " + std::string(info.unit) + " | " + default_text(option) +
+                      " | " + std::string(info.doc) + " |";
+    CHECK_MESSAGE(page().find(row) != std::string::npos, row);
+  });
+}
+
+template <class Constraint>
+void check_constraint() {
+  const std::string heading = "\n### `" + std::string(Constraint::info.name) + "`\n";
+  CHECK_MESSAGE(page().find(heading) != std::string::npos, heading);
+  check_rows<Constraint>();
+}
+
+template <class... Constraint>
+void check_constraints(std::tuple<Constraint...>*) {
+  (check_constraint<Constraint>(), ...);
+}
+
+TEST_CASE("the example is a sound scene") {
+  const TemporaryFolder folder;
+  folder.write("pennant.obj", "v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n");
+  Scene scene = parse_scene(example(), folder.path(), "example.json");
+  CHECK(scene.simulation.bodies().size() == 3);
+  for (int i = 0; i < 100; ++i) scene.step();
+  CHECK(scene.simulation.state().positions.allFinite());
+}
+
+TEST_CASE("the tables list every option") {
+  check_rows<SolverSettings>();
+  check_rows<OutputSettings>();
+  check_rows<WindOptions>();
+  check_rows<MouseSpringOptions>();
+  check_constraints(static_cast<BuiltinConstraints*>(nullptr));
+}
+
+}  // namespace

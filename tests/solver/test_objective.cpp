@@ -1,0 +1,185 @@
+// What each iteration of a step promises.
+#include <doctest/doctest.h>
+
+#include "../core/random.h"
+#include "../simulation/everything.h"
+#include "../simulation/run.h"
+#include "pliant/core/error.h"
+#include "pliant/mesh/geometry.h"
+#include "pliant/mesh/topology.h"
+
+using namespace pliant;
+using namespace pliant_tests;
+
+namespace {
+
+struct NamedSimulation {
+  std::string name;
+  Simulation simulation;
+};
+
+/// A sheet crumpled at random, free to fall apart or spring back.
+Simulation crumpled(const SolverSettings& settings, Orientation orientation) {
+  Random random;
+  Simulation simulation(settings);
+  const Mesh mesh = torus({.major_segments = 12, .minor_segments = 8});
+  const BodyId body =
+      simulation.add_body(mesh, Mass::total(1), {.start = mesh.vertices + random.positions(mesh.vertex_count(), 0.2)});
+  simulation.add(body, EdgeSpring{.stiffness = 1e4});
+  simulation.add(body, Bending{.stiffness = 1, .orientation = orientation});
+  simulation.add(body, HingeBending{.stiffness = 1, .orientation = orientation});
+  return simulation;
+}
+
+/// A bar turned inside out at random.
+Simulation inverted(const SolverSettings& settings) {
+  Random random;
+  Simulation simulation(settings);
+  const Mesh mesh = bar({.cells = {4, 2, 2}});
+  const BodyId body =
+      simulation.add_body(mesh, Mass::density(1000), {.start = random.positions(mesh.vertex_count(), 0.5)});
+  simulation.add(body, TetrahedronStrain{.stiffness = 1e6, .min_stretch = 0.8, .max_stretch = 1.2});
+  simulation.add(body, Position{.on = {0, 1}});
+  add_gravity(simulation);
+  return simulation;
+}
+
+std::vector<NamedSimulation> varied_simulations(const SolverSettings& settings) {
+  std::vector<NamedSimulation> all;
+  all.push_back({"everything", everything(settings, 8)});
+  all.push_back({"crumpled, absolute", crumpled(settings, Orientation::absolute)});
+  all.push_back({"crumpled, signed", crumpled(settings, Orientation::signed_)});
+  all.push_back({"inverted", inverted(settings)});
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("the objective never rises, in no iteration of no step") {
+  for (const Real time_step : {1.0 / 240, 1.0 / 60, 1.0}) {
+    for (const Start start : {Start::prediction, Start::positions}) {
+      for (auto& [name, simulation] : varied_simulations({.time_step = time_step, .iterations = 25, .start = start})) {
+        CAPTURE(name);
+        CAPTURE(time_step);
+        for (int step = 0; step < 20; ++step) {
+          simulation.step();
+          std::vector<Real> history(simulation.objective_history().begin(), simulation.objective_history().end());
+          history.push_back(simulation.evaluate().objective());
+          REQUIRE(history.size() == 26);
+          for (std::size_t k = 1; k < history.size(); ++k) CHECK(history[k] <= history[k - 1] * (1 + 1e-12));
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("the residual is the largest gradient of the objective on a vertex that is not held") {
+  constexpr Real h = 1e-6;
+  for (auto& [name, simulation] : varied_simulations({.iterations = 3})) {
+    CAPTURE(name);
+    advance(simulation, 4);
+    const Real residual = simulation.evaluate().residual;
+    Positions q = simulation.state().positions;
+    const Positions v = simulation.state().velocities;
+    const auto objective_at = [&](Real& coordinate, Real x) {
+      const Real before = std::exchange(coordinate, x);
+      simulation.set_state(q, v);
+      coordinate = before;
+      return simulation.evaluate().objective();
+    };
+    Real largest = 0;
+    for (Index i = 0; i < q.rows(); ++i) {
+      Vec3 gradient;
+      for (int axis = 0; axis < 3; ++axis) {
+        Real& x = q(i, axis);
+        gradient[axis] = (objective_at(x, x + h) - objective_at(x, x - h)) / (2 * h);
+      }
+      bool is_held = false;
+      for (const auto& [id, group] : simulation.groups()) {
+        for (const auto& part : group.set.parts) {
+          is_held = is_held || std::ranges::find(part->held_vertices(), i) != part->held_vertices().end();
+        }
+      }
+      if (!is_held) largest = std::max(largest, gradient.norm());
+    }
+    CHECK(residual == doctest::Approx(largest).epsilon(1e-5));
+  }
+}
+
+TEST_CASE("a tolerance ends the iterations early, and the step is converged to it") {
+  Simulation simulation = everything({.iterations = 100000, .tolerance = 1e-6}, 6);
+  for (int step = 0; step < 5; ++step) {
+    const StepReport report = simulation.step();
+    CHECK(report.reached_tolerance);
+    CHECK(report.iterations < 100000);
+    CHECK(report.residual <= 1e-6);
+    CHECK(simulation.evaluate().residual == doctest::Approx(report.residual).epsilon(1e-12));
+  }
+  Simulation few = everything({.iterations = 7, .tolerance = 1e-6}, 6);
+  const StepReport report = few.step();
+  CHECK_FALSE(report.reached_tolerance);
+  CHECK(report.iterations == 7);
+}
+
+TEST_CASE("both starts lead to the same converged step, and differ before") {
+  const auto run = [](Start start, Index iterations) {
+    Simulation simulation = everything({.iterations = iterations, .tolerance = 1e-9, .start = start}, 6);
+    simulation.step();
+    return simulation.state().positions;
+  };
+  CHECK(largest_difference(run(Start::prediction, 100000), run(Start::positions, 100000)) < 1e-9);
+  CHECK(largest_difference(run(Start::prediction, 1), run(Start::positions, 1)) > 1e-5);
+}
+
+TEST_CASE("before the first step, evaluate() gives the energy of the start alone") {
+  Simulation simulation = crumpled({}, Orientation::absolute);
+  const Evaluation evaluation = simulation.evaluate();
+  CHECK(evaluation.inertia == 0);
+  CHECK(evaluation.elastic > 0);
+  Real sum = 0;
+  for (const auto& [id, group] : simulation.groups()) sum += simulation.elastic_energy(id);
+  CHECK(sum == doctest::Approx(evaluation.elastic).epsilon(1e-13));
+}
+
+TEST_CASE("the back ends agree") {
+  const auto run = [](Backend backend) {
+    Simulation simulation = everything({.iterations = 10, .backend = backend}, 10);
+    advance(simulation, 10);
+    CHECK(simulation.backend() == (backend == Backend::eigen ? "eigen" : "cholmod"));
+    return simulation.state().positions;
+  };
+  const Positions eigen = run(Backend::eigen);
+  try {
+    CHECK(largest_difference(run(Backend::cholmod), eigen) < 1e-10);
+  } catch (const Error& error) {
+    MESSAGE("skipped: ", error.what());
+  }
+}
+
+TEST_CASE("an unloaded body at rest stays, wherever it is and however it is turned") {
+  std::vector<Mesh> meshes = {grid({.columns = 8, .rows = 6}), torus({.major_segments = 12, .minor_segments = 8}),
+                              sphere({.subdivisions = 2}), bar({.cells = {4, 2, 2}})};
+  meshes.back().triangles = boundary_triangles(meshes.back().tetrahedra);
+  Random random;
+  for (const Mesh& mesh : meshes) {
+    for (const Orientation orientation : {Orientation::absolute, Orientation::signed_}) {
+      for (int place = 0; place < 3; ++place) {
+        Simulation simulation({.iterations = 2, .threads = 1});
+        Positions start = mesh.vertices;
+        if (place == 1) start.rowwise() += Eigen::RowVector3d(3, -2, 1);
+        if (place == 2) start = (start * random.rotation()).rowwise() + Eigen::RowVector3d(-0.3, 0.2, 0.5);
+        const BodyId body = simulation.add_body(mesh, Mass::total(1), {.start = start});
+        simulation.add(body, EdgeSpring{.stiffness = 1e3});
+        simulation.add(body, TriangleStrain{.stiffness = 100});
+        simulation.add(body, TetrahedronStrain{.stiffness = 1e5});
+        simulation.add(body, Bending{.stiffness = 0.1, .orientation = orientation});
+        simulation.add(body, HingeBending{.stiffness = 0.1, .orientation = orientation});
+        advance(simulation, 600);
+        const Real size = bounding_box(start).diagonal();
+        CAPTURE(mesh.vertex_count());
+        CAPTURE(place);
+        CHECK((simulation.state().positions - start).rowwise().norm().maxCoeff() < 1e-12 * size);
+      }
+    }
+  }
+}

@@ -1,0 +1,113 @@
+// A step never allocates: counts what the process asks of the heap while steps are taken. Under the sanitizers, which
+// have a malloc of their own, operator new alone is counted.
+#include <atomic>
+#include <cstdio>
+#include <cstdlib>
+#include <new>
+
+#include "../simulation/everything.h"
+#include "pliant/core/error.h"
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define PLIANT_OWN_MALLOC 0
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define PLIANT_OWN_MALLOC 0
+#endif
+#endif
+#ifndef PLIANT_OWN_MALLOC
+#define PLIANT_OWN_MALLOC 1
+#endif
+
+namespace {
+
+std::atomic<long> allocations = 0;
+
+}  // namespace
+
+#if PLIANT_OWN_MALLOC
+extern "C" {
+void* __libc_malloc(std::size_t size);
+void* __libc_calloc(std::size_t count, std::size_t size);
+void* __libc_realloc(void* memory, std::size_t size);
+void* __libc_memalign(std::size_t alignment, std::size_t size);
+
+void* malloc(std::size_t size) {
+  ++allocations;
+  return __libc_malloc(size);
+}
+void* calloc(std::size_t count, std::size_t size) {
+  ++allocations;
+  return __libc_calloc(count, size);
+}
+void* realloc(void* memory, std::size_t size) {
+  ++allocations;
+  return __libc_realloc(memory, size);
+}
+void* aligned_alloc(std::size_t alignment, std::size_t size) {
+  ++allocations;
+  return __libc_memalign(alignment, size);
+}
+}
+#else
+void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+#endif
+
+using namespace pliant;
+
+namespace {
+
+/// Allocations in ten steps after two of warming up.
+long allocations_of(const SolverSettings& settings) {
+  Simulation simulation = pliant_tests::everything(settings, 12);
+  for (int i = 0; i < 2; ++i) simulation.step();
+  const long before = allocations;
+  for (int i = 0; i < 10; ++i) {
+    simulation.set_target(GroupId{5}, 0, Vec3(0, 0.01 * i, 1));
+    simulation.step();
+  }
+  return allocations - before;
+}
+
+/// Prints what went wrong; true when nothing did.
+bool passes(Backend backend, Index threads, Start start) {
+  try {
+    const long count = allocations_of({.start = start, .backend = backend, .threads = threads});
+    if (count == 0) return true;
+    std::printf("%ld allocations with back end %d and %d threads\n", count, static_cast<int>(backend), threads);
+    return false;
+  } catch (const Error& error) {
+    std::printf("skipped: %s\n", error.what());
+    return backend == Backend::cholmod;
+  }
+}
+
+}  // namespace
+
+int main() {
+  const long before = allocations;
+  const std::vector<Real> counted(1000);
+  if (allocations == before) {
+    std::puts("the counter does not count");
+    return 1;
+  }
+  bool all_pass = true;
+  for (const Backend backend : {Backend::eigen, Backend::cholmod}) {
+    for (const Index threads : {1, 2}) {
+      for (const Start start : {Start::prediction, Start::positions}) {
+        all_pass = passes(backend, threads, start) && all_pass;
+      }
+    }
+  }
+  return all_pass ? 0 : 1;
+}
