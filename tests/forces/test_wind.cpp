@@ -83,25 +83,37 @@ TEST_CASE("wind does not blow where there is nothing to blow on") {
   }
 }
 
-TEST_CASE("a free sheet takes on the wind's normal velocity without overshooting, however strong the drag") {
+TEST_CASE("a free triangle takes on the wind's normal velocity without overshooting, however strong the drag") {
   for (const Real drag : {0.1, 10.0, 1e3, 1e9}) {
     for (const Real time_step : {1e-3, h, 8.0}) {
-      Simulation simulation({.time_step = time_step, .iterations = 2});
-      simulation.add_body(grid({.columns = 4, .rows = 4, .plane = Plane::xy}), Mass::area_density(0.2));
+      Simulation simulation({.time_step = time_step, .iterations = 1});
+      simulation.add_body(mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}), Mass::area_density(0.2));
       simulation.add_wind({.velocity = {3, 0, 5}, .drag = drag});
       Real last = 0;
       for (int step = 1; step <= 50; ++step) {
         simulation.step();
-        const Real expected = 5 * (1 - std::exp(-drag / 0.2 * time_step * step));
         const Positions& v = simulation.state().velocities;
-        CHECK(v.leftCols<2>().cwiseAbs().maxCoeff() == doctest::Approx(0));
-        CHECK(v.col(2).maxCoeff() <= 5 * (1 + 1e-9));
-        CHECK(v.col(2).minCoeff() >= last * (1 - 1e-9));
-        CHECK(v(5, 2) == doctest::Approx(expected).epsilon(1e-9));
+        CHECK(v.leftCols<2>().cwiseAbs().maxCoeff() < 1e-9);
+        CHECK(v.col(2).maxCoeff() <= 5 * (1 + 1e-12));
+        CHECK(v.col(2).minCoeff() >= last * (1 - 1e-12));
+        CHECK(v(1, 2) == doctest::Approx(5 * (1 - std::exp(-drag / 0.2 * time_step * step))).epsilon(1e-9));
         last = v.col(2).minCoeff();
       }
     }
   }
+}
+
+TEST_CASE("so does a sheet, whose border has less drag a vertex and is drawn along") {
+  Simulation simulation({.iterations = 10});
+  const BodyId sheet = simulation.add_body(grid({.columns = 6, .rows = 6}), Mass::area_density(0.2));
+  simulation.add(sheet, TriangleStrain{.stiffness = 100});
+  simulation.add(sheet, Bending{.stiffness = 0.01});
+  simulation.add_wind({.velocity = {3, 5, 0}, .drag = 10});
+  for (int step = 0; step < 120; ++step) {
+    simulation.step();
+    CHECK(simulation.state().velocities.col(1).maxCoeff() <= 5 * (1 + 1e-6));
+  }
+  CHECK((simulation.state().velocities.rowwise() - Eigen::RowVector3d(0, 5, 0)).cwiseAbs().maxCoeff() < 1e-6);
 }
 
 TEST_CASE("gusts vary the wind by their share and no more, and come again as one knows them") {
@@ -145,7 +157,7 @@ TEST_CASE("thesis wind with W = 1e6 grows without bound: the error names vertex 
       message = error_of([&] { simulation.step(); }, ErrorKind::diverged);
     }
     CAPTURE(message);
-    CHECK(steps <= 12);
+    CHECK(steps < 20);
     CHECK(contains(message, "step " + std::to_string(before.step + 1)));
     CHECK(contains(message, "vertex "));
     CHECK(contains(message, "wind"));
@@ -176,7 +188,10 @@ TEST_CASE("what a wind refuses") {
   CHECK(contains(error_of([] { Wind({}, {}, {}); }), "no triangles"));
   CHECK(contains(error_of([] { Wind({{0, 1, 2}}, {}, {}); }), "one rest area"));
   CHECK(contains(error_of([] { Wind({{0, 1, 2}}, {1}, {.drag = -1}); }), "wind: drag"));
-  CHECK(contains(error_of([] { Wind({{0, 1, 2}}, {1}, {.velocity = {0, NAN, 0}}); }), "wind: velocity"));
+  CHECK(contains(error_of([] {
+                   Wind({{0, 1, 2}}, {1}, {.velocity = {0, std::numeric_limits<Real>::quiet_NaN(), 0}});
+                 }),
+                 "wind: velocity"));
   CHECK(contains(error_of([] { Wind({{0, 1, 2}}, {1}, {.gust_strength = 1.5}); }), "wind: gust_strength"));
   CHECK(contains(error_of([] { Wind({{0, 1, 2}}, {1}, {.gust_period = 0}); }), "wind: gust_period"));
   Simulation simulation;

@@ -96,7 +96,8 @@ void for_all(Check&& check) {
   int constraints = 0;
   for (const auto& [name, mesh] : meshes()) {
     for (const Constraint& options : variants<Constraint>(mesh)) {
-      CAPTURE(name);
+      const std::string mesh_name = name;  // clang 14 captures no structured binding
+      CAPTURE(mesh_name);
       Elastic elastic(mesh, options);
       constraints += elastic.set().count;
       check(mesh, options, elastic);

@@ -107,9 +107,9 @@ TEST_CASE("the file has a row for each record, and numbers that read back to the
   text.replace(quoted, 20, "elastic_pins");
   const auto columns = read_columns(text);
   CHECK(columns.size() == 18);
-  for (const auto& [name, values] : columns) {
-    CAPTURE(name);
-    REQUIRE(values.size() == rows.size());
+  for (const auto& column : columns) {
+    CAPTURE(column.first);
+    REQUIRE(column.second.size() == rows.size());
   }
   for (std::size_t i = 0; i < rows.size(); ++i) {
     CHECK(columns.at("step")[i] == 3.0 * static_cast<Real>(i));

@@ -9,8 +9,8 @@
 //
 // c_ab: cotangent of the angle at edge vertex a in the triangle whose third vertex is b; A₀, A₁ the areas of the two
 // triangles. z is zero on any flat pair. Source: Bergou et al. 2006, Sec. 4 ("A quadratic bending model"), with a third
-// of its weight, so that on equilateral meshes and on strips the energy is κ/2 ∫ (2H)² dA; on grids with diagonals it is
-// 3/4 to 3 times that, depending on the direction of the fold: 3 along the diagonals. Where the factor matters, use
+// of its weight, so that on equilateral meshes and on strips the energy is κ/2 ∫ (2H)² dA; on grids with diagonals it
+// is 3/4 to 3 times that, depending on the direction of the fold: 3 along the diagonals. Where the factor matters, use
 // `bending`, which has 1.000 everywhere but leaves borders unbent.
 #include "pliant/constraints/bending.h"
 
