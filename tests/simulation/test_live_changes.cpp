@@ -62,7 +62,7 @@ struct Curtain {
 
 /// Runs a curtain, changes it, and compares what follows with a curtain that was `after` all along.
 void check_change(const CurtainOptions& before, const CurtainOptions& after,
-                  const std::function<void(Curtain&)>& change) {
+                  const std::function<void(Curtain&)>& change, Real largest_move = 0.05) {
   Curtain changed(before);
   advance(changed.simulation, 25);
   const State state = changed.simulation.state();
@@ -78,7 +78,7 @@ void check_change(const CurtainOptions& before, const CurtainOptions& after,
     if (step > 0) continue;
     // No farther than the velocity and a few dozen g take it within the step.
     const Positions coasting = state.positions + after.settings.time_step * state.velocities;
-    CHECK(largest_difference(changed.simulation.state().positions, coasting) < 0.05);
+    CHECK(largest_difference(changed.simulation.state().positions, coasting) < largest_move);
   }
 }
 
@@ -149,7 +149,8 @@ TEST_CASE("groups that come and go") {
   }
   SUBCASE("a hard pin comes") {
     with.has_third_pin = true;
-    check_change(without, with, [](Curtain& curtain) { curtain.add_third_pin(); });
+    check_change(
+        without, with, [](Curtain& curtain) { curtain.add_third_pin(); }, 0.15);  // its target is elsewhere
   }
 }
 

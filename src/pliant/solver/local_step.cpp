@@ -123,7 +123,7 @@ LocalStep::VertexSums LocalStep::gather(Index begin, Index end, const Positions&
     out[0] = x + weight * dx;
     out[1] = y + weight * dy;
     out[2] = z + weight * dz;
-    sums.squared_residual = std::max(sums.squared_residual, out[0] * out[0] + out[1] * out[1] + out[2] * out[2]);
+    sums.squared_residual = larger(sums.squared_residual, out[0] * out[0] + out[1] * out[1] + out[2] * out[2]);
   }
   return sums;
 }
