@@ -40,15 +40,17 @@ void add_choice(CLI::App& command, const std::string& name, std::optional<Choice
       ->check(CLI::IsMember(std::vector<std::string>(names.begin(), names.end())));
 }
 
-/// A file where there is one of that name, else a built-in scene.
+/// A file where there is one of that name, else a built-in scene; a folder hides none.
 Scene open_scene(const RunOptions& options) {
   std::error_code ignored;
-  if (fs::exists(options.scene, ignored)) return pliant::load_scene(options.scene, options.overrides);
+  const fs::file_status status = fs::status(options.scene, ignored);
+  if (fs::exists(status) && !fs::is_directory(status)) return pliant::load_scene(options.scene, options.overrides);
   std::vector<std::string_view> names;
   for (const pliant::BuiltinScene& scene : pliant::builtin_scenes()) {
     if (scene.name == options.scene) return pliant::parse_scene(scene.text, {}, scene.name, options.overrides);
     names.push_back(scene.name);
   }
+  if (fs::is_directory(status)) return pliant::load_scene(options.scene, options.overrides);  // says what it is
   pliant::fail_input(
       fmt::format("{}: neither a file nor a built-in scene; `pliant scenes` lists those, the nearest first: {}",
                   options.scene, pliant::nearest_names_text(options.scene, names)));

@@ -25,6 +25,22 @@ TEST_CASE("every built-in scene runs") {
   }
 }
 
+TEST_CASE("the objective rises in no iteration of any built-in scene") {
+  for (const pliant::BuiltinScene& builtin : pliant::builtin_scenes()) {
+    CAPTURE(builtin.name);
+    pliant::Scene scene = pliant::parse_scene(builtin.text, {}, builtin.name);
+    for (int i = 0; i < 30; ++i) {
+      scene.step();
+      pliant::Real before = scene.simulation.objective_history().front();
+      for (const pliant::Real objective : scene.simulation.objective_history()) {
+        CHECK(objective <= before * (1 + 1e-12));
+        before = objective;
+      }
+      CHECK(scene.simulation.evaluate().objective() <= before * (1 + 1e-12));
+    }
+  }
+}
+
 TEST_CASE("a scene's steps are the same from run to run") {
   const pliant::BuiltinScene& builtin = pliant::builtin_scenes().front();
   pliant::Scene a = pliant::parse_scene(builtin.text, {}, builtin.name);

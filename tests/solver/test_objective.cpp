@@ -58,8 +58,9 @@ std::vector<NamedSimulation> varied_simulations(const SolverSettings& settings) 
 TEST_CASE("the objective never rises, in no iteration of no step") {
   for (const Real time_step : {1.0 / 240, 1.0 / 60, 1.0}) {
     for (const Start start : {Start::prediction, Start::positions}) {
-      for (auto& [name, simulation] : varied_simulations({.time_step = time_step, .iterations = 25, .start = start})) {
-        CAPTURE(name);
+      for (auto& varied : varied_simulations({.time_step = time_step, .iterations = 25, .start = start})) {
+        Simulation& simulation = varied.simulation;
+        CAPTURE(varied.name);
         CAPTURE(time_step);
         for (int step = 0; step < 20; ++step) {
           simulation.step();
@@ -75,8 +76,9 @@ TEST_CASE("the objective never rises, in no iteration of no step") {
 
 TEST_CASE("the residual is the largest gradient of the objective on a vertex that is not held") {
   constexpr Real h = 1e-6;
-  for (auto& [name, simulation] : varied_simulations({.iterations = 3})) {
-    CAPTURE(name);
+  for (auto& varied : varied_simulations({.iterations = 3})) {
+    Simulation& simulation = varied.simulation;
+    CAPTURE(varied.name);
     advance(simulation, 4);
     const Real residual = simulation.evaluate().residual;
     Positions q = simulation.state().positions;

@@ -10,6 +10,7 @@ struct State {
   std::vector<Real> masses;  ///< m [kg], > 0
   std::int64_t step = 0;     ///< n, steps taken
   Real time = 0;             ///< tₙ [s]
+  Real time_excess = 0;      ///< what rounding has put too much into tₙ so far [s]
 
   Index vertex_count() const { return static_cast<Index>(positions.rows()); }
   StateView view() const { return {positions, velocities, masses, step, time}; }

@@ -69,7 +69,11 @@ void Solver::commit(State& state) {
   state.velocities = (q_ - state.positions) / settings_.time_step;
   state.positions = q_;
   ++state.step;
-  state.time += settings_.time_step;
+  // Kahan's sum: after n steps of h the time is n h to the last digit.
+  const Real step = settings_.time_step - state.time_excess;
+  const Real time = state.time + step;
+  state.time_excess = (time - state.time) - step;
+  state.time = time;
 }
 
 Evaluation Solver::evaluate(const State& state) {
