@@ -162,7 +162,7 @@ void add_run_command(CLI::App& program, int& exit_code) {
   command->add_option("--steps", overrides.steps, "Steps to take");
   command->add_option("--iterations", overrides.iterations, "Local and global steps in each step");
   command->add_option("--time-step", overrides.time_step, "Length of a step [s]");
-  command->add_option("--tolerance", overrides.tolerance, "Iterate no further below this residual [N]; 0: never stop");
+  command->add_option("--tolerance", overrides.tolerance, "Iterate no further below this residual [N]; 0: only at exact rest");
   command->add_option("--threads", overrides.threads, "0: one a processor; results do not depend on it");
   add_choice(*command, "--backend", overrides.backend, "Library that factorizes: automatic, eigen or cholmod");
   add_choice(*command, "--format", overrides.format, "Of the frames: npy, obj or none");

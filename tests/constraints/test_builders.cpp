@@ -115,3 +115,18 @@ TEST_CASE("stencils of a second body carry on where those of the first end") {
   const ConstraintSet pins = build(BodyView{sheet, sheet.vertices, 100, "second"}, Position{.on = {4}});
   CHECK(pins.parts[0]->held_vertices()[0] == 104);
 }
+
+TEST_CASE("a flat mesh is flat to bending, however it lies in space") {
+  Random random;
+  for (int i = 0; i < 10; ++i) {
+    Mesh sheet = grid({.columns = 7, .rows = 7, .diagonals = Diagonals::alternating});
+    sheet.vertices = moved(sheet.vertices, random.rotation(), random.vector(1));
+    for (const Orientation orientation : {Orientation::absolute, Orientation::signed_}) {
+      const Elastic bending(sheet, Bending{.orientation = orientation});
+      const Elastic hinges(sheet, HingeBending{.orientation = orientation});
+      for (const ConstraintSet* set : {&bending.set(), &hinges.set()}) {
+        for (const auto& part : set->parts) CHECK(dynamic_cast<Batch<FlatCurvature>*>(part.get()) != nullptr);
+      }
+    }
+  }
+}

@@ -50,6 +50,8 @@ void* aligned_alloc(std::size_t alignment, std::size_t size) {
 }
 }
 #else
+// Inlined, a pair of these looks to the compiler as if the one did not belong to the other.
+#pragma GCC diagnostic ignored "-Wmismatched-new-delete"
 void* operator new(std::size_t size) {
   ++allocations;
   if (void* memory = std::malloc(size)) return memory;

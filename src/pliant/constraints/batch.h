@@ -16,9 +16,11 @@
 // z of a translation-invariant type is summed over differences to the first vertex of the stencil: far from the origin
 // this keeps the digits that the sum over positions would lose.
 #include <array>
-#include <cassert>
+#include <cmath>
+#include <string>
 
 #include "pliant/constraints/constraint_group.h"
+#include "pliant/core/error.h"
 
 namespace pliant {
 
@@ -28,15 +30,14 @@ template <class Type>
 class Batch final : public ConstraintGroup {
  public:
   explicit Batch(Real stiffness, int vertices = Type::vertices) : ConstraintGroup(stiffness), vertices_(vertices) {
-    assert(vertices >= 1);
+    if (vertices < 1) fail_input(std::string(Type::name) + ": a batch needs stencils of at least one vertex");
   }
 
-  /// One more constraint: n vertices, k × n coefficients, its measure, and the fields of its type.
+  /// One more constraint: n vertices, k × n coefficients, its measure, and the fields of its type. Throws Error(input)
+  /// on lists of the wrong length, and on rows that do not sum to zero where the type says so.
   void add(std::span<const Index> stencil, std::span<const Real> reduction, Real measure,
            std::span<const Real> fields) {
-    assert(static_cast<int>(stencil.size()) == vertices_);
-    assert(static_cast<int>(reduction.size()) == Type::rows * vertices_);
-    assert(static_cast<int>(fields.size()) == Type::fields);
+    check(stencil.size(), reduction, fields.size());
     stencil_.insert(stencil_.end(), stencil.begin(), stencil.end());
     reduction_.insert(reduction_.end(), reduction.begin(), reduction.end());
     fields_.insert(fields_.end(), fields.begin(), fields.end());
@@ -91,6 +92,27 @@ class Batch final : public ConstraintGroup {
   }
 
  private:
+  void check(std::size_t stencil_size, std::span<const Real> reduction, std::size_t field_count) const {
+    const auto n = static_cast<std::size_t>(vertices());
+    if (stencil_size != n || reduction.size() != Type::rows * n || field_count != Type::fields) {
+      fail_input(std::string(Type::name) + ": a constraint takes " + std::to_string(n) + " vertices, " +
+                 std::to_string(Type::rows * n) + " coefficients and " + std::to_string(Type::fields) + " fields");
+    }
+    if constexpr (Type::translation_invariant) {
+      for (std::size_t row = 0; row < Type::rows; ++row) {
+        Real sum = 0;
+        Real magnitude = 0;
+        for (const Real c : reduction.subspan(row * n, n)) {
+          sum += c;
+          magnitude += std::abs(c);
+        }
+        if (std::abs(sum) <= 1e-9 * magnitude || !std::isfinite(magnitude)) continue;
+        fail_input(std::string(Type::name) + ": the coefficients of a row sum to " + std::to_string(sum) +
+                   ", not to zero; mend them, or declare the type not translation_invariant");
+      }
+    }
+  }
+
   int vertices() const { return Type::vertices == dynamic_vertices ? vertices_ : Type::vertices; }
   Real* field(std::size_t i) { return fields_.data() + i * Type::fields; }
   const Real* field(std::size_t i) const { return fields_.data() + i * Type::fields; }

@@ -57,8 +57,8 @@ ConstraintSet from_arrays(const BodyView& body, const Bending& options) {
   if (options.cotangents.size() != count || options.areas.empty()) {
     fail_input("bending: stencils need one list of cotangents each and areas; give both, or leave out the stencils");
   }
-  check_length(type, "areas", options.areas.list().size(), options.areas.each(), count);
-  check_length(type, "stiffness", options.stiffness.list().size(), options.stiffness.each(), count);
+  check_length(type, "areas", options.areas, count);
+  check_length(type, "stiffness", options.stiffness, count);
   const StiffnessSplit stiffness(options.stiffness);
   CurvatureBatches<SignedFanCurvature> batches(body, options.orientation, stiffness.common());
   for (Index i = 0; i < count; ++i) {
@@ -83,6 +83,9 @@ std::string reasons(const VertexRings& rings) {
 
 ConstraintSet build(const BodyView& body, const Bending& options) {
   if (!options.stencils.empty()) return from_arrays(body, options);
+  if (!options.cotangents.empty() || !options.areas.empty()) {
+    fail_input("bending: cotangents and areas are given without stencils; give those as well, or neither");
+  }
   constexpr std::string_view type = Bending::info.name;
   const VertexRings rings = vertex_rings(body.rest);
   Stencils candidates;
@@ -93,7 +96,7 @@ ConstraintSet build(const BodyView& body, const Bending& options) {
     candidates.add(stencil);
   }
   const Stencils chosen = choose_stencils(type, body, options.on, {}, candidates, 0);
-  check_length(type, "stiffness", options.stiffness.list().size(), options.stiffness.each(), chosen.size());
+  check_length(type, "stiffness", options.stiffness, chosen.size());
   const StiffnessSplit stiffness(options.stiffness);
   CurvatureBatches<SignedFanCurvature> batches(body, options.orientation, stiffness.common());
   for (Index i = 0; i < chosen.size(); ++i) {

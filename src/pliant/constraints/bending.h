@@ -38,7 +38,7 @@ struct Bending {
 
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& field) {
-    field(OptionInfo{"on", "", "vertices that resist bending, with all their neighbours"}, self.on);
+    field(OptionInfo{"on", "", "vertices that resist bending, where all their neighbours are selected too"}, self.on);
     field(OptionInfo{"stencils", "", "centre and neighbours (for `signed` in cyclic order); with cotangents and areas"},
           self.stencils);
     field(OptionInfo{"stiffness", "N·m", "κ of the sheet; cotton about 1e-5, sheet metal 1 and more", positive},

@@ -38,6 +38,12 @@ void check_stencil(std::string_view type, const BodyView& body, std::span<const 
 
 }  // namespace
 
+Stencils every_vertex(const BodyView& body) {
+  Stencils all;
+  for (Index i = 0; i < body.rest.vertex_count(); ++i) all.add({i});
+  return all;
+}
+
 std::vector<char> selected_vertices(std::string_view type, const BodyView& body, const Selection& on) {
   const auto count = static_cast<std::size_t>(body.rest.vertex_count());
   if (on.everything) return std::vector<char>(count, 1);
@@ -55,6 +61,7 @@ std::vector<char> selected_vertices(std::string_view type, const BodyView& body,
 Stencils choose_stencils(std::string_view type, const BodyView& body, const Selection& on, const Stencils& given,
                          const Stencils& candidates, int vertices) {
   if (!given.empty()) {
+    if (!on.everything) fail_input(place(type, body) + ": give either `on` or `stencils`, not both");
     for (Index i = 0; i < given.size(); ++i) check_stencil(type, body, given[i], i, vertices);
     return given;
   }
@@ -84,8 +91,8 @@ void check_given(std::string_view option, const Values& values) {
 void check_limits(std::string_view type, const Values& min_stretch, const Values& max_stretch, Index count) {
   check_given("min_stretch", min_stretch);
   check_given("max_stretch", max_stretch);
-  check_length(type, "min_stretch", min_stretch.list().size(), min_stretch.each(), count);
-  check_length(type, "max_stretch", max_stretch.list().size(), max_stretch.each(), count);
+  check_length(type, "min_stretch", min_stretch, count);
+  check_length(type, "max_stretch", max_stretch, count);
   for (Index i = 0; i < count; ++i) {
     if (min_stretch[i] <= max_stretch[i]) continue;
     fail_input(fmt::format("{}: min_stretch {} is above max_stretch {} at constraint {}; exchange them", type,

@@ -12,6 +12,15 @@ Stencils choose_stencils(std::string_view type, const BodyView& body, const Sele
 /// Throws unless `values` is a single value or has one for each of `count` constraints.
 void check_length(std::string_view type, std::string_view option, std::size_t length, bool each, Index count);
 
+/// The same for Values and Points.
+template <class List>
+void check_length(std::string_view type, std::string_view option, const List& list, Index count) {
+  check_length(type, option, list.list().size(), list.each(), count);
+}
+
+/// Every vertex as a stencil of its own.
+Stencils every_vertex(const BodyView& body);
+
 /// Vertices of the body that are selected: one flag each. Throws on an index out of range.
 std::vector<char> selected_vertices(std::string_view type, const BodyView& body, const Selection& on);
 

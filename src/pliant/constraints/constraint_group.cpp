@@ -1,5 +1,6 @@
 #include "pliant/constraints/constraint_group.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -16,6 +17,59 @@ std::span<const Index> ConstraintGroup::held_vertices() const {
 
 std::span<Real> ConstraintGroup::targets() {
   return {};
+}
+
+namespace {
+
+void check_index(Index vertex, Index vertex_count, const std::string& where) {
+  if (vertex >= 0 && vertex < vertex_count) return;
+  fail_input(where + ": vertex " + std::to_string(vertex) + " is out of range; there are vertices 0 to " +
+             std::to_string(vertex_count - 1));
+}
+
+void check_lengths(const ConstraintGroup& group, const std::string& where) {
+  const GroupShape shape = group.shape();
+  if (shape.count < 0 || shape.vertices < 1 || shape.rows < 1) {
+    fail_input(where + ": its shape has no vertices, no rows or a negative count; mend shape()");
+  }
+  const auto count = static_cast<std::size_t>(shape.count);
+  const std::size_t stencil = count * static_cast<std::size_t>(shape.vertices);
+  const std::size_t reduction = stencil * static_cast<std::size_t>(shape.rows);
+  if (group.stencil().size() != stencil || group.reduction().size() != reduction || group.measure().size() != count) {
+    fail_input(where + ": the lengths of stencil, reduction and measure do not fit its shape; give count × n, " +
+               "count × k × n and count entries");
+  }
+}
+
+}  // namespace
+
+void check_group(ConstraintGroup& group, Index vertex_count, std::string_view name) {
+  const std::string where(name);
+  check_lengths(group, where);
+  const GroupShape shape = group.shape();
+  const auto n = static_cast<std::size_t>(shape.vertices);
+  const auto finite = [](Real x) { return std::isfinite(x); };
+  for (std::size_t i = 0; i < static_cast<std::size_t>(shape.count); ++i) {
+    const std::string constraint = where + ": constraint " + std::to_string(i);
+    const std::span<const Index> stencil = group.stencil().subspan(i * n, n);
+    for (std::size_t a = 0; a < n; ++a) {
+      check_index(stencil[a], vertex_count, constraint);
+      if (std::ranges::find(stencil.first(a), stencil[a]) == stencil.first(a).end()) continue;
+      fail_input(constraint + " names vertex " + std::to_string(stencil[a]) + " twice; its vertices must differ");
+    }
+    const std::size_t size = n * static_cast<std::size_t>(shape.rows);
+    if (!std::ranges::all_of(group.reduction().subspan(i * size, size), finite)) {
+      fail_input(constraint + " has a coefficient that is not finite; mend its rest shape");
+    }
+    if (!(group.measure()[i] > 0) || !std::isfinite(group.measure()[i])) {
+      fail_input(constraint + " has a measure that is not positive and finite; mend its rest shape or stiffness");
+    }
+  }
+  for (const Index vertex : group.held_vertices()) check_index(vertex, vertex_count, where);
+  if (3 * group.held_vertices().size() > group.targets().size()) {
+    fail_input(where + " holds vertices that have no target; give each a point");
+  }
+  if (!std::ranges::all_of(group.targets(), finite)) fail_input(where + ": a target is not finite; mend it");
 }
 
 void ConstraintGroup::set_stiffness(Real stiffness) {

@@ -38,7 +38,8 @@ class ConstraintGroup {
   /// with the first row of constraint `begin`, and returns Σ w/2 ‖z − p‖² [J]. May be called from several threads.
   virtual Real project(const Positions& positions, std::span<Real> out, Index begin, Index end) const = 0;
 
-  /// Vertices that the group holds exactly (hard pins). They leave the system of equations.
+  /// Vertices that the group holds exactly (hard pins). They leave the system of equations; vertex i of them stands at
+  /// the point i of targets().
   virtual std::span<const Index> held_vertices() const;
   /// Points in space that may be moved while the simulation runs, count × 3; empty for a type that has none.
   virtual std::span<Real> targets();
@@ -59,5 +60,10 @@ class ConstraintGroup {
   Real stiffness_ = 1;
   std::uint64_t revision_ = 0;
 };
+
+/// Throws Error(input), naming the constraint and the remedy, on a group that does not keep to its own shape: lists of
+/// the wrong length, a vertex out of range or twice in a stencil, a coefficient that is not finite, a measure that is
+/// not positive, a held vertex without a target.
+void check_group(ConstraintGroup& group, Index vertex_count, std::string_view name);
 
 }  // namespace pliant

@@ -35,6 +35,10 @@ void SignedCurvature<normal>::project(const Real* field, const Real* z, Real* p)
   const Eigen::Map<const Vec3> n(field + 5);
   const Eigen::Map<const Vec3> v(z);
   const Real height = v.dot(n);
+  if (length(z) < no_direction * rest && n.squaredNorm() > 0) {
+    for (int axis = 0; axis < 3; ++axis) p[axis] = rest * sign * n[axis];
+    return;
+  }
   if (sign * height >= 0) return AbsoluteCurvature::project(field, z, p);
   // On the wrong side: the nearest point of the half-sphere lies on its rim.
   const Vec3 t = v - height * n;

@@ -35,8 +35,8 @@ ConstraintSet build(const BodyView& body, const Drag& options) {
   if (count == 0) fail_input("drag: stencils are missing; name the vertices of the point to be dragged");
   choose_stencils(type, body, {}, options.stencils, {}, 0);
   check_length(type, "weights", static_cast<std::size_t>(options.weights.size()), !options.weights.empty(), count);
-  check_length(type, "targets", options.targets.list().size(), options.targets.each(), count);
-  check_length(type, "stiffness", options.stiffness.list().size(), options.stiffness.each(), count);
+  check_length(type, "targets", options.targets, count);
+  check_length(type, "stiffness", options.stiffness, count);
 
   const StiffnessSplit stiffness(options.stiffness);
   ConstraintSet set;

@@ -14,7 +14,7 @@ Stencils mesh_edges(const BodyView& body) {
 
 std::vector<Real> rest_lengths(std::string_view type, const BodyView& body, const Stencils& edges,
                                const Values& given) {
-  check_length(type, "rest_length", given.list().size(), given.each(), edges.size());
+  check_length(type, "rest_length", given, edges.size());
   std::vector<Real> lengths;
   lengths.reserve(static_cast<std::size_t>(edges.size()));
   for (Index i = 0; i < edges.size(); ++i) {

@@ -8,7 +8,7 @@ namespace pliant {
 ConstraintSet build(const BodyView& body, const EdgeSpring& options) {
   constexpr std::string_view type = EdgeSpring::info.name;
   const Stencils chosen = choose_stencils(type, body, options.on, options.stencils, mesh_edges(body), 2);
-  check_length(type, "stiffness", options.stiffness.list().size(), options.stiffness.each(), chosen.size());
+  check_length(type, "stiffness", options.stiffness, chosen.size());
   const std::vector<Real> rest_length = rest_lengths(type, body, chosen, options.rest_length);
 
   const StiffnessSplit stiffness(options.stiffness);

@@ -9,7 +9,7 @@ namespace {
 
 struct RestHinge {
   std::array<Real, 4> coefficients;
-  Real area;  // of both triangles
+  std::array<Real, 2> areas;  // of the two triangles
 };
 
 RestHinge rest_hinge(const Vec3& x0, const Vec3& x1, const Vec3& x2, const Vec3& x3) {
@@ -22,7 +22,7 @@ RestHinge rest_hinge(const Vec3& x0, const Vec3& x1, const Vec3& x2, const Vec3&
   };
   const auto [c02, c12, area0] = cotangents(x2);
   const auto [c03, c13, area1] = cotangents(x3);
-  return {{c12 + c13, c02 + c03, -(c02 + c12), -(c03 + c13)}, area0 + area1};
+  return {{c12 + c13, c02 + c03, -(c02 + c12), -(c03 + c13)}, {area0, area1}};
 }
 
 }  // namespace
@@ -31,16 +31,16 @@ ConstraintSet build(const BodyView& body, const HingeBending& options) {
   constexpr std::string_view type = HingeBending::info.name;
   const Hinges all = hinges(body.rest);
   const Stencils chosen = choose_stencils(type, body, options.on, options.stencils, to_stencils(all.stencils), 4);
-  check_length(type, "stiffness", options.stiffness.list().size(), options.stiffness.each(), chosen.size());
+  check_length(type, "stiffness", options.stiffness, chosen.size());
   const StiffnessSplit stiffness(options.stiffness);
   CurvatureBatches<SignedHingeCurvature> batches(body, options.orientation, stiffness.common());
   for (Index i = 0; i < chosen.size(); ++i) {
     const auto corner = [&](std::size_t j) { return row(body.rest.vertices, chosen[i][j]); };
     const RestHinge rest = rest_hinge(corner(0), corner(1), corner(2), corner(3));
-    check_rest_measure(type, body, i, rest.area, "area; leave it out, or mend its vertices");
-    check_rest_measure(type, body, i, 1 / (1 + rest.coefficients[0] * rest.coefficients[0]),
-                       "area in one of its triangles; leave it out, or mend its vertices");
-    batches.add(chosen[i], rest.coefficients, stiffness.of(i) / rest.area);
+    for (const Real area : rest.areas) {
+      check_rest_measure(type, body, i, area, "area in one of its triangles; leave it out, or mend its vertices");
+    }
+    batches.add(chosen[i], rest.coefficients, stiffness.of(i) / (rest.areas[0] + rest.areas[1]));
   }
   ConstraintSet set = batches.take();
   if (options.stencils.empty()) {

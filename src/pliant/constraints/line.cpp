@@ -7,12 +7,10 @@ namespace pliant {
 
 ConstraintSet build(const BodyView& body, const Line& options) {
   constexpr std::string_view type = Line::info.name;
-  Stencils every_vertex;
-  for (Index i = 0; i < body.rest.vertex_count(); ++i) every_vertex.add({i});
-  const Stencils chosen = choose_stencils(type, body, options.on, options.stencils, every_vertex, 1);
-  check_length(type, "stiffness", options.stiffness.list().size(), options.stiffness.each(), chosen.size());
-  check_length(type, "origin", options.origin.list().size(), options.origin.each(), chosen.size());
-  check_length(type, "direction", options.direction.list().size(), options.direction.each(), chosen.size());
+  const Stencils chosen = choose_stencils(type, body, options.on, options.stencils, every_vertex(body), 1);
+  check_length(type, "stiffness", options.stiffness, chosen.size());
+  check_length(type, "origin", options.origin, chosen.size());
+  check_length(type, "direction", options.direction, chosen.size());
   if (options.direction.empty()) fail_input("line: direction is missing; give a vector such as [1, 0, 0]");
 
   const StiffnessSplit stiffness(options.stiffness);

@@ -3,16 +3,6 @@
 #include "pliant/constraints/build.h"
 
 namespace pliant {
-namespace {
-
-Stencils every_vertex(const BodyView& body) {
-  Stencils all;
-  for (Index i = 0; i < body.rest.vertex_count(); ++i) all.add({i});
-  return all;
-}
-
-}  // namespace
-
 void HardPins::add(Index vertex, const Vec3& target) {
   held_.push_back(vertex);
   targets_.insert(targets_.end(), target.begin(), target.end());
@@ -22,8 +12,8 @@ void HardPins::add(Index vertex, const Vec3& target) {
 ConstraintSet build(const BodyView& body, const Position& options) {
   constexpr std::string_view type = Position::info.name;
   const Stencils chosen = choose_stencils(type, body, options.on, options.stencils, every_vertex(body), 1);
-  check_length(type, "targets", options.targets.list().size(), options.targets.each(), chosen.size());
-  check_length(type, "stiffness", options.stiffness.list().size(), options.stiffness.each(), chosen.size());
+  check_length(type, "targets", options.targets, chosen.size());
+  check_length(type, "stiffness", options.stiffness, chosen.size());
   const auto target = [&](Index i) {
     return options.targets.empty() ? row(body.start, chosen[i][0]) : options.targets[i];
   };

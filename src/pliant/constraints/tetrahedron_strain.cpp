@@ -18,7 +18,7 @@ ConstraintSet build(const BodyView& body, const TetrahedronStrain& options) {
   constexpr std::string_view type = TetrahedronStrain::info.name;
   const Stencils chosen =
       choose_stencils(type, body, options.on, options.stencils, to_stencils(body.rest.tetrahedra), 4);
-  check_length(type, "stiffness", options.stiffness.list().size(), options.stiffness.each(), chosen.size());
+  check_length(type, "stiffness", options.stiffness, chosen.size());
   check_limits(type, options.min_stretch, options.max_stretch, chosen.size());
 
   const StiffnessSplit stiffness(options.stiffness);

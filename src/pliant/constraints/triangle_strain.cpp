@@ -19,7 +19,7 @@ ConstraintSet build(const BodyView& body, const TriangleStrain& options) {
   constexpr std::string_view type = TriangleStrain::info.name;
   const Stencils chosen =
       choose_stencils(type, body, options.on, options.stencils, to_stencils(body.rest.triangles), 3);
-  check_length(type, "stiffness", options.stiffness.list().size(), options.stiffness.each(), chosen.size());
+  check_length(type, "stiffness", options.stiffness, chosen.size());
   check_limits(type, options.min_stretch, options.max_stretch, chosen.size());
 
   const StiffnessSplit stiffness(options.stiffness);

@@ -21,8 +21,10 @@ constexpr int max_attempts = 1000;
 /// The file itself behind a link, so that a rename does not replace the link.
 fs::path resolved(const fs::path& path) {
   std::error_code error;
-  const fs::path target = fs::is_symlink(path, error) ? fs::canonical(path, error) : path;
-  return error ? path : target;
+  if (!fs::is_symlink(path, error)) return path;
+  const fs::path target = fs::canonical(path, error);
+  if (!error) return target;
+  return path.parent_path() / fs::read_symlink(path, error);  // a link to what is not there yet
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include "pliant/core/error.h"
@@ -14,10 +15,20 @@ ThreadPool::ThreadPool(int threads) {
   }
   if (threads == 0) threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   workers_.reserve(static_cast<std::size_t>(threads - 1));
-  for (int i = 1; i < threads; ++i) workers_.emplace_back([this] { work(0); });
+  try {
+    for (int i = 1; i < threads; ++i) workers_.emplace_back([this] { work(0); });
+  } catch (const std::system_error&) {
+    const std::string started = std::to_string(workers_.size() + 1);
+    stop();
+    fail_input("threads: the system gives " + started + " of " + std::to_string(threads) + "; ask for fewer");
+  }
 }
 
 ThreadPool::~ThreadPool() {
+  stop();
+}
+
+void ThreadPool::stop() {
   stop_ = true;
   generation_.fetch_add(1, std::memory_order_release);
   generation_.notify_all();

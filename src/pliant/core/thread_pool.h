@@ -14,7 +14,8 @@ namespace pliant {
 
 class ThreadPool {
  public:
-  /// threads ≥ 1, or 0 for one thread a processor; a negative count is an input error.
+  /// threads ≥ 1, or 0 for one thread a processor. Throws Error(input) on a negative count, and when the system does
+  /// not give that many.
   explicit ThreadPool(int threads = 0);
   ~ThreadPool();
   ThreadPool(const ThreadPool&) = delete;
@@ -38,6 +39,7 @@ class ThreadPool {
  private:
   using Call = void (*)(void* context, Index i);
 
+  void stop();
   void run(Index count, void* context, Call call);
   void take_iterations();
   void work(std::uint32_t seen);

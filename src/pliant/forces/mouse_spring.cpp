@@ -24,6 +24,11 @@ std::optional<Index> MouseSpring::vertex_out_of_range(Index vertex_count) const 
   return vertex_ >= 0 && vertex_ < vertex_count ? std::nullopt : std::optional(vertex_);
 }
 
+Real MouseSpring::potential(const StateView& state) const {
+  const Real stretch = (options_.anchor - row(state.positions, vertex_)).stableNorm() - options_.rest_length;
+  return options_.stiffness / 2 * stretch * stretch;
+}
+
 std::optional<std::string> MouseSpring::warning(const StateView& state, Real time_step) const {
   const Real mass = state.masses[static_cast<std::size_t>(vertex_)];
   const Real limit = 4 * mass / (time_step * time_step);

@@ -29,6 +29,8 @@ class MouseSpring final : public Force {
   std::string_view type() const override { return "mouse_spring"; }
   void add_to(Positions& forces, const StateView& state, Real time_step) override;
   std::optional<Index> vertex_out_of_range(Index vertex_count) const override;
+  /// k/2 (‖d‖ − L)²
+  Real potential(const StateView& state) const override;
   std::optional<std::string> warning(const StateView& state, Real time_step) const override;
 
   /// Throws Error(input) when it is not finite.

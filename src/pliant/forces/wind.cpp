@@ -11,7 +11,11 @@ Wind::Wind(std::vector<Triangle> triangles, std::vector<Real> rest_areas, const 
   if (triangles_.empty()) fail_input("wind: there are no triangles for it to blow on; give it a body that has some");
   if (rest_areas_.size() != triangles_.size()) fail_input("wind: give one rest area for each triangle");
   Index vertices = 0;
-  for (const Triangle& triangle : triangles_) vertices = std::max(vertices, *std::ranges::max_element(triangle) + 1);
+  for (const Triangle& triangle : triangles_) {
+    const auto [first, last] = std::ranges::minmax(triangle);
+    if (first < 0 || last == std::numeric_limits<Index>::max()) fail_input("wind: a triangle has no such vertex");
+    vertices = std::max(vertices, last + 1);
+  }
   share_.resize(vertices, 3);
   area_.resize(static_cast<std::size_t>(vertices));
 }

@@ -68,8 +68,11 @@ Measurements measure(Simulation& simulation, const StepReport& report) {
     row.elastic.push_back(simulation.elastic_energy(id));
     row.total += row.elastic.back();
   }
-  for (const auto& [id, force] : simulation.forces()) row.gravitational += force->potential(state.view());
-  row.total += row.gravitational;
+  for (const auto& [id, force] : simulation.forces()) {
+    const Real potential = force->potential(state.view());
+    if (force->type() == "gravity") row.gravitational += potential;
+    row.total += potential;
+  }
   return row;
 }
 

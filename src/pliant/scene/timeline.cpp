@@ -30,9 +30,11 @@ void Timeline::add(Simulation& simulation, Move move) {
 void Timeline::apply(Simulation& simulation) {
   const State& state = simulation.state();
   while (!pending_.empty() && pending_.begin()->first <= state.step) {
-    begin(simulation, pending_.begin()->second);
+    // A group that was removed takes its moves along.
+    if (simulation.groups().contains(pending_.begin()->second.group)) begin(simulation, pending_.begin()->second);
     pending_.erase(pending_.begin());
   }
+  std::erase_if(motions_, [&](const auto& motion) { return !simulation.groups().contains(motion.first.first); });
   const Real end_of_step = state.time + simulation.settings().time_step;
   for (auto motion = motions_.begin(); motion != motions_.end();) {
     const auto& [from, to, begin, duration] = motion->second;

@@ -9,12 +9,10 @@
 namespace pliant {
 namespace {
 
-/// `given`, or `fallback` when empty; refuses a wrong shape and what is not finite.
-Positions checked(Positions given, const Positions& fallback, std::string_view what, std::string_view name) {
-  if (given.size() == 0) return fallback;
-  const std::string where = "body '" + std::string(name) + "': " + std::string(what);
-  if (given.rows() != fallback.rows()) {
-    fail_input(where + ": " + std::to_string(given.rows()) + " rows for " + std::to_string(fallback.rows()) +
+/// Refuses a wrong number of rows and what is not finite.
+void check_rows(const Positions& given, Index vertex_count, const std::string& where) {
+  if (given.rows() != vertex_count) {
+    fail_input(where + ": " + std::to_string(given.rows()) + " rows for " + std::to_string(vertex_count) +
                " vertices; give one row a vertex");
   }
   for (Index i = 0; i < given.rows(); ++i) {
@@ -22,6 +20,12 @@ Positions checked(Positions given, const Positions& fallback, std::string_view w
       fail_input(where + "[" + std::to_string(i) + "] is not finite; give three finite numbers");
     }
   }
+}
+
+/// `given`, or `fallback` when empty.
+Positions given_or(Positions given, const Positions& fallback, std::string_view what, std::string_view name) {
+  if (given.size() == 0) return fallback;
+  check_rows(given, static_cast<Index>(fallback.rows()), "body '" + std::string(name) + "': " + std::string(what));
   return given;
 }
 
@@ -47,9 +51,9 @@ BodyId Simulation::add_body(Mesh mesh, const Mass& mass, BodyOptions options) {
   if (options.name.empty()) options.name = "body " + std::to_string(bodies_.size());
   check_mesh(mesh, options.name);
   const std::vector<Real> masses = vertex_masses(mesh, mass, options.name);
-  const Positions start = checked(std::move(options.start), mesh.vertices, "start positions", options.name);
+  const Positions start = given_or(std::move(options.start), mesh.vertices, "start positions", options.name);
   const Positions still = Positions::Zero(mesh.vertex_count(), 3);
-  const Positions velocities = checked(std::move(options.velocities), still, "velocities", options.name);
+  const Positions velocities = given_or(std::move(options.velocities), still, "velocities", options.name);
 
   const Index first_vertex = state_.vertex_count();
   append(state_.positions, start);
@@ -79,23 +83,38 @@ Index Simulation::vertex(BodyId id, Index vertex_of_body) const {
 
 GroupId Simulation::add_set(BodyId id, ConstraintSet set, std::string type, std::string name) {
   if (name.empty()) name = type;
+  const std::string place = name + " on body '" + body(id).name + "'";
   for (const auto& part : set.parts) {
-    for (const std::span<const Index> indices : {part->stencil(), part->held_vertices()}) {
-      for (const Index i : indices) {
-        if (i >= 0 && i < state_.vertex_count()) continue;
-        fail_input(name + ": vertex " + std::to_string(i) + " is out of range; the simulation has " +
-                   std::to_string(state_.vertex_count()) + " vertices");
-      }
-    }
+    if (!part) fail_input(place + ": a part of its constraints is null; leave it out");
+    check_group(*part, state_.vertex_count(), place);
+    check_held(*part, place);
+  }
+  if (set.count == 0 && set.skipped == 0) {
+    warnings_.push_back(place + ": makes no constraint; does the selection hold whole elements?");
   }
   if (set.skipped > 0) {
-    warnings_.push_back(name + " on body '" + body(id).name + "': left out at " + std::to_string(set.skipped) + " " +
-                        set.skipped_reason);
+    warnings_.push_back(place + ": left out at " + std::to_string(set.skipped) + " " + set.skipped_reason);
   }
   const GroupId group{next_group_++};
   groups_.emplace(group, Group{std::move(name), std::move(type), id, std::move(set)});
   groups_changed_ = true;
   return group;
+}
+
+void Simulation::check_held(const ConstraintGroup& added, const std::string& place) const {
+  std::vector<Index> held(added.held_vertices().begin(), added.held_vertices().end());
+  std::ranges::sort(held);
+  const auto twice = std::ranges::adjacent_find(held);
+  if (twice != held.end()) fail_input(place + ": vertex " + std::to_string(*twice) + " is held twice; leave one out");
+  for (const auto& [id, other] : groups_) {
+    for (const auto& part : other.set.parts) {
+      for (const Index vertex : part->held_vertices()) {
+        if (!std::ranges::binary_search(held, vertex)) continue;
+        fail_input(place + ": vertex " + std::to_string(vertex) + " is already held by '" + other.name +
+                   "'; leave it out of one of the two");
+      }
+    }
+  }
 }
 
 void Simulation::remove(GroupId id) {
@@ -110,7 +129,13 @@ const Group& Simulation::group(GroupId id) const {
 }
 
 void Simulation::set_stiffness(GroupId id, Real stiffness) {
-  for (const auto& part : group(id).set.parts) part->set_stiffness(stiffness);
+  bool has_stiffness = false;
+  for (const auto& part : group(id).set.parts) {
+    if (part->shape().count == 0) continue;
+    part->set_stiffness(stiffness);
+    has_stiffness = true;
+  }
+  if (!has_stiffness) fail_input("group '" + group(id).name + "' has no stiffness; hard pins have none");
 }
 
 std::span<Real> Simulation::target_numbers(GroupId id, Index i) const {
@@ -175,6 +200,7 @@ void Simulation::append_triangles(const Body& owner, std::vector<Triangle>& tria
 }
 
 void Simulation::remove(ForceId id) {
+  warned_forces_.erase(id);
   if (forces_.erase(id) == 0) fail_input("force " + std::to_string(static_cast<Index>(id)) + " does not exist");
   forces_changed_ = true;
 }
@@ -189,7 +215,11 @@ void Simulation::set_settings(const SolverSettings& settings) {
 void Simulation::check_forces() {
   for (const auto& [id, force] : forces_) {
     std::optional<std::string> warning = force->warning(state_.view(), settings_.time_step);
-    if (warning && std::ranges::find(warnings_, *warning) == warnings_.end()) warnings_.push_back(*std::move(warning));
+    if (!warning) {
+      warned_forces_.erase(id);  // to be warned of again
+    } else if (warned_forces_.insert(id).second && std::ranges::find(warnings_, *warning) == warnings_.end()) {
+      warnings_.push_back(*std::move(warning));
+    }
   }
 }
 
@@ -224,12 +254,7 @@ Evaluation Simulation::evaluate() {
 
 Real Simulation::elastic_energy(GroupId id) const {
   Real energy = 0;
-  std::size_t part = 0;
-  for (const auto& [other, owner] : groups_) {
-    for (std::size_t i = 0; i < owner.set.parts.size(); ++i, ++part) {
-      if (other == id) energy += solver_->elastic_energy(part);
-    }
-  }
+  for (const auto& part : group(id).set.parts) energy += solver_->elastic_energy(*part);
   return energy;
 }
 
@@ -238,9 +263,11 @@ std::span<const Real> Simulation::objective_history() const {
 }
 
 void Simulation::set_state(const Positions& positions, const Positions& velocities) {
-  Positions checked_positions = checked(positions, state_.positions, "positions", "all");
-  state_.velocities = checked(velocities, state_.velocities, "velocities", "all");
-  state_.positions = std::move(checked_positions);
+  check_rows(positions, state_.vertex_count(), "set_state: positions");
+  check_rows(velocities, state_.vertex_count(), "set_state: velocities");
+  state_.positions = positions;
+  state_.velocities = velocities;
+  solver_->forget_prediction();
 }
 
 std::string_view Simulation::backend() const {

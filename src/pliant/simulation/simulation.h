@@ -9,6 +9,7 @@
 //     for (int i = 0; i < 60; ++i) simulation.step();
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -66,7 +67,7 @@ class Simulation {
     check_options(Constraint::info.name, options);
     return add_set(id, build(view(id), options), std::string(Constraint::info.name), std::move(name));
   }
-  /// Adds constraints made elsewhere; their stencils have the indices of the simulation.
+  /// Adds constraints made elsewhere; their stencils have the indices of the simulation (check_group).
   GroupId add_set(BodyId id, ConstraintSet set, std::string type, std::string name = {});
   void remove(GroupId id);
   const std::map<GroupId, Group>& groups() const { return groups_; }
@@ -95,27 +96,31 @@ class Simulation {
   /// Takes one step (Algorithm 1). Throws Error(diverged), with the state as it was before, when a position would not
   /// be finite.
   StepReport step();
-  /// One more local step at the positions the last step ended with; before any step, at the start.
+  /// One more local step at the positions the last step ended with; at the start, and after set_state(), without the
+  /// inertia term.
   Evaluation evaluate();
-  /// Elastic energy of a group at the last evaluate() [J].
+  /// Elastic energy of a group at the last evaluate() [J]; 0 for a group added since.
   Real elastic_energy(GroupId id) const;
-  /// The objective E(q) at each iterate of the last step, the first being its start [J].
+  /// The objective E(q) before each global solve of the last step [J], of its first 4096 solves. evaluate() has the
+  /// objective after the last one.
   std::span<const Real> objective_history() const;
 
   const State& state() const { return state_; }
   /// Replaces positions and velocities (m × 3 each).
   void set_state(const Positions& positions, const Positions& velocities);
 
-  /// The name of the back end in use; "" before the first step.
+  /// The name of the back end in use.
   std::string_view backend() const;
   int thread_count() const;
-  /// Hints at what a user may want to know: skipped constraints, forces past their stability limit.
+  /// What a user may want to know: skipped constraints, forces past their stability limit. It only grows.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
   BodyView view(BodyId id) const;
   const Group& group(GroupId id) const;
   std::span<Real> target_numbers(GroupId id, Index i) const;
+  /// A vertex can be held at one place only.
+  void check_held(const ConstraintGroup& added, const std::string& place) const;
   static void append_triangles(const Body& owner, std::vector<Triangle>& triangles, std::vector<Real>& areas);
   void update_problem();
   void check_forces();
@@ -127,6 +132,7 @@ class Simulation {
   std::map<ForceId, std::unique_ptr<Force>> forces_;
   std::unique_ptr<Solver> solver_;
   std::vector<std::string> warnings_;
+  std::set<ForceId> warned_forces_;  // whose warning stands in warnings_ and still holds
   Index next_group_ = 0;
   Index next_force_ = 0;
   bool groups_changed_ = true;

@@ -39,7 +39,8 @@ struct SolverSettings {
     field(OptionInfo{"iterations", "", "local and global steps in each step; more are stiffer and livelier",
                      Range{1, 1e9}},
           self.iterations);
-    field(OptionInfo{"tolerance", "N", "iterate no further once no vertex has a larger residual force; 0: never stop",
+    field(OptionInfo{"tolerance", "N",
+                     "iterate no further once no vertex has a larger residual force; 0: only at exact rest",
                      not_negative},
           self.tolerance);
     field(OptionInfo{"start", "", "iterations begin at the `prediction` s or at the `positions` of the last step"},

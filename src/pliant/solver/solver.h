@@ -24,15 +24,19 @@ class Solver {
   /// and leaves the state as it was when a position would not be finite.
   StepReport step(State& state);
 
-  /// One local step at the positions of the state, against the last step's prediction.
+  /// One local step at the positions of the state, against the prediction that the last step made for it; without
+  /// one, after a state was replaced, there is no inertia term.
   Evaluation evaluate(const State& state);
-  Real elastic_energy(std::size_t group) const { return local_step_.elastic_energy(group); }
+  /// To be told when the state is another than the last step left.
+  void forget_prediction() { predicted_time_step_ = 0; }
+  /// Elastic energy of a group at the last evaluate() [J]; 0 for a group that it did not have.
+  Real elastic_energy(const ConstraintGroup& group) const;
 
-  /// E(q) at the iterates of the last step, at most `history_limit` of them.
+  /// E(q) before each solve of the last step, of the first `history_limit` solves.
   std::span<const Real> objective_history() const { return history_; }
   static constexpr std::size_t history_limit = 4096;
 
-  std::string_view backend() const { return factorization_ ? factorization_->name() : std::string_view{}; }
+  std::string_view backend() const { return factorization_->name(); }
   int thread_count() const { return threads_->thread_count(); }
 
  private:
@@ -44,7 +48,7 @@ class Solver {
 
   void prepare(const State& state);
   void lay_out_groups();
-  void start_threads();
+  void start_threads(Index asked);
   void weigh_inertia(const State& state, Real time_step);
   void factorize(const State& state);
   bool groups_changed() const;
@@ -53,8 +57,8 @@ class Solver {
   void place_held_vertices(Positions& q) const;
   void record(const LocalResult& result);
   void check_finite(const State& state) const;
-  [[noreturn]] void report_divergence(const State& state, Index vertex) const;
-  std::string reason(const State& state, Index vertex) const;
+  [[noreturn]] void report_divergence(const State& state) const;
+  std::string force_reason(const State& state, Index vertex) const;
   void commit(State& state);
 
   SolverSettings settings_;
@@ -73,7 +77,7 @@ class Solver {
 
   std::vector<char> is_held_;
   std::vector<Real> inertia_weights_;  // M/h², 0 at held vertices
-  Real predicted_time_step_ = 0;       // h of s_; 0: nothing has been predicted yet
+  Real predicted_time_step_ = 0;       // h of s_; 0: s_ does not belong to the state
   Positions force_, s_, q_, residual_, correction_;
   std::vector<Real> history_;
 };

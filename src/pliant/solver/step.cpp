@@ -2,6 +2,7 @@
 // r(q) = M/h² (s − q) + Σ wᵢ SᵢᵀAᵢᵀ (pᵢ − zᵢ), minus the gradient of the objective, the global solve Y q' = b is
 // q' = q + Y⁻¹ r. The margin has the line numbers of Algorithm 1.
 #include <algorithm>
+#include <cmath>
 
 #include "pliant/core/stopwatch.h"
 #include "pliant/solver/solver.h"
@@ -20,6 +21,7 @@ StepReport Solver::step(State& state) {
   /* 4   */ while (report.iterations < settings_.iterations) {
     const Stopwatch local;
     /* 5 */ const LocalResult found = local_step_.run(q_, s_, inertia_weights_, is_held_, residual_, *threads_);
+    if (!std::isfinite(found.residual)) report_divergence(state);
     record(found);
     report.residual = found.residual;
     report.seconds_local += local.seconds();
@@ -39,6 +41,8 @@ StepReport Solver::step(State& state) {
 }
 
 void Solver::predict(const State& state) {
+  predicted_time_step_ = 0;  // until commit: s is of a step that may yet be refused
+  weigh_inertia(state, settings_.time_step);
   force_.setZero();
   for (Force* force : forces_) force->add_to(force_, state.view(), settings_.time_step);
   const Real h = settings_.time_step;
@@ -46,7 +50,6 @@ void Solver::predict(const State& state) {
     const Real mass = state.masses[static_cast<std::size_t>(i)];
     s_.row(i) = state.positions.row(i) + h * state.velocities.row(i) + h * h / mass * force_.row(i);
   }
-  predicted_time_step_ = h;
 }
 
 void Solver::place_held_vertices(Positions& q) const {
@@ -68,6 +71,7 @@ void Solver::record(const LocalResult& result) {
 void Solver::commit(State& state) {
   state.velocities = (q_ - state.positions) / settings_.time_step;
   state.positions = q_;
+  predicted_time_step_ = settings_.time_step;
   ++state.step;
   // Kahan's sum: after n steps of h the time is n h to the last digit.
   const Real step = settings_.time_step - state.time_excess;
@@ -78,8 +82,12 @@ void Solver::commit(State& state) {
 
 Evaluation Solver::evaluate(const State& state) {
   if (!groups_laid_out_ || groups_changed()) lay_out_groups();
-  if (predicted_time_step_ == 0) s_ = state.positions;  // nothing has been predicted yet: there is no inertia term
-  weigh_inertia(state, predicted_time_step_ == 0 ? settings_.time_step : predicted_time_step_);
+  const bool is_predicted = predicted_time_step_ > 0;
+  if (!is_predicted) {
+    s_ = state.positions;
+    for (ConstraintGroup* group : groups_) group->begin_step(state.view(), settings_.time_step);
+  }
+  weigh_inertia(state, is_predicted ? predicted_time_step_ : settings_.time_step);
   const LocalResult found = local_step_.run(state.positions, s_, inertia_weights_, is_held_, residual_, *threads_);
   return {found.residual, found.inertia, found.elastic};
 }

@@ -1,6 +1,8 @@
 // SuiteSparse's CHOLMOD, supernodal (Chen et al. 2008). Built only with PLIANT_CHOLMOD: its Supernodal module is GPL.
 #include "pliant/solver/factorization/cholmod_factorization.h"
 
+#include <mutex>
+
 #include <cholmod.h>
 
 extern "C" {
@@ -13,7 +15,8 @@ int openblas_get_num_threads();
 namespace pliant {
 namespace {
 
-/// One thread inside OpenBLAS while it lives: how OpenBLAS splits a product among threads changes the bits.
+/// One thread inside OpenBLAS while it lives: how OpenBLAS splits a product among threads changes the bits. The number
+/// belongs to the whole process, so simulations that factorize at the same time take turns.
 class OneBlasThread {
  public:
   OneBlasThread() { openblas_set_num_threads(1); }
@@ -22,6 +25,12 @@ class OneBlasThread {
   OneBlasThread& operator=(const OneBlasThread&) = delete;
 
  private:
+  static std::mutex& turn() {
+    static std::mutex mutex;
+    return mutex;
+  }
+
+  std::lock_guard<std::mutex> lock_{turn()};
   int threads_ = openblas_get_num_threads();
 };
 

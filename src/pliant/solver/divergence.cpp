@@ -1,0 +1,72 @@
+// Which vertex leaves for a place that is not finite, and why: asked only once a step has failed.
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "pliant/core/error.h"
+#include "pliant/solver/solver.h"
+
+namespace pliant {
+namespace {
+
+/// Positions past this count as diverged [m]: energies of such bodies overflow.
+constexpr Real farthest = 1e100;
+
+/// Whether a coordinate is past that, or not a number.
+template <class Coordinates>
+bool is_far(const Coordinates& x) {
+  return !(x.cwiseAbs().template maxCoeff<Eigen::PropagateNaN>() <= farthest);
+}
+
+[[noreturn]] void fail(const State& state, Real time_step, Index vertex, const std::string& reason) {
+  throw Error(ErrorKind::diverged,
+              fmt::format("step {} (t = {} s): vertex {} would leave for a place that is not finite: {}",
+                          state.step + 1, state.time + time_step, vertex, reason));
+}
+
+}  // namespace
+
+void Solver::check_finite(const State& state) const {
+  if (is_far(q_)) report_divergence(state);
+}
+
+void Solver::report_divergence(const State& state) const {
+  const Real h = settings_.time_step;
+  // In the order of the step. One solve takes the whole body along, so the cause is looked for before that.
+  for (Index i = 0; i < vertex_count_; ++i) {
+    if (!is_held_[static_cast<std::size_t>(i)] && is_far(s_.row(i))) fail(state, h, i, force_reason(state, i));
+  }
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const Index constraint = local_step_.first_not_finite(g);
+    if (constraint < 0) continue;
+    const auto first = static_cast<std::size_t>(constraint) * static_cast<std::size_t>(groups_[g]->shape().vertices);
+    fail(state, h, groups_[g]->stencil()[first],
+         fmt::format("constraint {} of type {} has a force that is not finite; lessen its stiffness", constraint,
+                     groups_[g]->type()));
+  }
+  for (Index i = 0; i < vertex_count_; ++i) {
+    if (!std::isfinite(inertia_weights_[static_cast<std::size_t>(i)])) {
+      fail(state, h, i, "its m/h² is not finite; give a larger time step");
+    }
+    if (is_far(q_.row(i)) || !residual_.row(i).allFinite()) {
+      fail(state, h, i, "the system of equations is too badly conditioned; lessen the ratio of stiffness to m/h²");
+    }
+  }
+  fail(state, h, 0, "the residual has grown past all numbers; lessen the forces or the stiffness");
+}
+
+std::string Solver::force_reason(const State& state, Index vertex) const {
+  const Real h = settings_.time_step;
+  const Real mass = state.masses[static_cast<std::size_t>(vertex)];
+  Positions alone(vertex_count_, 3);
+  for (Force* force : forces_) {
+    alone.setZero();
+    force->add_to(alone, state.view(), h);
+    if (!is_far(alone.row(vertex) * h * h / mass)) continue;
+    return fmt::format("the force `{}` on it has grown without bound; lessen it{}", force->type(),
+                       force->type() == "wind" ? ", or give the wind `area` `rest` or the model `relative`" : "");
+  }
+  return "its velocity has grown without bound; lessen the forces or the time step";
+}
+
+}  // namespace pliant
