@@ -8,6 +8,7 @@
 #include "commands.h"
 #include "pliant/core/error.h"
 #include "pliant/core/version.h"
+#include "terminal.h"
 
 namespace {
 
@@ -20,7 +21,7 @@ Exit codes: 0 done, 2 bad input, 3 diverged, 4 output could not be written, 130 
 
 int print_error(std::string message, pliant::ErrorKind kind) {
   std::ranges::replace(message, '\n', ' ');
-  fmt::print(stderr, "pliant: error: {}\n", message);
+  pliant_cli::print_to_stderr("pliant: error: " + message + "\n");
   return static_cast<int>(kind);
 }
 
@@ -54,6 +55,7 @@ int run_program(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  pliant_cli::guard_streams();
   try {
     return run_program(argc, argv);
   } catch (const pliant::Error& error) {

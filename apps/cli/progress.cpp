@@ -1,7 +1,6 @@
 #include "progress.h"
 
 #include <cmath>
-#include <cstdio>
 #include <string>
 
 #include <fmt/format.h>
@@ -28,18 +27,16 @@ void Progress::update(std::int64_t done, double residual) {
   if (!active_ || done < 1 || now - last_ < 100ms) return;
   last_ = now;
   const double per_step = std::chrono::duration<double>(now - start_).count() / static_cast<double>(done);
-  fmt::print(stderr,
-             "\r\x1b[K"
-             "step {} of {}   {:.3g} ms a step   residual {:.2e} N   {} left",
-             done, steps_, 1e3 * per_step, residual, duration_text(per_step * static_cast<double>(steps_ - done)));
-  std::fflush(stderr);
+  print_to_stderr(fmt::format(
+      "\r\x1b[K"
+      "step {} of {}   {:.3g} ms a step   residual {:.2e} N   {} left",
+      done, steps_, 1e3 * per_step, residual, duration_text(per_step * static_cast<double>(steps_ - done))));
   shown_ = true;
 }
 
 void Progress::clear() {
   if (!shown_) return;
-  fmt::print(stderr, "\r\x1b[K");
-  std::fflush(stderr);
+  print_to_stderr("\r\x1b[K");
   shown_ = false;
 }
 

@@ -74,7 +74,7 @@ class Warnings {
   void print(const pliant::Simulation& simulation, Progress& progress) {
     for (; printed_ < simulation.warnings().size(); ++printed_) {
       progress.clear();
-      fmt::print(stderr, "warning: {}\n", simulation.warnings()[printed_]);
+      print_to_stderr("warning: " + simulation.warnings()[printed_] + "\n");
     }
   }
 
@@ -118,10 +118,21 @@ void print_summary(const Scene& scene, const pliant::RunInfo& info, std::int64_t
   }
 }
 
+/// The files of a run must not take the place of the scene that they come from.
+void refuse_to_replace(const fs::path& scene, const fs::path& folder) {
+  for (const std::string_view name : {"frames.npy", "measurements.csv", "run.json"}) {
+    std::error_code ignored;
+    if (!fs::equivalent(scene, folder / name, ignored)) continue;
+    pliant::fail_input(fmt::format("{}: the run would replace this scene by its own {}; give another folder by --out",
+                                   scene.string(), name));
+  }
+}
+
 /// Simulates and records; what was recorded is whole however it ends, and run.json says how that was.
 int run_scene(const RunOptions& options) {
   Scene scene = open_scene(options);
   const fs::path folder = options.out.empty() ? fs::path("out") / fs::path(options.scene).stem() : options.out;
+  refuse_to_replace(options.scene, folder);
   catch_interrupts();
   pliant::prepare_run_folder(folder);
   pliant::Recorder recorder(folder, make_frame_writer(scene, folder), scene.output.every, scene.simulation);
@@ -162,7 +173,8 @@ void add_run_command(CLI::App& program, int& exit_code) {
   command->add_option("--steps", overrides.steps, "Steps to take");
   command->add_option("--iterations", overrides.iterations, "Local and global steps in each step");
   command->add_option("--time-step", overrides.time_step, "Length of a step [s]");
-  command->add_option("--tolerance", overrides.tolerance, "Iterate no further below this residual [N]; 0: only at exact rest");
+  command->add_option("--tolerance", overrides.tolerance,
+                      "Iterate no further below this residual [N]; 0: only at exact rest");
   command->add_option("--threads", overrides.threads, "0: one a processor; results do not depend on it");
   add_choice(*command, "--backend", overrides.backend, "Library that factorizes: automatic, eigen or cholmod");
   add_choice(*command, "--format", overrides.format, "Of the frames: npy, obj or none");

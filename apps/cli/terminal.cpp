@@ -1,7 +1,9 @@
 #include "terminal.h"
 
 #include <csignal>
+#include <cstdio>
 
+#include <fcntl.h>
 #include <unistd.h>
 
 namespace pliant_cli {
@@ -14,6 +16,20 @@ extern "C" void on_interrupt(int) {
 }
 
 }  // namespace
+
+void guard_streams() {
+  for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream) {
+    if (fcntl(stream, F_GETFD) != -1) continue;
+    if (open("/dev/null", O_RDWR) == -1) return;  // takes the lowest free number: this one
+  }
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+}
+
+void print_to_stderr(std::string_view text) {
+  std::fwrite(text.data(), 1, text.size(), stderr);
+  std::fflush(stderr);
+}
 
 void catch_interrupts() {
   struct sigaction action = {};

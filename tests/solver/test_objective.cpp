@@ -141,8 +141,8 @@ TEST_CASE("after a replaced state there is no inertia term, and a refused step l
 }
 
 TEST_CASE("a tolerance ends the iterations early, and the step is converged to it") {
-  Simulation simulation = everything({.iterations = 100000, .tolerance = 1e-6}, 6);
-  for (int step = 0; step < 5; ++step) {
+  Simulation simulation = everything({.iterations = 100000, .tolerance = 1e-6}, 4);
+  for (int step = 0; step < 3; ++step) {
     const StepReport report = simulation.step();
     CHECK(report.reached_tolerance);
     CHECK(report.iterations < 100000);
@@ -157,7 +157,7 @@ TEST_CASE("a tolerance ends the iterations early, and the step is converged to i
 
 TEST_CASE("both starts lead to the same converged step, and differ before") {
   const auto run = [](Start start, Index iterations) {
-    Simulation simulation = everything({.iterations = iterations, .tolerance = 1e-9, .start = start}, 6);
+    Simulation simulation = everything({.iterations = iterations, .tolerance = 1e-9, .start = start}, 4);
     simulation.step();
     return simulation.state().positions;
   };
@@ -214,6 +214,22 @@ TEST_CASE("an unloaded body at rest stays, wherever it is and however it is turn
         CAPTURE(place);
         CHECK((simulation.state().positions - start).rowwise().norm().maxCoeff() < 1e-12 * size);
       }
+    }
+  }
+}
+
+TEST_CASE("strain alone keeps an unloaded body at rest to the last bit: rounding has no torque") {
+  Random random;
+  for (const Mesh& mesh : {grid({.columns = 8, .rows = 6}), torus({.major_segments = 12, .minor_segments = 8}),
+                           bar({.cells = {4, 2, 2}})}) {
+    for (const Real stiffness : {1e3, 1e7}) {
+      Simulation simulation({.iterations = 3, .threads = 1});
+      const Positions start = (mesh.vertices * random.rotation()).rowwise() + Eigen::RowVector3d(-0.3, 0.2, 0.5);
+      const BodyId body = simulation.add_body(mesh, Mass::total(1), {.start = start});
+      simulation.add(body, TriangleStrain{.stiffness = stiffness});
+      simulation.add(body, TetrahedronStrain{.stiffness = 100 * stiffness});
+      advance(simulation, 100);
+      CHECK(simulation.state().positions == start);
     }
   }
 }

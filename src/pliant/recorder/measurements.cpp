@@ -1,9 +1,12 @@
 #include "pliant/recorder/measurements.h"
 
 #include <array>
+#include <cmath>
 #include <string>
 
 #include <fmt/format.h>
+
+#include "pliant/core/error.h"
 
 namespace pliant {
 namespace {
@@ -46,6 +49,25 @@ std::string csv_field(std::string_view text) {
 
 }  // namespace
 
+namespace {
+
+/// Positions may still be finite where their energies no longer are.
+void check_finite(const Measurements& row) {
+  const auto check = [&row](const auto& columns) {
+    for (const Column& column : columns) {
+      if (std::isfinite(column.value(row))) continue;
+      throw Error(ErrorKind::diverged,
+                  fmt::format("step {} (t = {} s): `{}` is not finite; lessen masses, stiffness or velocities, or give "
+                              "a larger time step",
+                              row.step, row.time, column.name));
+    }
+  };
+  check(before_elastic);
+  check(after_elastic);
+}
+
+}  // namespace
+
 Measurements measure(Simulation& simulation, const StepReport& report) {
   const Evaluation evaluation = simulation.evaluate();
   const State& state = simulation.state();
@@ -73,6 +95,7 @@ Measurements measure(Simulation& simulation, const StepReport& report) {
     if (force->type() == "gravity") row.gravitational += potential;
     row.total += potential;
   }
+  check_finite(row);
   return row;
 }
 

@@ -9,8 +9,11 @@
 
 namespace pliant {
 
-OutputFile::OutputFile(std::filesystem::path path)
-    : path_(std::move(path)), file_(std::fopen(path_.string().c_str(), "wb")) {
+OutputFile::OutputFile(std::filesystem::path path) : path_(std::move(path)) {
+  std::error_code ignored;
+  const std::filesystem::file_status status = std::filesystem::status(path_, ignored);
+  if (std::filesystem::is_fifo(status)) fail(EINVAL);  // opening it would wait for a reader
+  file_.reset(std::fopen(path_.string().c_str(), "wb"));
   if (!file_) fail(errno);
 }
 
