@@ -48,7 +48,7 @@ TEST_CASE("the same bits for any number of threads, and from run to run") {
         CHECK(same_bits(run(threads, backend), bits));
       }
     } catch (const Error& error) {
-      MESSAGE("skipped: ", error.what());
+      MESSAGE("skipped: ", std::string(error.what()));
     }
   }
 }

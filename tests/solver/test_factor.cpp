@@ -69,7 +69,7 @@ void for_each_backend(Check&& check) {
     try {
       factorization = make_factorization(backend);
     } catch (const Error& error) {
-      MESSAGE("skipped: ", error.what());
+      MESSAGE("skipped: ", std::string(error.what()));
       continue;
     }
     CAPTURE(factorization->name());

@@ -21,8 +21,7 @@ std::span<Real> ConstraintGroup::targets() {
 
 namespace {
 
-void check_index(Index vertex, Index vertex_count, const std::string& where) {
-  if (vertex >= 0 && vertex < vertex_count) return;
+[[noreturn]] void fail_index(Index vertex, Index vertex_count, const std::string& where) {
   fail_input(where + ": vertex " + std::to_string(vertex) + " is out of range; there are vertices 0 to " +
              std::to_string(vertex_count - 1));
 }
@@ -50,22 +49,24 @@ void check_group(ConstraintGroup& group, Index vertex_count, std::string_view na
   const auto n = static_cast<std::size_t>(shape.vertices);
   const auto finite = [](Real x) { return std::isfinite(x); };
   for (std::size_t i = 0; i < static_cast<std::size_t>(shape.count); ++i) {
-    const std::string constraint = where + ": constraint " + std::to_string(i);
+    const auto constraint = [&] { return where + ": constraint " + std::to_string(i); };
     const std::span<const Index> stencil = group.stencil().subspan(i * n, n);
     for (std::size_t a = 0; a < n; ++a) {
-      check_index(stencil[a], vertex_count, constraint);
+      if (stencil[a] < 0 || stencil[a] >= vertex_count) fail_index(stencil[a], vertex_count, constraint());
       if (std::ranges::find(stencil.first(a), stencil[a]) == stencil.first(a).end()) continue;
-      fail_input(constraint + " names vertex " + std::to_string(stencil[a]) + " twice; its vertices must differ");
+      fail_input(constraint() + " names vertex " + std::to_string(stencil[a]) + " twice; its vertices must differ");
     }
     const std::size_t size = n * static_cast<std::size_t>(shape.rows);
     if (!std::ranges::all_of(group.reduction().subspan(i * size, size), finite)) {
-      fail_input(constraint + " has a coefficient that is not finite; mend its rest shape");
+      fail_input(constraint() + " has a coefficient that is not finite; mend its rest shape");
     }
     if (!(group.measure()[i] > 0) || !std::isfinite(group.measure()[i])) {
-      fail_input(constraint + " has a measure that is not positive and finite; mend its rest shape or stiffness");
+      fail_input(constraint() + " has a measure that is not positive and finite; mend its rest shape or stiffness");
     }
   }
-  for (const Index vertex : group.held_vertices()) check_index(vertex, vertex_count, where);
+  for (const Index vertex : group.held_vertices()) {
+    if (vertex < 0 || vertex >= vertex_count) fail_index(vertex, vertex_count, where);
+  }
   if (3 * group.held_vertices().size() > group.targets().size()) {
     fail_input(where + " holds vertices that have no target; give each a point");
   }
