@@ -27,10 +27,12 @@ std::atomic<long> allocations = 0;
 
 #if PLIANT_OWN_MALLOC
 extern "C" {
+// NOLINTBEGIN(readability-identifier-naming): glibc's names for what is behind malloc
 void* __libc_malloc(std::size_t size);
 void* __libc_calloc(std::size_t count, std::size_t size);
 void* __libc_realloc(void* memory, std::size_t size);
 void* __libc_memalign(std::size_t alignment, std::size_t size);
+// NOLINTEND(readability-identifier-naming)
 
 void* malloc(std::size_t size) {
   ++allocations;
