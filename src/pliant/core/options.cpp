@@ -12,7 +12,7 @@ void check_number(std::string_view type, const OptionInfo& info, Real number, st
   message.imbue(std::locale::classic());
   message << type << ": " << info.name;
   if (is_list) message << '[' << index << ']';
-  message << ": " << number << " is not a finite number";
+  message << ": " << number << " is out of range; give a finite number";
   if (range.min > any_number.min) message << (range.excludes_min ? " above " : " from ") << range.min;
   if (range.max < any_number.max) message << " up to " << range.max;
   if (!info.unit.empty()) message << " [" << info.unit << ']';

@@ -86,7 +86,7 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& folder, st
   scene.name = std::filesystem::path(name).stem().string();
   read_run(root, overrides, scene);
   const SolverSettings settings = read_settings(root, overrides);
-  scene.simulation = root.find("settings").value_or(root).locate([&] { return Simulation(settings); });
+  scene.simulation = root.locate([&] { return Simulation(settings); });
 
   if (const Node bodies = root.require("bodies"); bodies.value().empty()) bodies.fail("there is no body; add one");
   SceneReader reader{scene.simulation, folder, {}};
