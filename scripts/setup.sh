@@ -10,7 +10,7 @@ packages=(
   libsuitesparse-dev libopenblas-dev
   python3 python3-numpy
 )
-dev_packages=(ccache clang clang-format clang-tidy git)
+dev_packages=(ccache clang clang-format clang-tidy git libclang-rt-14-dev)
 
 case "${1-}" in
   "") ;;

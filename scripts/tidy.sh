@@ -20,13 +20,13 @@ for argument in "$@"; do
 done
 if ((changed)); then
   mapfile -t files < <({ git diff --name-only --diff-filter=d HEAD; git ls-files --others --exclude-standard; } |
-    grep '\.cpp$' | grep -v '^examples/consumer/' || true)
+    grep '\.cpp$' | grep -Ev '^(examples/consumer|fuzz)/' || true)
   if [[ ${#files[@]} -eq 0 ]]; then
     echo "clang-tidy: no source differs from the last commit, nothing was checked."
     exit 0
   fi
 elif [[ ${#files[@]} -eq 0 ]]; then
-  mapfile -t files < <(git ls-files --cached --others --exclude-standard -- '*.cpp' ':!examples/consumer' |
+  mapfile -t files < <(git ls-files --cached --others --exclude-standard -- '*.cpp' ':!examples/consumer' ':!fuzz' |
     while read -r file; do [[ ! -e "$file" ]] || echo "$file"; done)
 fi
 if [[ ${#files[@]} -eq 0 ]]; then
