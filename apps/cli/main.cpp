@@ -56,6 +56,7 @@ int run_program(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   pliant_cli::guard_streams();
+  pliant_cli::limit_memory();
   try {
     return run_program(argc, argv);
   } catch (const pliant::Error& error) {

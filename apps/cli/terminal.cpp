@@ -2,8 +2,12 @@
 
 #include <csignal>
 #include <cstdio>
+#include <fstream>
+#include <limits>
+#include <string>
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 namespace pliant_cli {
@@ -24,6 +28,41 @@ void guard_streams() {
   }
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
+}
+
+namespace {
+
+/// Bytes of memory that a process may still take [B]; 0 where the system does not say.
+rlim_t free_memory() {
+  std::ifstream file("/proc/meminfo");
+  std::string name;
+  for (rlim_t kilobytes = 0; file >> name >> kilobytes;
+       file.ignore(std::numeric_limits<std::streamsize>::max(), '\n')) {
+    if (name == "MemAvailable:") return kilobytes * 1024;
+  }
+  return 0;
+}
+
+/// Bytes of writable memory that this process has mapped.
+rlim_t mapped_memory() {
+  std::ifstream file("/proc/self/statm");
+  rlim_t pages = 0;
+  for (int field = 0; field < 6; ++field) file >> pages;  // the sixth: data and stack
+  return pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
+}
+
+}  // namespace
+
+void limit_memory() {
+  const rlim_t available = free_memory();
+  const rlim_t mapped = mapped_memory();
+  rlimit limit = {};
+  // A sanitizer maps more than there is, and checks what is used itself.
+  if (available == 0 || mapped > available || getrlimit(RLIMIT_DATA, &limit) != 0) return;
+  const rlim_t most = mapped + available - available / 16;
+  if (limit.rlim_cur != RLIM_INFINITY && limit.rlim_cur <= most) return;
+  limit.rlim_cur = most;
+  setrlimit(RLIMIT_DATA, &limit);
 }
 
 void print_to_stderr(std::string_view text) {

@@ -8,6 +8,10 @@ namespace pliant_cli {
 /// with it what is printed there; a reader that has gone and a file past its limit become errors of the write.
 void guard_streams();
 
+/// Lets no allocation go past the memory that is free now, so that a scene too large for this machine ends in
+/// std::bad_alloc, and not with the system killing this program or another.
+void limit_memory();
+
 /// Writes to the standard error. What cannot be written there has nowhere else to go: it is dropped.
 void print_to_stderr(std::string_view text);
 
