@@ -1,0 +1,23 @@
+#pragma once
+// The outside of a checkpoint: what makes a file that was cut, or of which a single byte changed, known as such.
+//
+//     bytes 0-7     "PLIANTCP"
+//     bytes 8-11    version of the format, 1
+//     bytes 12-15   CRC-32 of everything behind, and of the version
+//     bytes 16-23   number of bytes behind
+//     bytes 24-     the content: CBOR (RFC 8949)
+//
+// Numbers are little-endian.
+#include <string>
+#include <string_view>
+
+namespace pliant {
+
+/// The bytes of a file with that content.
+std::string seal(std::string_view content);
+
+/// The content of a file; `name` is what messages call it.
+/// @throws Error (input): not a checkpoint, of another version, cut or longer than it says, damaged.
+std::string_view unseal(std::string_view bytes, std::string_view name);
+
+}  // namespace pliant
