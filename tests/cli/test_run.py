@@ -135,8 +135,9 @@ class Run(unittest.TestCase):
         self.assertFalse(self.out.exists())
 
     def test_divergence_exits_with_3_and_leaves_what_came_before(self):
-        scene = self.write_scene({"forces": [{"type": "test_force", "vertex": 5, "force": [1e308, 0, 0],
-                                              "frames": [4, 9]}], "settings": {"time_step": 100}})
+        # An explicit spring far beyond its limit: each step multiplies the displacement by about 1e17.
+        scene = self.write_scene({"forces": [{"type": "mouse_spring", "vertex": 5, "anchor": [0, 0, 1],
+                                              "stiffness": 1e20}], "settings": {"time_step": 100}})
         error = self.pliant("run", scene, "--out", self.out, expect=3).stderr
         self.assertRegex(error, r"vertex \d+")
         frames = numpy.load(self.out / "frames.npy")
@@ -145,7 +146,7 @@ class Run(unittest.TestCase):
         self.assertIn(info["error"], error)
         self.assertEqual(len(frames), info["totals"]["frames"])
         self.assertEqual(len(frames), self.rows())
-        self.assertEqual(len(frames), 5)
+        self.assertGreater(len(frames), 3)
         self.assertTrue(numpy.isfinite(frames).all())
 
     def test_output_that_cannot_be_written_exits_with_4(self):
