@@ -3,6 +3,8 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,6 +19,9 @@ enum class PointCacheFormat { pc2, mdd, npy };
 constexpr std::array<std::string_view, 3> choice_names(PointCacheFormat) {
   return {"pc2", "mdd", "npy"};
 }
+
+/// The format that a file's extension tells, in any case; none for another extension.
+std::optional<PointCacheFormat> point_cache_format(const std::filesystem::path& path);
 
 struct PointCacheOptions {
   Real frames_per_second = 24;  ///< what a frame of a PC2 or NPY file lasts, > 0; an MDD file has its own times
@@ -33,6 +38,9 @@ class PointCache {
   /// The same for bytes. `name` is what messages call them.
   static PointCache parse(std::string bytes, std::string_view name, PointCacheFormat format,
                           const PointCacheOptions& options = {});
+
+  /// Frames that are there already, m × 3 each, with their times [s].
+  static PointCache from_frames(std::span<const Positions> frames, std::vector<Real> times);
 
   Index vertex_count() const { return vertex_count_; }
   std::int64_t frame_count() const { return static_cast<std::int64_t>(times_.size()); }
@@ -58,6 +66,10 @@ class PointCache {
  private:
   /// How a number is stored.
   enum class Scalar { float32, float32_big_endian, float64 };
+
+  static PointCache parse_pc2(std::string bytes, std::string_view name, Real frames_per_second);
+  static PointCache parse_mdd(std::string bytes, std::string_view name);
+  static PointCache parse_npy(std::string bytes, std::string_view name, Real frames_per_second);
 
   PointCache(std::string bytes, std::size_t first_byte, Scalar scalar, Index vertex_count, std::vector<Real> times);
   Real number(std::size_t i) const;
