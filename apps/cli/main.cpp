@@ -7,6 +7,7 @@
 
 #include "commands.h"
 #include "pliant/core/error.h"
+#include "pliant/core/printable.h"
 #include "pliant/core/version.h"
 #include "terminal.h"
 
@@ -19,9 +20,12 @@ constexpr std::string_view help_footer = R"(Examples:
 
 Exit codes: 0 done, 2 bad input, 3 diverged, 4 output could not be written, 130 interrupted.)";
 
+/// Bytes of a message; more is read by nobody.
+constexpr std::size_t longest_message = 900;
+
 int print_error(std::string message, pliant::ErrorKind kind) {
   std::ranges::replace(message, '\n', ' ');
-  pliant_cli::print_to_stderr("pliant: error: " + message + "\n");
+  pliant_cli::print_to_stderr("pliant: error: " + pliant::printable(message, longest_message) + "\n");
   return static_cast<int>(kind);
 }
 
