@@ -96,6 +96,27 @@ Animation animate(Mesh mesh, std::string name, PointCache cache) {
   return {std::move(name), std::move(bodies), std::move(cache), std::move(times)};
 }
 
+Animation animate(std::string name, PointCache cache) {
+  std::vector<Real> times = all_times(cache);
+  return {std::move(name), {}, std::move(cache), std::move(times)};
+}
+
+PointCache place(PointCache cache, const ImportOptions& options) {
+  check_options("point cache", options);
+  if (options.scale == 1 && options.up == UpAxis::z) return cache;
+  Mat3 turn = Mat3::Identity();
+  if (options.up == UpAxis::y) turn << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+  if (options.up == UpAxis::x) turn << 0, 0, -1, 0, 1, 0, 1, 0, 0;
+  const Mat3 placement = options.scale * turn;
+  std::vector<Positions> frames(static_cast<std::size_t>(cache.frame_count()));
+  Positions positions;
+  for (std::size_t frame = 0; frame < frames.size(); ++frame) {
+    cache.frame(static_cast<std::int64_t>(frame), positions);
+    frames[frame] = positions * placement.transpose();
+  }
+  return PointCache::from_frames(frames, all_times(cache));
+}
+
 Animation still(Mesh mesh, std::string name) {
   PointCache cache = PointCache::from_frames(std::span(&mesh.vertices, 1), {0});
   return animate(std::move(mesh), std::move(name), std::move(cache));

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "pliant/mesh/io/mesh_file.h"
 #include "pliant/mesh/io/point_cache.h"
 #include "pliant/simulation/simulation.h"
 
@@ -24,6 +25,13 @@ Animation read_run(const std::filesystem::path& folder);
 
 /// A mesh, as one body of that name, that a cache moves. @throws Error (input): another count of vertices.
 Animation animate(Mesh mesh, std::string name, PointCache cache);
+
+/// Points without a mesh.
+Animation animate(std::string name, PointCache cache);
+
+/// The same cache with its positions in metres and +z up, as read_mesh places a mesh.
+/// @throws Error (input): a scale that is not a positive number, positions that are not finite with it.
+PointCache place(PointCache cache, const ImportOptions& options);
 
 /// A mesh that stands still: one frame.
 Animation still(Mesh mesh, std::string name);

@@ -8,9 +8,9 @@
 #include <fmt/ranges.h>
 
 #include "pliant/core/error.h"
+#include "pliant/mesh/io/mesh_file.h"
 #include "pliant/recorder/detail/array_format.h"
 #include "pliant/recorder/detail/export_formats.h"
-#include "pliant/mesh/io/mesh_file.h"
 #include "pliant/recorder/detail/one_mesh.h"
 
 namespace pliant {
@@ -18,8 +18,6 @@ namespace pliant {
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr Real gltf_tolerance = 1e-3;
 
 bool is_gltf(AnimationFormat format) {
   return format == AnimationFormat::gltf || format == AnimationFormat::glb;
@@ -34,7 +32,7 @@ std::vector<std::size_t> all_frames(const Animation& animation) {
 /// All frames, unless the format interpolates between fewer.
 Keyframes keyframes_for(AnimationFormat format, const Animation& animation, const ExportOptions& options) {
   if (is_gltf(format)) {
-    return choose_keyframes(animation, options.tolerance.value_or(gltf_tolerance), options.max_keyframes);
+    return choose_keyframes(animation, options.tolerance.value_or(default_gltf_tolerance), options.max_keyframes);
   }
   if (!options.tolerance) return {all_frames(animation), 0};
   if (format != AnimationFormat::usda) {

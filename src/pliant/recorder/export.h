@@ -26,9 +26,12 @@ constexpr std::array<std::string_view, 2> choice_names(Normals) {
   return {"smooth", "flat"};
 }
 
+inline constexpr Real default_gltf_tolerance = 1e-3;
+
 struct ExportOptions {
   /// How far linear interpolation between keyframes may be off, in sizes of the body (keyframes.h). 0 keeps all frames
-  /// that are not exactly between others. Default: 0.001 for glTF, all frames for USD; the other formats take none.
+  /// that are not exactly between others. Default: default_gltf_tolerance for glTF, all frames for USD; the other
+  /// formats take none.
   std::optional<Real> tolerance = {};
   /// Of glTF, ≥ 2: each but the first is a morph target, and all of them have a weight at each. 256 layers of a texture
   /// are what every browser has for them.
