@@ -17,6 +17,7 @@ constexpr std::string_view help_footer = R"(Examples:
   pliant scenes                                  lists the built-in scenes
   pliant run curtain_wind --out out/curtain      simulates one of them
   pliant run my_scene.json --format obj          simulates your own, one OBJ file a frame
+  pliant convert out/curtain curtain.glb         exports a run as an animation
 
 Exit codes: 0 done, 2 bad input, 3 diverged, 4 output could not be written, 130 interrupted.)";
 
@@ -43,6 +44,7 @@ int run_program(int argc, char** argv) {
   program.require_subcommand(1);
   int exit_code = 0;
   pliant_cli::add_run_command(program, exit_code);
+  pliant_cli::add_convert_command(program);
   pliant_cli::add_scenes_command(program);
   try {
     program.parse(argc, argv);

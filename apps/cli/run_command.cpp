@@ -1,5 +1,4 @@
 // pliant run: a scene to files.
-#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -7,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "choice_option.h"
 #include "commands.h"
 #include "pliant/core/printable.h"
 #include "pliant/recorder/recorder.h"
@@ -30,17 +30,6 @@ struct RunOptions {
   bool quiet = false;
   pliant::SceneOverrides overrides;
 };
-
-/// An option whose value is one of the names of an enumeration.
-template <class Choice>
-void add_choice(CLI::App& command, const std::string& name, std::optional<Choice>& choice, const std::string& help) {
-  constexpr auto names = choice_names(Choice{});
-  const auto take = [&choice, names](const std::string& value) {
-    choice = static_cast<Choice>(std::ranges::find(names, std::string_view(value)) - names.begin());
-  };
-  command.add_option_function<std::string>(name, take, help)
-      ->check(CLI::IsMember(std::vector<std::string>(names.begin(), names.end())));
-}
 
 /// A file where there is one of that name, else a built-in scene; a folder hides none.
 Scene open_scene(const RunOptions& options) {

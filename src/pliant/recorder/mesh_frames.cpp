@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "pliant/recorder/detail/mesh_file.h"
+#include "pliant/mesh/io/mesh_file.h"
 #include "pliant/recorder/detail/one_mesh.h"
 #include "pliant/recorder/frame_writer.h"
 #include "pliant/recorder/run_files.h"

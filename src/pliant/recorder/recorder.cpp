@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "pliant/core/error.h"
-#include "pliant/recorder/detail/mesh_file.h"
+#include "pliant/mesh/io/mesh_file.h"
 #include "pliant/recorder/detail/one_mesh.h"
 #include "pliant/recorder/run_files.h"
 

@@ -7,8 +7,11 @@
 #include <fmt/ranges.h>
 
 #include "pliant/core/error.h"
+#include "pliant/mesh/io/detail/readers.h"
 #include "pliant/mesh/io/obj.h"
-#include "pliant/mesh/io/read_file.h"
+#include "pliant/mesh/io/off.h"
+#include "pliant/mesh/io/ply.h"
+#include "pliant/mesh/io/stl.h"
 
 namespace pliant {
 
@@ -22,16 +25,18 @@ MeshFormat known_format(const std::filesystem::path& path) {
                          fmt::join(format_names, ", .")));
 }
 
-Mesh parse(std::string_view bytes, std::string_view name, MeshFormat format) {
+Mesh read(const ByteSource& source, MeshFormat format) {
   switch (format) {
     case MeshFormat::obj:
-      return parse_obj(bytes, name);
+      return read_obj(source);
     case MeshFormat::ply:
+      return read_ply(source);
     case MeshFormat::off:
+      return read_off(source);
     case MeshFormat::stl:
-      break;
+      return read_stl(source);
   }
-  fail_input(fmt::format("{}: this format cannot be read yet; convert it to OBJ", name));
+  source.fail("a format that has no reader; see mesh_file.h");
 }
 
 /// Scales, then turns the file's up axis to +z. Differences from 0 keep zeros positive.
@@ -56,6 +61,13 @@ void place(Mesh& mesh, const ImportOptions& options, std::string_view name) {
   }
 }
 
+Mesh read_and_place(const ByteSource& source, MeshFormat format, const ImportOptions& options) {
+  check_options(source.name(), options);
+  Mesh mesh = read(source, format);
+  place(mesh, options, source.name());
+  return mesh;
+}
+
 }  // namespace
 
 std::optional<MeshFormat> mesh_format(const std::filesystem::path& path) {
@@ -72,20 +84,25 @@ std::optional<MeshFormat> mesh_format(const std::filesystem::path& path) {
 }
 
 Mesh parse_mesh(std::string_view bytes, std::string_view name, MeshFormat format, const ImportOptions& options) {
-  check_options(name, options);
-  Mesh mesh = parse(bytes, name, format);
-  place(mesh, options, name);
-  return mesh;
+  return read_and_place(ByteSource(bytes, name), format, options);
 }
 
 Mesh read_mesh(const std::filesystem::path& path, const ImportOptions& options) {
   const MeshFormat format = known_format(path);
-  return parse_mesh(read_file(path), path.string(), format, options);
+  return read_and_place(ByteSource(path), format, options);
 }
 
 void write_mesh(const std::filesystem::path& path, const Mesh& mesh, const Positions& positions) {
-  if (known_format(path) == MeshFormat::obj) return write_obj(path, mesh, positions);
-  fail_input(fmt::format("{}: this format cannot be written yet; write OBJ", path.string()));
+  switch (known_format(path)) {
+    case MeshFormat::obj:
+      return write_obj(path, mesh, positions);
+    case MeshFormat::ply:
+      return write_ply(path, mesh, positions);
+    case MeshFormat::off:
+      return write_off(path, mesh, positions);
+    case MeshFormat::stl:
+      return write_stl(path, mesh, positions);
+  }
 }
 
 }  // namespace pliant

@@ -7,19 +7,6 @@
 namespace pliant {
 namespace {
 
-/// The faces that a mesh shows: its polygons, else its triangles, else the surface of its tetrahedra.
-PolygonFaces visible_faces(const Mesh& mesh) {
-  if (mesh.faces.face_count() > 0) return mesh.faces;
-  const std::vector<Triangle> triangles = mesh.triangles.empty() ? boundary_triangles(mesh.tetrahedra) : mesh.triangles;
-  PolygonFaces faces;
-  faces.offsets.push_back(0);
-  for (const Triangle& triangle : triangles) {
-    faces.vertices.insert(faces.vertices.end(), triangle.begin(), triangle.end());
-    faces.offsets.push_back(static_cast<Index>(faces.vertices.size()));
-  }
-  return faces;
-}
-
 /// Appends faces whose vertices and texture coordinates start at the given ones.
 void append_faces(PolygonFaces& all, const PolygonFaces& faces, Index first_vertex, Index first_texture) {
   const auto first_corner = static_cast<Index>(all.vertices.size());
@@ -59,6 +46,18 @@ Mesh objects_of_one_mesh(std::span<const Body> bodies) {
 }
 
 }  // namespace
+
+PolygonFaces visible_faces(const Mesh& mesh) {
+  if (mesh.faces.face_count() > 0) return mesh.faces;
+  const std::vector<Triangle> triangles = mesh.triangles.empty() ? boundary_triangles(mesh.tetrahedra) : mesh.triangles;
+  PolygonFaces faces;
+  faces.offsets.push_back(0);
+  for (const Triangle& triangle : triangles) {
+    faces.vertices.insert(faces.vertices.end(), triangle.begin(), triangle.end());
+    faces.offsets.push_back(static_cast<Index>(faces.vertices.size()));
+  }
+  return faces;
+}
 
 Mesh one_mesh(std::span<const Body> bodies) {
   return bodies.size() == 1 ? bodies.front().mesh : objects_of_one_mesh(bodies);
