@@ -7,6 +7,7 @@
 
 #include "commands.h"
 #include "pliant/core/error.h"
+#include "pliant/core/printable.h"
 #include "pliant/core/version.h"
 #include "terminal.h"
 
@@ -16,12 +17,16 @@ constexpr std::string_view help_footer = R"(Examples:
   pliant scenes                                  lists the built-in scenes
   pliant run curtain_wind --out out/curtain      simulates one of them
   pliant run my_scene.json --format obj          simulates your own, one OBJ file a frame
+  pliant convert out/curtain curtain.glb         exports a run as an animation
 
 Exit codes: 0 done, 2 bad input, 3 diverged, 4 output could not be written, 130 interrupted.)";
 
+/// Bytes of a message; more is read by nobody.
+constexpr std::size_t longest_message = 900;
+
 int print_error(std::string message, pliant::ErrorKind kind) {
   std::ranges::replace(message, '\n', ' ');
-  pliant_cli::print_to_stderr("pliant: error: " + message + "\n");
+  pliant_cli::print_to_stderr("pliant: error: " + pliant::printable(message, longest_message) + "\n");
   return static_cast<int>(kind);
 }
 
@@ -39,6 +44,7 @@ int run_program(int argc, char** argv) {
   program.require_subcommand(1);
   int exit_code = 0;
   pliant_cli::add_run_command(program, exit_code);
+  pliant_cli::add_convert_command(program);
   pliant_cli::add_scenes_command(program);
   try {
     program.parse(argc, argv);

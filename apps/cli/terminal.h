@@ -11,7 +11,6 @@ void guard_streams();
 /// Lets no allocation go past the memory that is free now, so that a scene too large for this machine ends in
 /// std::bad_alloc, and not with the system killing this program or another.
 void limit_memory();
-
 /// Writes to the standard error. What cannot be written there has nowhere else to go: it is dropped.
 void print_to_stderr(std::string_view text);
 

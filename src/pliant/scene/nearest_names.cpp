@@ -4,8 +4,7 @@
 #include <numeric>
 #include <utility>
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
+#include "pliant/core/printable.h"
 
 namespace pliant {
 namespace {
@@ -29,16 +28,31 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::vector<std::string_view> nearest_names(std::string_view word, std::vector<std::string_view> names) {
-  word = word.substr(0, 64);  // no name is longer, and the cost grows with the length
-  std::ranges::stable_sort(names, {}, [&](std::string_view name) {
+  constexpr std::size_t compared = 64;  // no key is longer, and the cost grows with the lengths
+  word = word.substr(0, compared);
+  std::vector<std::pair<bool, std::size_t>> distances;
+  distances.reserve(names.size());
+  for (const std::string_view name : names) {
     const bool is_beginning = !word.empty() && name.starts_with(word);
-    return std::pair(!is_beginning, edit_distance(word, name));
-  });
-  return names;
+    distances.emplace_back(!is_beginning, edit_distance(word, name.substr(0, compared)));
+  }
+  std::vector<std::size_t> order(names.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return distances[i]; });
+  std::vector<std::string_view> ordered;
+  ordered.reserve(names.size());
+  for (const std::size_t i : order) ordered.push_back(names[i]);
+  return ordered;
 }
 
 std::string nearest_names_text(std::string_view word, std::vector<std::string_view> names) {
-  return fmt::format("{}", fmt::join(nearest_names(word, std::move(names)), ", "));
+  constexpr std::size_t shown = 24;
+  std::string text;
+  const std::vector<std::string_view> ordered = nearest_names(word, std::move(names));
+  for (std::size_t i = 0; i < std::min(shown, ordered.size()); ++i) {
+    text += (i == 0 ? "" : ", ") + printable(ordered[i], 64);
+  }
+  return ordered.size() > shown ? text + ", ..." : text;
 }
 
 }  // namespace pliant

@@ -10,7 +10,7 @@ namespace pliant {
 /// distance), then in the given order.
 std::vector<std::string_view> nearest_names(std::string_view word, std::vector<std::string_view> names);
 
-/// The same as text: "columns, rows, size".
+/// The first two dozen of them as text: "columns, rows, size".
 std::string nearest_names_text(std::string_view word, std::vector<std::string_view> names);
 
 }  // namespace pliant

@@ -12,7 +12,7 @@ constexpr std::int64_t format_version = 1;
 
 void check_version(const Node& root) {
   const Node version = root.require("pliant");
-  if (version.value() != format_version) {
+  if (!version.is_integer() || version.integer() != format_version) {
     version.fail(fmt::format("this program reads scenes of version {} alone; write \"pliant\": {}", format_version,
                              format_version));
   }
@@ -52,7 +52,7 @@ void add_gravity(const Node& root, Simulation& simulation) {
   const auto node = root.find("gravity");
   if (!node) {
     simulation.add_force(std::make_unique<Gravity>());
-  } else if (!node->value().is_null()) {
+  } else if (!node->is_null()) {
     Vec3 acceleration;
     read(*node, acceleration);
     simulation.add_force(std::make_unique<Gravity>(acceleration));
@@ -64,7 +64,7 @@ void for_each_entry(const Node& root, std::string_view key, auto&& f) {
   const auto list = root.find(key);
   if (!list) return;
   list->require_list();
-  for (std::size_t i = 0; i < list->value().size(); ++i) f((*list)[i]);
+  for (std::size_t i = 0; i < list->size(); ++i) f((*list)[i]);
 }
 
 }  // namespace
@@ -76,8 +76,8 @@ StepReport Scene::step() {
 
 Scene parse_scene(std::string_view text, const std::filesystem::path& folder, std::string_view name,
                   const SceneOverrides& overrides) {
-  const Json json = parse_json(text, name);
-  const Node root(name, json);
+  const Document document = parse_json(text, name);
+  const Node root(document, name);
   root.require_object();
   check_version(root);
   root.check_keys(
@@ -88,7 +88,7 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& folder, st
   const SolverSettings settings = read_settings(root, overrides);
   scene.simulation = root.locate([&] { return Simulation(settings); });
 
-  if (const Node bodies = root.require("bodies"); bodies.value().empty()) bodies.fail("there is no body; add one");
+  if (const Node bodies = root.require("bodies"); bodies.empty()) bodies.fail("there is no body; add one");
   SceneReader reader{scene.simulation, folder, {}};
   for_each_entry(root, "bodies", [&](const Node& node) { reader.read_body(node); });
   add_gravity(root, scene.simulation);
@@ -102,8 +102,8 @@ Scene load_scene(const std::filesystem::path& file, const SceneOverrides& overri
 }
 
 std::string scene_description(std::string_view text, std::string_view name) {
-  const Json json = parse_json(text, name);
-  const Node root(name, json);
+  const Document document = parse_json(text, name);
+  const Node root(document, name);
   root.require_object();
   std::string description;
   read_optional(root, "description", description);

@@ -1,47 +1,55 @@
 #pragma once
-// A scene file as a tree whose values know their place, for messages. Private to scene/: nlohmann's header is not part
-// of the interface.
+// Values of a scene that know their place, for messages.
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "pliant/core/error.h"
+#include "pliant/core/printable.h"
+#include "pliant/scene/document.h"
 
 namespace pliant {
 
-using Json = nlohmann::json;
-
-/// Lists and objects inside each other, at most.
-inline constexpr std::size_t max_json_depth = 64;
-
-/// Reads a text. `file` is what messages call it.
-/// @throws Error (input): `file:line:column: what` for a slip of syntax; `file: path: what` for a key that stands twice
-///   in an object, a number beyond the range of doubles, or too many levels.
-Json parse_json(std::string_view text, std::string_view file);
-
-/// Text of the user's made fit for one line of a message: without control characters, cut when long.
-std::string printable(std::string_view text);
-
-/// A value and its place, "bodies[0].mesh"; the whole text has the empty path. Refers to file name and value, which
-/// must live longer.
+/// A value and its place, "bodies[0].mesh"; the whole text has the empty path. Cheap to copy: the path is found when a
+/// message needs it. Refers to document and file name, which must live longer.
 class Node {
  public:
-  Node(std::string_view file, const Json& value, std::string path = {})
-      : file_(file), value_(&value), path_(std::move(path)) {}
+  /// The whole document.
+  Node(const Document& document, std::string_view file) : Node(document, file, document.root()) {}
 
-  const Json& value() const { return *value_; }
+  bool is_null() const { return kind() == Document::Kind::null; }
+  bool is_boolean() const { return kind() == Document::Kind::boolean; }
+  bool is_number() const { return is_integer() || kind() == Document::Kind::real; }
+  /// A number without point and exponent, within 64 bits.
+  bool is_integer() const { return kind() == Document::Kind::integer || kind() == Document::Kind::wide_integer; }
+  bool is_text() const { return kind() == Document::Kind::text; }
+  /// Bytes, of which JSON has none.
+  bool is_bytes() const { return kind() == Document::Kind::bytes; }
+  bool is_list() const { return kind() == Document::Kind::list; }
+  bool is_object() const { return kind() == Document::Kind::object; }
+
+  /// Entries of a list or keys of an object; 0 for other values.
+  std::size_t size() const { return is_list() || is_object() ? document_->size(place_) : 0; }
+  bool empty() const { return size() == 0; }
+
+  /// The value itself, of the type that was asked for first.
+  bool boolean() const { return document_->boolean(place_); }
+  std::int64_t integer() const { return document_->integer(place_); }
+  Real number() const { return is_integer() ? static_cast<Real>(integer()) : document_->real(place_); }
+  /// Of a text, or bytes.
+  std::string_view text() const { return document_->text(place_); }
 
   /// Entry i of a list, with i in range.
-  Node operator[](std::size_t i) const;
-  /// The value of a key, or nothing when the key is not there.
+  Node operator[](std::size_t i) const { return Node(*document_, file_, document_->entry(place_, i)); }
+  /// The value of a key, or nothing when the key is not there, or this is no object.
   std::optional<Node> find(std::string_view key) const;
-  bool has(std::string_view key) const { return value_->contains(key); }
+  bool has(std::string_view key) const { return find(key).has_value(); }
   /// The value of a key that must be there.
   Node require(std::string_view key) const;
+  /// The keys of an object, in the order of the text.
+  std::vector<std::string_view> keys() const;
 
   void require_object() const;
   void require_list() const;
@@ -68,9 +76,13 @@ class Node {
   }
 
  private:
+  Node(const Document& document, std::string_view file, Document::Place place)
+      : document_(&document), file_(file), place_(place) {}
+  Document::Kind kind() const { return document_->kind(place_); }
+
+  const Document* document_;
   std::string_view file_;
-  const Json* value_;
-  std::string path_;
+  Document::Place place_;
 };
 
 }  // namespace pliant

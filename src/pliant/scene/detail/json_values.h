@@ -15,7 +15,10 @@ namespace pliant {
 void read(const Node& node, Real& number);
 void read(const Node& node, Index& number);
 void read(const Node& node, std::int64_t& number);
+/// true or false.
+void read(const Node& node, bool& flag);
 void read(const Node& node, std::string& text);
+/// Three numbers; of coordinates those up to 1e100 are read, here and below.
 void read(const Node& node, Vec3& vector);
 /// A list of lists of three numbers.
 void read(const Node& node, Positions& rows);
@@ -43,7 +46,7 @@ void read(const Node& node, std::array<Element, n>& elements) {
 template <std::size_t n>
 std::vector<std::array<Index, n>> read_elements(const Node& node, Index vertex_count) {
   node.require_list();
-  std::vector<std::array<Index, n>> elements(node.value().size());
+  std::vector<std::array<Index, n>> elements(node.size());
   for (std::size_t i = 0; i < elements.size(); ++i) {
     const Node element = node[i];
     element.require_list(n, "vertex indices");

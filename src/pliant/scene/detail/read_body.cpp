@@ -56,8 +56,11 @@ void SceneReader::read_body(const Node& node) {
   }
 
   Mesh mesh = read_mesh(node.require("mesh"), folder);
-  untransformed.push_back(mesh.vertices);
-  if (const auto transform = node.find("transform")) apply_transform(*transform, mesh.vertices);
+  untransformed.emplace_back();
+  if (const auto transform = node.find("transform")) {
+    untransformed.back() = mesh.vertices;
+    apply_transform(*transform, mesh.vertices);
+  }
   const Mass mass = read_mass(node.require("mass"));
   const Index vertex_count = mesh.vertex_count();
   check_rows(node, "start_positions", vertex_count);
@@ -71,7 +74,7 @@ void SceneReader::read_body(const Node& node) {
   const auto constraints = node.find("constraints");
   if (!constraints) return;
   constraints->require_list();
-  for (std::size_t i = 0; i < constraints->value().size(); ++i) read_constraint((*constraints)[i], id);
+  for (std::size_t i = 0; i < constraints->size(); ++i) read_constraint((*constraints)[i], id);
 }
 
 void SceneReader::read_constraint(const Node& node, BodyId id) {

@@ -56,7 +56,7 @@ Mesh read_inline_mesh(const Node& node) {
 
 Vec3 read_scale(const Node& node) {
   Vec3 scale;
-  if (node.value().is_array()) {
+  if (node.is_list()) {
     read(node, scale);
   } else {
     Real factor = 1;

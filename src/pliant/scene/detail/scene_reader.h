@@ -15,11 +15,15 @@ namespace pliant {
 struct SceneReader {
   Simulation& simulation;
   std::filesystem::path folder;          ///< where relative paths start
-  std::vector<Positions> untransformed;  ///< rest positions of each body before its transform
+  std::vector<Positions> untransformed;  ///< rest positions of each body before its transform; empty: it has none
   std::map<std::string, BodyId, std::less<>> bodies = {};
   std::map<std::string, GroupId, std::less<>> groups = {};
 
-  SceneBody body(BodyId id) const { return {simulation.body(id).mesh, untransformed[static_cast<std::size_t>(id)]}; }
+  SceneBody body(BodyId id) const {
+    const Mesh& mesh = simulation.body(id).mesh;
+    const Positions& before = untransformed[static_cast<std::size_t>(id)];
+    return {mesh, before.size() == 0 ? mesh.vertices : before};
+  }
 
   void read_body(const Node& node);
   void read_force(const Node& node);

@@ -108,11 +108,10 @@ std::vector<Index> placed(const Node& node, const SceneBody& body) {
 }  // namespace
 
 Selection read_selection(const Node& node, const SceneBody& body) {
-  const Json& value = node.value();
-  if (value == "all") return {};
-  if (value.is_array()) return read_vertices(node, body.mesh.vertex_count());
-  if (!value.is_string() && !value.is_object()) node.fail_type("\"all\", a list of vertices, or {\"box\": ...}");
-  std::vector<Index> vertices = value.is_string() ? named(node, body) : placed(node, body);
+  if (node.is_text() && node.text() == "all") return {};
+  if (node.is_list()) return read_vertices(node, body.mesh.vertex_count());
+  if (!node.is_text() && !node.is_object()) node.fail_type("\"all\", a list of vertices, or {\"box\": ...}");
+  std::vector<Index> vertices = node.is_text() ? named(node, body) : placed(node, body);
   if (vertices.empty()) {
     const BoundingBox box = bounding_box(body.mesh.vertices);
     node.fail(fmt::format("no vertex is selected; the body spans ({:g}, {:g}, {:g}) to ({:g}, {:g}, {:g})", box.min[0],

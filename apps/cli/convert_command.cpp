@@ -1,0 +1,211 @@
+// pliant convert: meshes to meshes, runs and point caches to animations.
+#include <charconv>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "choice_option.h"
+#include "commands.h"
+#include "pliant/core/error.h"
+#include "pliant/mesh/io/mesh_file.h"
+#include "pliant/recorder/export.h"
+#include "pliant/recorder/run_files.h"
+#include "terminal.h"
+
+namespace pliant_cli {
+namespace {
+
+namespace fs = std::filesystem;
+using pliant::Animation;
+
+struct ConvertOptions {
+  fs::path in;
+  fs::path out;
+  std::optional<fs::path> mesh;
+  pliant::ImportOptions import;
+  pliant::PointCacheOptions cache;
+  std::optional<std::string> body;
+  std::optional<std::string> frames;
+  std::optional<pliant::Real> time;
+  std::optional<pliant::Real> frames_per_second;
+  pliant::ExportOptions exported;
+};
+
+/// FIRST, FIRST:LAST or FIRST:LAST:STEP; what is empty keeps its default.
+pliant::FrameRange parse_frames(std::string_view text) {
+  pliant::FrameRange range;
+  const std::array numbers = {&range.first, &range.last, &range.step};
+  const bool is_single = text.find(':') == text.npos;
+  std::size_t part = 0;
+  for (std::string_view rest = text;; ++part) {
+    const std::string_view word = rest.substr(0, rest.find(':'));
+    bool is_number = word.empty() && !is_single;
+    if (part < numbers.size() && !is_number) {
+      const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), *numbers[part]);
+      is_number = error == std::errc() && end == word.data() + word.size();
+    }
+    if (part >= numbers.size() || !is_number) {
+      pliant::fail_input(
+          fmt::format("--frames: '{}' is not FIRST, FIRST:LAST or FIRST:LAST:STEP; give whole numbers, as "
+                      "in 0:100:5",
+                      text.substr(0, 40)));
+    }
+    if (word.size() == rest.size()) break;
+    rest.remove_prefix(word.size() + 1);
+  }
+  if (is_single) range.last = range.first;
+  return range;
+}
+
+/// The output must not take the place of anything it is made from.
+void refuse_to_replace(const ConvertOptions& options) {
+  std::vector<fs::path> inputs = {options.in};
+  if (options.mesh) inputs.push_back(*options.mesh);
+  std::error_code ignored;
+  if (fs::is_directory(options.in, ignored)) {
+    for (const char* format : {"npy", "pc2"}) {
+      for (const std::string& name : pliant::run_files(format)) inputs.push_back(options.in / name);
+    }
+  }
+  for (const fs::path& input : inputs) {
+    if (!fs::equivalent(input, options.out, ignored)) continue;
+    pliant::fail_input(
+        fmt::format("{}: is what is to be converted; give another name for the output", options.out.string()));
+  }
+}
+
+bool is_sequence(const fs::path& out) {
+  return out.filename().string().find('#') != std::string::npos;
+}
+
+[[noreturn]] void fail_extension(const fs::path& path, std::string_view what) {
+  pliant::fail_input(fmt::format("{}: {}; meshes: {}; animations: {}", path.string(), what,
+                                 fmt::join(choice_names(pliant::MeshFormat{}), ", "),
+                                 fmt::join(choice_names(pliant::AnimationFormat{}), ", ")));
+}
+
+/// The folder of a run, a point cache with or without its mesh, or a mesh that stands still.
+Animation read_animation(const ConvertOptions& options) {
+  std::error_code ignored;
+  if (fs::is_directory(options.in, ignored)) {
+    const bool is_placed = options.import.scale != 1 || options.import.up != pliant::UpAxis::z;
+    if (options.mesh || is_placed) {
+      pliant::fail_input(
+          fmt::format("{}: a run has its own mesh, in metres and with z up; leave out --mesh, --scale "
+                      "and --up",
+                      options.in.string()));
+    }
+    return pliant::read_run(options.in);
+  }
+  const std::string name = options.mesh.value_or(options.in).stem().string();
+  if (pliant::point_cache_format(options.in)) {
+    pliant::PointCache cache = pliant::place(pliant::PointCache::read(options.in, options.cache), options.import);
+    if (!options.mesh) return pliant::animate(name, std::move(cache));
+    return pliant::animate(pliant::read_mesh(*options.mesh, options.import), name, std::move(cache));
+  }
+  if (options.mesh) {
+    pliant::fail_input(
+        fmt::format("{}: is no point cache; --mesh is for those: .pc2, .mdd or .npy", options.in.string()));
+  }
+  if (!pliant::mesh_format(options.in)) {
+    fail_extension(options.in, "neither a run's folder nor a point cache (pc2, mdd, npy) nor a mesh");
+  }
+  return pliant::still(pliant::read_mesh(options.in, options.import), name);
+}
+
+void select(Animation& animation, const ConvertOptions& options) {
+  if (options.body) pliant::keep_body(animation, *options.body);
+  if (options.frames) pliant::keep_frames(animation, parse_frames(*options.frames));
+  if (options.time) pliant::keep_time(animation, *options.time);
+  if (options.frames_per_second) pliant::resample(animation, *options.frames_per_second);
+}
+
+std::string rate_text(const Animation& animation) {
+  const pliant::Real rate = pliant::frame_rate(animation.times);
+  return rate > 0 ? fmt::format("{:.6g} frames per second", rate) : "frames not evenly spaced in time";
+}
+
+void print_animation(const fs::path& out, const Animation& animation, const pliant::ExportReport& report) {
+  fmt::print("{}: {} frames, {} vertices, {:.4g} s, {}", printable(out.string()), report.frames,
+             animation.cache.vertex_count(), animation.times.back() - animation.times.front(), rate_text(animation));
+  if (report.keyframes < report.frames) {
+    fmt::print("; {} of them kept, the others off by at most {:.2g} of the body's size", report.keyframes,
+               report.largest_error);
+  }
+  fmt::print("\n");
+}
+
+void warn_of_tolerance(const ConvertOptions& options, const pliant::ExportReport& report) {
+  const pliant::Real wanted = options.exported.tolerance.value_or(pliant::default_gltf_tolerance);
+  if (report.largest_error <= wanted) return;
+  print_to_stderr(
+      fmt::format("warning: the error {:.2g} is past the tolerance {:.2g}, since at most {} keyframes are "
+                  "kept; raise --max-keyframes to lessen it\n",
+                  report.largest_error, wanted, options.exported.max_keyframes));
+}
+
+void convert(const ConvertOptions& options) {
+  const bool is_mesh = pliant::mesh_format(options.out).has_value();
+  if (!is_mesh && !pliant::animation_format(options.out)) {
+    fail_extension(options.out, "its extension is of no format that can be written");
+  }
+  refuse_to_replace(options);
+  Animation animation = read_animation(options);
+  select(animation, options);
+  if (!is_mesh) {
+    const pliant::ExportReport report = pliant::export_animation(options.out, animation, options.exported);
+    print_animation(options.out, animation, report);
+    warn_of_tolerance(options, report);
+  } else if (is_sequence(options.out)) {
+    const std::int64_t count = pliant::export_sequence(options.out, animation);
+    fmt::print("{}: {} files, {} vertices each, {}\n", printable(options.out.string()), count,
+               animation.cache.vertex_count(), rate_text(animation));
+  } else {
+    pliant::export_frame(options.out, animation);
+    fmt::print("{}: {} vertices, at {:.4g} s\n", printable(options.out.string()), animation.cache.vertex_count(),
+               animation.times.front());
+  }
+}
+
+constexpr const char* footer = R"(Formats of OUT, by its extension: obj, ply, off, stl for a mesh; glb, gltf, usda, pc2,
+mdd, npy for an animation. A name with #### gets one mesh file a frame, with its number there.
+Examples:
+  pliant convert out/flag flag.glb                       an animation for browsers and game engines
+  pliant convert out/flag flag.usda                      for Blender, Houdini, Omniverse
+  pliant convert out/flag flag.pc2 --fps 24              a point cache for the mesh in out/flag/mesh.obj
+  pliant convert out/flag frames/flag_####.ply           one file a frame
+  pliant convert out/flag flag.obj --time 2.5            a single moment
+  pliant convert walk.mdd walk.glb --mesh walk.obj       a point cache and its mesh
+  pliant convert part.stl part.obj --scale 0.001 --up y  a mesh in millimetres with y up)";
+
+}  // namespace
+
+void add_convert_command(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("convert", "Convert meshes; export runs and point caches as animations");
+  const auto options = std::make_shared<ConvertOptions>();
+  command->add_option("in", options->in, "A mesh, the folder of a run, or a point cache (pc2, mdd, npy)")->required();
+  command->add_option("out", options->out, "The file to write")->required();
+  command->add_option("--mesh", options->mesh, "The mesh that the point cache IN moves");
+  command->add_option("--scale", options->import.scale, "Metres per unit of a mesh or point cache IN");
+  add_choice(*command, "--up", options->import.up, "Its axis that points up: z (default), y or x");
+  command->add_option("--in-fps", options->cache.frames_per_second,
+                      "Frames per second of a point cache without times (pc2, npy), default 24");
+  command->add_option("--body", options->body, "Take one body of the run");
+  command->add_option("--frames", options->frames,
+                      "Take frames FIRST:LAST:STEP, both ends included; -1 is the last, as in --frames=-1");
+  command->add_option("--time", options->time, "Take the moment at this time [s]");
+  command->add_option("--fps", options->frames_per_second, "Frames per second of OUT; default: those of IN");
+  command->add_option(
+      "--tolerance", options->exported.tolerance,
+      "glb, gltf (default 0.001), usda: leave out frames that linear interpolation meets within this, in "
+      "sizes of the body");
+  command->add_option("--max-keyframes", options->exported.max_keyframes, "glb, gltf: keep at most these, default 256");
+  add_choice(*command, "--normals", options->exported.normals, "glb, gltf: smooth (default) or flat");
+  command->footer(footer);
+  command->callback([options] { convert(*options); });
+}
+
+}  // namespace pliant_cli

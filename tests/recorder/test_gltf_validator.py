@@ -1,0 +1,43 @@
+"""glTF that `pliant convert` writes, before the validator of the standard: no error and no warning."""
+import json
+import pathlib
+import shutil
+import subprocess
+import sys
+import unittest
+
+from export_case import SOURCE, ExportCase
+
+VALIDATOR = SOURCE / "node_modules/gltf-validator"
+
+
+class GltfValidator(ExportCase):
+    def issues(self, name):
+        script = pathlib.Path(__file__).with_name("validate_gltf.js")
+        done = subprocess.run(["node", script, VALIDATOR, self.folder / name], capture_output=True, text=True,
+                              timeout=120)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return json.loads(done.stdout)
+
+    def test_every_kind_of_file(self):
+        for arguments in [["run", "all.glb"], ["run", "all.gltf"], ["run", "flat.glb", "--normals", "flat"],
+                          ["run", "rope.glb", "--body", "rope"], ["run", "still.glb", "--body", "still"],
+                          ["run", "one.glb", "--frames", "7"], ["run", "two.glb", "--max-keyframes", "2"],
+                          ["patch.obj", "patch.gltf"]]:
+            with self.subTest(arguments=arguments):
+                self.pliant("convert", *arguments)
+                found = self.issues(arguments[1])
+                self.assertEqual((found["numErrors"], found["numWarnings"]), (0, 0), found["messages"])
+
+    def test_the_validator_finds_what_is_wrong(self):
+        self.pliant("convert", "run", "good.gltf")
+        text = (self.folder / "good.gltf").read_text()
+        (self.folder / "bad.gltf").write_text(text.replace('"mode":4', '"mode":"4"'))
+        self.assertGreater(self.issues("bad.gltf")["numErrors"], 0)
+
+
+if __name__ == "__main__":
+    if not shutil.which("node") or not VALIDATOR.is_dir():
+        print("skipped: node or node_modules/gltf-validator is missing; scripts/setup.sh --dev installs them")
+        sys.exit(77)
+    unittest.main()
