@@ -1,8 +1,8 @@
 # Every third-party package, once.
 
 # What the library links, and with it every program that uses the installed library: pliantConfig.cmake makes the same
-# calls. Eigen and Threads are part of the interface; fmt is only linked.
-set(pliant_library_packages "Eigen3 3.4" "fmt 9" "Threads")
+# calls. Eigen and Threads are part of the interface; fmt and zlib are only linked.
+set(pliant_library_packages "Eigen3 3.4" "fmt 9" "Threads" "ZLIB")
 
 # CHOLMOD and OpenBLAS. CHOLMOD's Supernodal, Modify and MatrixOps modules are under the GPL (the others under the
 # LGPL), so a program that is linked with this back end and given to others falls under the GPL. Without it Pliant

@@ -37,6 +37,7 @@ THIRD_PARTY = {
     "fmt/": ["src/pliant", "apps", "benchmarks", "tests"],
     "nlohmann/": ["src/pliant/scene", "src/pliant/recorder", "apps", "tests"],
     "CLI/": ["apps"],
+    "zlib": ["src/pliant/core"],
     "cholmod": ["src/pliant/solver/factorization", "benchmarks"],
     "doctest/": ["tests"],
 }

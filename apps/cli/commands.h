@@ -6,6 +6,7 @@
 namespace pliant_cli {
 
 inline constexpr int exit_interrupted = 130;
+inline constexpr std::size_t message_limit = 2000;  // bytes of a message on the terminal
 
 void add_convert_command(CLI::App& program);
 void add_run_command(CLI::App& program, int& exit_code);

@@ -9,6 +9,7 @@
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
 #include "pliant/core/version.h"
+#include "pliant/scene/nearest_names.h"
 #include "terminal.h"
 
 namespace {
@@ -21,12 +22,8 @@ constexpr std::string_view help_footer = R"(Examples:
 
 Exit codes: 0 done, 2 bad input, 3 diverged, 4 output could not be written, 130 interrupted.)";
 
-/// Bytes of a message; more is read by nobody.
-constexpr std::size_t longest_message = 900;
-
-int print_error(std::string message, pliant::ErrorKind kind) {
-  std::ranges::replace(message, '\n', ' ');
-  pliant_cli::print_to_stderr("pliant: error: " + pliant::printable(message, longest_message) + "\n");
+int print_error(std::string_view message, pliant::ErrorKind kind) {
+  pliant_cli::print_to_stderr("pliant: error: " + pliant::printable(message, pliant_cli::message_limit) + "\n");
   return static_cast<int>(kind);
 }
 
@@ -35,6 +32,16 @@ void flush_output() {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
   throw pliant::Error(pliant::ErrorKind::output,
                       "the standard output cannot be written; make room, or send it elsewhere");
+}
+
+/// The library that reads the command line only says that a sub-command is missing.
+void refuse_unknown_command(const CLI::App& program, std::string_view first) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
+  if (first.starts_with('-') || std::ranges::find(names, first) != names.end()) return;
+  pliant::fail_input(fmt::format("'{}' is no command; known, the nearest first: {}; see pliant --help",
+                                 pliant::printable(first),
+                                 pliant::nearest_names_text(first, {names.begin(), names.end()})));
 }
 
 int run_program(int argc, char** argv) {
@@ -46,11 +53,13 @@ int run_program(int argc, char** argv) {
   pliant_cli::add_run_command(program, exit_code);
   pliant_cli::add_convert_command(program);
   pliant_cli::add_scenes_command(program);
+  if (argc > 1) refuse_unknown_command(program, argv[1]);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() != 0) {
-      return print_error(fmt::format("{}; see pliant --help", error.what()), pliant::ErrorKind::input);
+      return print_error(fmt::format("{}; see pliant --help", pliant::printable(error.what(), 400)),
+                         pliant::ErrorKind::input);
     }
     program.exit(error);  // prints the help or the version
   }

@@ -11,10 +11,9 @@
 #include "pliant/core/printable.h"
 #include "pliant/recorder/recorder.h"
 #include "pliant/recorder/run_files.h"
-#include "pliant/scene/builtin_scenes.h"
-#include "pliant/scene/nearest_names.h"
 #include "pliant/scene/scene.h"
 #include "progress.h"
+#include "scene_options.h"
 #include "terminal.h"
 
 namespace pliant_cli {
@@ -24,28 +23,10 @@ namespace fs = std::filesystem;
 using pliant::Outcome;
 using pliant::Scene;
 
-struct RunOptions {
-  std::string scene;
+struct RunOptions : SceneArguments {
   fs::path out;
   bool quiet = false;
-  pliant::SceneOverrides overrides;
 };
-
-/// A file where there is one of that name, else a built-in scene; a folder hides none.
-Scene open_scene(const RunOptions& options) {
-  std::error_code ignored;
-  const fs::file_status status = fs::status(options.scene, ignored);
-  if (fs::exists(status) && !fs::is_directory(status)) return pliant::load_scene(options.scene, options.overrides);
-  std::vector<std::string_view> names;
-  for (const pliant::BuiltinScene& scene : pliant::builtin_scenes()) {
-    if (scene.name == options.scene) return pliant::parse_scene(scene.text, {}, scene.name, options.overrides);
-    names.push_back(scene.name);
-  }
-  if (fs::is_directory(status)) return pliant::load_scene(options.scene, options.overrides);  // says what it is
-  pliant::fail_input(
-      fmt::format("{}: neither a file nor a built-in scene; `pliant scenes` lists those, the nearest first: {}",
-                  options.scene, pliant::nearest_names_text(options.scene, names)));
-}
 
 std::unique_ptr<pliant::FrameWriter> make_frame_writer(const Scene& scene, const fs::path& folder) {
   switch (scene.output.format) {
@@ -69,7 +50,7 @@ class Warnings {
   void print(const pliant::Simulation& simulation, Progress& progress) {
     for (; printed_ < simulation.warnings().size(); ++printed_) {
       progress.clear();
-      print_to_stderr("warning: " + pliant::printable(simulation.warnings()[printed_], 900) + "\n");
+      print_to_stderr("warning: " + pliant::printable(simulation.warnings()[printed_], message_limit) + "\n");
     }
   }
 
@@ -183,18 +164,12 @@ void add_run_command(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand("run", "Simulate a scene; write frames, measurements.csv and run.json");
   const auto options = std::make_shared<RunOptions>();
   pliant::SceneOverrides& overrides = options->overrides;
-  command->add_option("scene", options->scene, "A scene file, or the name of a built-in scene")->required();
+  add_scene_arguments(*command, *options);
   command->add_option("--out", options->out,
                       "Folder for the files, default out/SCENE; what an earlier run left there is replaced");
-  command->add_option("--steps", overrides.steps, "Steps to take");
-  command->add_option("--iterations", overrides.iterations, "Local and global steps in each step");
-  command->add_option("--time-step", overrides.time_step, "Length of a step [s]");
-  command->add_option("--tolerance", overrides.tolerance,
-                      "Iterate no further below this residual [N]; 0: only at exact rest");
-  command->add_option("--threads", overrides.threads, "0: one a processor; results do not depend on it");
-  add_choice(*command, "--backend", overrides.backend, "Library that factorizes: automatic, eigen or cholmod");
+  add_setting_options(*command, *options);
   add_choice(*command, "--format", overrides.format, "Of the frames: npy, pc2, obj, ply or none");
-  command->add_option("--every", overrides.every, "Record the start and every n-th step");
+  add_number(*command, "--every", overrides.every, "Record the start and every n-th step");
   command->add_flag("--quiet", options->quiet, "Print warnings and errors only");
   command->footer("Example:\n  pliant run curtain_wind --out out/curtain --steps 120 --format obj");
   command->callback([options, &exit_code] { exit_code = run_scene(*options); });

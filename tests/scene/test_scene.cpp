@@ -161,7 +161,8 @@ TEST_CASE("overrides take the place of the scene's values") {
   CHECK(settings.threads == 2);
   CHECK(settings.backend == Backend::eigen);
   CHECK(settings.start == Start::positions);
-  CHECK_THROWS_WITH(body_scene(grid + mass, "", {.iterations = 0}), doctest::Contains("iterations: 0"));
+  CHECK_THROWS_WITH(body_scene(grid + mass, "", {.iterations = 0}),
+                    doctest::Contains("settings.iterations=0: 0 is out of range"));
 }
 
 }  // namespace

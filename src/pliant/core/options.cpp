@@ -2,21 +2,28 @@
 
 #include <sstream>
 
-namespace pliant::detail {
+#include <fmt/format.h>
 
-void check_number(std::string_view type, const OptionInfo& info, Real number, std::size_t index, bool is_list) {
+namespace pliant {
+
+std::optional<std::string> range_error(const OptionInfo& info, Real number) {
   const Range& range = info.range;
   const bool above = range.excludes_min ? number > range.min : number >= range.min;
-  if (std::isfinite(number) && above && number <= range.max) return;
+  if (std::isfinite(number) && above && number <= range.max) return std::nullopt;
   std::ostringstream message;
   message.imbue(std::locale::classic());
-  message << type << ": " << info.name;
-  if (is_list) message << '[' << index << ']';
-  message << ": " << number << " is out of range; give a finite number";
+  message << number << " is out of range; give a finite number";
   if (range.min > any_number.min) message << (range.excludes_min ? " above " : " from ") << range.min;
   if (range.max < any_number.max) message << " up to " << range.max;
   if (!info.unit.empty()) message << " [" << info.unit << ']';
-  fail_input(message.str());
+  return message.str();
 }
 
-}  // namespace pliant::detail
+void detail::check_number(std::string_view type, const OptionInfo& info, Real number, std::size_t index, bool is_list) {
+  const std::optional<std::string> error = range_error(info, number);
+  if (!error) return;
+  const std::string place = is_list ? fmt::format("{}[{}]", info.name, index) : std::string(info.name);
+  fail_input(fmt::format("{}: {}: {}", type, place, *error));
+}
+
+}  // namespace pliant

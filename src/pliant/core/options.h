@@ -7,6 +7,7 @@
 #include <concepts>
 #include <initializer_list>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -105,6 +106,10 @@ struct OptionInfo {
   std::string_view doc;
   Range range = any_number;
 };
+
+/// What is wrong with a number that is not finite or out of its range, and what to give: "-1 is out of range; give a
+/// finite number above 0 [s]".
+std::optional<std::string> range_error(const OptionInfo& info, Real number);
 
 namespace detail {
 

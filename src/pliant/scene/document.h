@@ -113,6 +113,12 @@ Document parse_json(std::string_view text, std::string_view file);
 /// The same for CBOR (RFC 8949), which may hold bytes besides; strings come in one piece each.
 Document parse_cbor(std::string_view bytes, std::string_view file);
 
+/// Whether the text is sound JSON.
+bool is_json(std::string_view text);
+
+/// The document that is one text.
+Document text_document(std::string_view text);
+
 /// "path.key", or the key alone where the path is empty; fit for a message.
 std::string join_key(std::string_view path, std::string_view key);
 

@@ -290,6 +290,18 @@ Document parse_json(std::string_view text, std::string_view file) {
   return builder.take();
 }
 
+bool is_json(std::string_view text) {
+  return text.find('\0') == text.npos && Json::accept(text);
+}
+
+Document text_document(std::string_view text) {
+  check_size(text, "");
+  DocumentBuilder builder(text, "", Format::json);
+  std::string copy(text);
+  builder.string(copy);
+  return builder.take();
+}
+
 Document parse_cbor(std::string_view bytes, std::string_view file) {
   check_size(bytes, file);
   refuse_strings_in_pieces(bytes, file);

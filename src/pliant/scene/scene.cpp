@@ -3,12 +3,16 @@
 #include "pliant/forces/gravity.h"
 #include "pliant/mesh/io/read_file.h"
 #include "pliant/scene/detail/option_reader.h"
+#include "pliant/scene/detail/scene_documents.h"
 #include "pliant/scene/detail/scene_reader.h"
 
 namespace pliant {
 namespace {
 
 constexpr std::int64_t format_version = 1;
+const std::vector<std::string_view> top_keys = {"pliant",  "name",    "description", "settings", "steps",
+                                                "gravity", "bodies",  "forces",      "moves",    "output",
+                                                "view",    "include", "$schema"};
 
 void check_version(const Node& root) {
   const Node version = root.require("pliant");
@@ -18,38 +22,64 @@ void check_version(const Node& root) {
   }
 }
 
-template <class T>
-void replace(T& value, const std::optional<T>& override) {
-  if (override) value = *override;
-}
-
-SolverSettings read_settings(const Node& root, const SceneOverrides& overrides) {
-  SolverSettings settings;
-  if (const auto node = root.find("settings")) read_options(*node, settings);
-  replace(settings.time_step, overrides.time_step);
-  replace(settings.iterations, overrides.iterations);
-  replace(settings.tolerance, overrides.tolerance);
-  replace(settings.threads, overrides.threads);
-  replace(settings.backend, overrides.backend);
-  return settings;
-}
-
-void read_run(const Node& root, const SceneOverrides& overrides, Scene& scene) {
-  read_optional(root, "name", scene.name);
-  read_optional(root, "description", scene.description);
-  read_optional(root, "steps", scene.steps);
-  if (const auto output = root.find("output")) read_options(*output, scene.output);
-  replace(scene.steps, overrides.steps);
-  replace(scene.output.format, overrides.format);
-  replace(scene.output.every, overrides.every);
-  if (scene.steps < 0) root.fail(fmt::format("steps: {} is negative; give a number from 0 up", scene.steps));
-  if (scene.output.every < 1) {
-    root.fail(fmt::format("output.every: {} is not possible; give a number from 1 up", scene.output.every));
+/// Calls f for the value of a key in each layer that has it.
+void for_each_value(std::span<SceneLayer* const> layers, std::string_view key, auto&& f) {
+  for (const SceneLayer* layer : layers) {
+    if (const auto value = layer->root().find(key)) f(*value);
   }
 }
 
-void add_gravity(const Node& root, Simulation& simulation) {
-  const auto node = root.find("gravity");
+/// Options that may be spread over the layers, the later ones in front.
+void read_merged(std::span<SceneLayer* const> layers, std::string_view key, auto& options) {
+  for_each_value(layers, key, [&](const Node& node) { read_options(node, options); });
+}
+
+/// The value of the last layer that has the key.
+std::optional<Node> find_last(std::span<SceneLayer* const> layers, std::string_view key) {
+  std::optional<Node> last;
+  for_each_value(layers, key, [&](const Node& node) { last = node; });
+  return last;
+}
+
+void read_last(std::span<SceneLayer* const> layers, std::string_view key, auto& value) {
+  if (const auto node = find_last(layers, key)) read(*node, value);
+}
+
+/// What no option can tell by itself.
+void check_view(const Node& node, const ViewSettings& view) {
+  const auto refuse_zero = [](const Node& parent, std::string_view key, const Vec3& direction) {
+    if (direction.stableNorm() > 0) return;
+    parent.find(key).value_or(parent).fail("a direction of length 0 is none; give another");
+  };
+  const Camera& camera = view.camera;
+  const Node camera_node = node.find("camera").value_or(node);
+  refuse_zero(camera_node, "up", camera.up);
+  refuse_zero(node, "light", view.light);
+  if (camera.position && camera.target) {
+    const Vec3 direction = *camera.target - *camera.position;
+    if (!(direction.stableNorm() > 0)) camera_node.fail("the camera stands at its target; move one of the two");
+    if (!(direction.stableNormalized().cross(camera.up.stableNormalized()).norm() > 1e-9)) {
+      camera_node.fail("the camera looks along its up direction; give another");
+    }
+  }
+  if (view.colour_range && !((*view.colour_range)[0] < (*view.colour_range)[1])) {
+    node.require("colour_range").fail("the first value must be below the second");
+  }
+}
+
+void read_run(std::span<SceneLayer* const> layers, Scene& scene) {
+  read_last(layers, "name", scene.name);
+  read_last(layers, "description", scene.description);
+  if (const auto steps = find_last(layers, "steps")) {
+    read(*steps, scene.steps);
+    if (scene.steps < 0) steps->fail(fmt::format("{} is negative; give a number from 0 up", scene.steps));
+  }
+  read_merged(layers, "output", scene.output);
+  read_merged(layers, "view", scene.view);
+  if (const auto view = find_last(layers, "view")) check_view(*view, scene.view);
+}
+
+void add_gravity(const std::optional<Node>& node, Simulation& simulation) {
   if (!node) {
     simulation.add_force(std::make_unique<Gravity>());
   } else if (!node->is_null()) {
@@ -59,12 +89,32 @@ void add_gravity(const Node& root, Simulation& simulation) {
   }
 }
 
-/// Calls f for each entry of a list that may be missing.
-void for_each_entry(const Node& root, std::string_view key, auto&& f) {
-  const auto list = root.find(key);
-  if (!list) return;
-  list->require_list();
-  for (std::size_t i = 0; i < list->size(); ++i) f((*list)[i]);
+/// Calls f for each entry of the lists of all layers.
+void for_each_entry(std::span<SceneLayer* const> layers, std::string_view key, auto&& f) {
+  for_each_value(layers, key, [&](const Node& list) {
+    list.require_list();
+    for (std::size_t i = 0; i < list.size(); ++i) f(list[i]);
+  });
+}
+
+void require_bodies(std::span<SceneLayer* const> layers) {
+  std::size_t count = 0;
+  for_each_entry(layers, "bodies", [&](const Node&) { ++count; });
+  if (count == 0) layers.back()->root().require("bodies").fail("there is no body; add one");
+}
+
+void read_simulation(std::span<SceneLayer* const> layers, Scene& scene) {
+  SolverSettings settings;
+  read_merged(layers, "settings", settings);
+  const Node root = layers.back()->root();
+  const Node settings_node = find_last(layers, "settings").value_or(root);
+  scene.simulation = settings_node.locate([&] { return Simulation(settings); });
+  require_bodies(layers);
+  SceneReader reader{scene.simulation};
+  for_each_entry(layers, "bodies", [&](const Node& node) { reader.read_body(node); });
+  add_gravity(find_last(layers, "gravity"), scene.simulation);
+  for_each_entry(layers, "forces", [&](const Node& node) { reader.read_force(node); });
+  for_each_entry(layers, "moves", [&](const Node& node) { reader.read_move(node, scene.timeline); });
 }
 
 }  // namespace
@@ -74,36 +124,38 @@ StepReport Scene::step() {
   return simulation.step();
 }
 
-Scene parse_scene(std::string_view text, const std::filesystem::path& folder, std::string_view name,
-                  const SceneOverrides& overrides) {
-  const Document document = parse_json(text, name);
-  const Node root(document, name);
-  root.require_object();
-  check_version(root);
-  root.check_keys(
-      {"pliant", "name", "description", "settings", "steps", "gravity", "bodies", "forces", "moves", "output"});
+Scene parse_scene(SceneSource source) {
+  if (source.texts.empty()) fail_input("the scene has no text; give one");
+  SceneFiles files;
   Scene scene;
-  scene.name = std::filesystem::path(name).stem().string();
-  read_run(root, overrides, scene);
-  const SolverSettings settings = read_settings(root, overrides);
-  scene.simulation = root.locate([&] { return Simulation(settings); });
-
-  if (const Node bodies = root.require("bodies"); bodies.empty()) bodies.fail("there is no body; add one");
-  SceneReader reader{scene.simulation, folder, {}};
-  for_each_entry(root, "bodies", [&](const Node& node) { reader.read_body(node); });
-  add_gravity(root, scene.simulation);
-  for_each_entry(root, "forces", [&](const Node& node) { reader.read_force(node); });
-  for_each_entry(root, "moves", [&](const Node& node) { reader.read_move(node, scene.timeline); });
+  scene.name = std::filesystem::path(source.texts[0].name).stem().string();
+  {
+    const SceneDocuments documents(source, files);
+    for (const SceneLayer* layer : documents.layers()) {
+      check_version(layer->root());
+      layer->root().check_keys(top_keys);
+    }
+    read_run(documents.layers(), scene);
+    read_simulation(documents.layers(), scene);
+  }
+  scene.source = std::move(source);
+  scene.files = files.files();
   return scene;
 }
 
+Scene parse_scene(std::string_view text, const std::filesystem::path& folder, std::string_view name,
+                  const SceneOverrides& overrides) {
+  return parse_scene({{{std::string(name), folder, std::string(text)}}, overrides, {}});
+}
+
 Scene load_scene(const std::filesystem::path& file, const SceneOverrides& overrides) {
-  return parse_scene(read_file(file), file.parent_path(), file.string(), overrides);
+  return parse_scene({{{file.string(), file.parent_path(), read_file(file)}}, overrides, {}});
 }
 
 std::string scene_description(std::string_view text, std::string_view name) {
   const Document document = parse_json(text, name);
-  const Node root(document, name);
+  const Origin origin{std::string(name)};
+  const Node root(document, origin);
   root.require_object();
   std::string description;
   read_optional(root, "description", description);

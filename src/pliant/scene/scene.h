@@ -4,20 +4,15 @@
 //     Scene scene = load_scene("curtain.json");
 //     for (std::int64_t i = 0; i < scene.steps; ++i) scene.step();
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <string_view>
 
+#include "pliant/scene/scene_source.h"
 #include "pliant/scene/timeline.h"
+#include "pliant/scene/view_settings.h"
 #include "pliant/simulation/simulation.h"
 
 namespace pliant {
-
-/// What the frames of a run are written as: one array, one point cache, one mesh file each, or nothing.
-enum class FrameFormat { npy, pc2, obj, ply, none };
-constexpr std::array<std::string_view, 5> choice_names(FrameFormat) {
-  return {"npy", "pc2", "obj", "ply", "none"};
-}
 
 struct OutputSettings {
   FrameFormat format = FrameFormat::npy;
@@ -26,7 +21,7 @@ struct OutputSettings {
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& field) {
     field(OptionInfo{"format", "", "of the frames: `npy`, `pc2`, `obj`, `ply` or `none`"}, self.format);
-    field(OptionInfo{"every", "", "record the start and every n-th step"}, self.every);
+    field(OptionInfo{"every", "", "record the start and every n-th step", Range{1, 1e15}}, self.every);
   }
 };
 
@@ -36,23 +31,14 @@ struct Scene {
   std::string description;
   std::int64_t steps = 300;  ///< ≥ 0
   OutputSettings output;
+  ViewSettings view;
   Simulation simulation;
   Timeline timeline;
+  SceneSource source;            ///< what it was read from, for parse_scene
+  std::vector<SceneFile> files;  ///< of its meshes and maps, each once
 
   /// Makes the moves that are due and takes one step.
   StepReport step();
-};
-
-/// Values that take the place of the scene's own.
-struct SceneOverrides {
-  std::optional<std::int64_t> steps = {};
-  std::optional<Real> time_step = {};  ///< [s]; moves keep their times, or their steps where those are given
-  std::optional<Index> iterations = {};
-  std::optional<Real> tolerance = {};  ///< [N]
-  std::optional<Index> threads = {};
-  std::optional<Backend> backend = {};
-  std::optional<FrameFormat> format = {};
-  std::optional<std::int64_t> every = {};
 };
 
 /// Reads a scene file; paths in it start at its folder.
@@ -64,6 +50,9 @@ Scene load_scene(const std::filesystem::path& file, const SceneOverrides& overri
 /// start at `folder`.
 Scene parse_scene(std::string_view text, const std::filesystem::path& folder, std::string_view name,
                   const SceneOverrides& overrides = {});
+
+/// The same once more: no file of a text is read, only those of meshes and maps.
+Scene parse_scene(SceneSource source);
 
 /// The "description" of a scene, "" when it has none, without making its simulation. Throws as parse_scene does.
 std::string scene_description(std::string_view text, std::string_view name);

@@ -1,5 +1,6 @@
 #pragma once
 // Values of a scene that know their place, for messages.
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,12 +13,27 @@
 
 namespace pliant {
 
+class SceneFiles;
+struct Overlay;
+
+/// Where values come from: a file, or an option of the command line.
+struct Origin {
+  std::string name;                   ///< in messages
+  std::filesystem::path folder = {};  ///< where paths in the values start
+  SceneFiles* files = nullptr;        ///< reads what such paths name; null: no value names a file
+};
+
 /// A value and its place, "bodies[0].mesh"; the whole text has the empty path. Cheap to copy: the path is found when a
-/// message needs it. Refers to document and file name, which must live longer.
+/// message needs it. Refers to document, origin and overlay, which must live longer.
+///
+/// An overlay (overlay.h) puts values of other origin in the place of some; those name their own place in messages.
 class Node {
  public:
   /// The whole document.
-  Node(const Document& document, std::string_view file) : Node(document, file, document.root()) {}
+  Node(const Document& document, const Origin& origin, const Overlay* overlay = nullptr)
+      : Node(document, origin, document.root(), overlay) {}
+
+  const Origin& origin() const { return *origin_; }
 
   bool is_null() const { return kind() == Document::Kind::null; }
   bool is_boolean() const { return kind() == Document::Kind::boolean; }
@@ -31,7 +47,7 @@ class Node {
   bool is_object() const { return kind() == Document::Kind::object; }
 
   /// Entries of a list or keys of an object; 0 for other values.
-  std::size_t size() const { return is_list() || is_object() ? document_->size(place_) : 0; }
+  std::size_t size() const { return is_object() ? keys().size() : is_list() ? document_->size(place_) : 0; }
   bool empty() const { return size() == 0; }
 
   /// The value itself, of the type that was asked for first.
@@ -42,13 +58,13 @@ class Node {
   std::string_view text() const { return document_->text(place_); }
 
   /// Entry i of a list, with i in range.
-  Node operator[](std::size_t i) const { return Node(*document_, file_, document_->entry(place_, i)); }
+  Node operator[](std::size_t i) const;
   /// The value of a key, or nothing when the key is not there, or this is no object.
   std::optional<Node> find(std::string_view key) const;
   bool has(std::string_view key) const { return find(key).has_value(); }
   /// The value of a key that must be there.
   Node require(std::string_view key) const;
-  /// The keys of an object, in the order of the text.
+  /// The keys of an object, in the order of the text; none for other values.
   std::vector<std::string_view> keys() const;
 
   void require_object() const;
@@ -76,12 +92,15 @@ class Node {
   }
 
  private:
-  Node(const Document& document, std::string_view file, Document::Place place)
-      : document_(&document), file_(file), place_(place) {}
+  Node(const Document& document, const Origin& origin, Document::Place place, const Overlay* overlay)
+      : document_(&document), origin_(&origin), overlay_(overlay), place_(place) {}
   Document::Kind kind() const { return document_->kind(place_); }
+  /// The value below an overlay, of a key of the document.
+  std::optional<Node> find_below(std::string_view key) const;
 
   const Document* document_;
-  std::string_view file_;
+  const Origin* origin_;
+  const Overlay* overlay_;
   Document::Place place_;
 };
 

@@ -1,13 +1,11 @@
 #include "pliant/scene/detail/json_values.h"
 
+#include <charconv>
 #include <cmath>
 #include <limits>
 
 namespace pliant {
 namespace {
-
-/// Larger coordinates overflow once they are squared, or multiplied with each other a few times.
-constexpr Real max_coordinate = 1e100;
 
 void read_coordinate(const Node& node, Real& number) {
   read(node, number);
@@ -125,6 +123,36 @@ void read(const Node& node, Ragged<Real>& lists) {
     read(entry, numbers);
     lists.add(numbers);
   });
+}
+
+void read(const Node& node, Colour& colour) {
+  constexpr std::string_view wanted = "a colour is wanted here: \"#rrggbb\", or three numbers from 0 to 1";
+  const std::array<Real*, 3> parts = {&colour.red, &colour.green, &colour.blue};
+  if (node.is_list()) {
+    node.require_list(3, "numbers from 0 to 1");
+    for (std::size_t i = 0; i < 3; ++i) {
+      read(node[i], *parts[i]);
+      if (!(*parts[i] >= 0 && *parts[i] <= 1)) node[i].fail(wanted);
+    }
+    return;
+  }
+  if (!node.is_text()) node.fail(wanted);
+  const std::string_view text = node.text();
+  constexpr std::string_view digits = "0123456789abcdefABCDEF";
+  if (text.size() != 7 || text[0] != '#' || text.find_first_not_of(digits, 1) != text.npos) node.fail(wanted);
+  for (std::size_t i = 0; i < 3; ++i) {
+    int value = 0;
+    std::from_chars(&text[1 + 2 * i], &text[1 + 2 * i] + 2, value, 16);
+    *parts[i] = value / 255.0;
+  }
+}
+
+void check_range(const Node& value, const OptionInfo& info) {
+  if (value.is_number()) {
+    if (const auto error = range_error(info, value.number())) value.fail(*error);
+  } else if (value.is_list()) {
+    for (std::size_t i = 0; i < value.size(); ++i) check_range(value[i], info);
+  }
 }
 
 Index read_vertex(const Node& node, Index vertex_count) {

@@ -9,8 +9,12 @@
 #include "pliant/core/types.h"
 #include "pliant/scene/detail/json_node.h"
 #include "pliant/scene/nearest_names.h"
+#include "pliant/scene/view_settings.h"
 
 namespace pliant {
+
+/// Larger coordinates overflow once they are squared, or multiplied with each other a few times.
+inline constexpr Real max_coordinate = 1e100;
 
 void read(const Node& node, Real& number);
 void read(const Node& node, Index& number);
@@ -18,7 +22,7 @@ void read(const Node& node, std::int64_t& number);
 /// true or false.
 void read(const Node& node, bool& flag);
 void read(const Node& node, std::string& text);
-/// Three numbers; of coordinates those up to 1e100 are read, here and below.
+/// Three numbers; none beyond max_coordinate, here and below.
 void read(const Node& node, Vec3& vector);
 /// A list of lists of three numbers.
 void read(const Node& node, Positions& rows);
@@ -28,6 +32,12 @@ void read(const Node& node, Values& values);
 /// A list of three numbers, or a list of such lists.
 void read(const Node& node, Points& points);
 void read(const Node& node, Ragged<Real>& lists);
+
+/// "#rrggbb", or a list of three numbers from 0 to 1.
+void read(const Node& node, Colour& colour);
+
+/// Refuses a number out of its range, where it stands in the value or in a list of that.
+void check_range(const Node& value, const OptionInfo& info);
 
 /// A vertex index from 0 to vertex_count − 1.
 Index read_vertex(const Node& node, Index vertex_count);
@@ -70,6 +80,11 @@ void read(const Node& node, Choice& choice) {
   }
   node.fail(fmt::format("'{}' is none of the choices: {}", printable(name),
                         nearest_names_text(name, {names.begin(), names.end()})));
+}
+
+template <class Value>
+void read(const Node& node, std::optional<Value>& value) {
+  read(node, value.emplace());
 }
 
 /// Reads the value of a key into `value`, or leaves it as it is when the key is not there.

@@ -5,6 +5,16 @@
 
 namespace pliant {
 
+/// A type that lists options of its own.
+template <class Options>
+concept has_options = requires(Options options) {
+  Options::visit(options, [](const OptionInfo&, auto&) {});
+};
+
+template <class Options>
+void read_options(const Node& node, Options& options, std::vector<std::string_view> more_keys = {},
+                  const SceneBody* body = nullptr);
+
 /// A visitor that reads each option whose key the object has.
 struct OptionReader {
   const Node& node;
@@ -12,27 +22,29 @@ struct OptionReader {
 
   template <class Option>
   void operator()(const OptionInfo& info, Option& option) const {
-    if (const std::optional<Node> value = node.find(info.name)) read_option(*value, option);
+    if (const std::optional<Node> value = node.find(info.name)) read_option(info, *value, option);
   }
 
  private:
   template <class Option>
-  void read_option(const Node& value, Option& option) const {
-    if constexpr (std::is_same_v<Option, Selection>) {
+  void read_option(const OptionInfo& info, const Node& value, Option& option) const {
+    if constexpr (has_options<Option>) {
+      read_options(value, option);
+    } else if constexpr (std::is_same_v<Option, Selection>) {
       if (node.has("stencils")) value.fail("'stencils' says already where; keep one of the two keys");
       option = read_selection(value, *body);
     } else if constexpr (std::is_same_v<Option, Stencils>) {
       option = read_stencils(value, body->mesh.vertex_count());
     } else {
       read(value, option);
+      check_range(value, info);
     }
   }
 };
 
 /// Reads options of any type that lists them. Other keys than theirs and `more_keys` are refused.
 template <class Options>
-void read_options(const Node& node, Options& options, std::vector<std::string_view> more_keys = {},
-                  const SceneBody* body = nullptr) {
+void read_options(const Node& node, Options& options, std::vector<std::string_view> more_keys, const SceneBody* body) {
   Options::visit(options, [&](const OptionInfo& info, const auto&) { more_keys.push_back(info.name); });
   node.check_keys(more_keys);
   Options::visit(options, OptionReader{node, body});

@@ -1,4 +1,5 @@
 #include "pliant/constraints/builtin.h"
+#include "pliant/mesh/geometry.h"
 #include "pliant/scene/detail/option_reader.h"
 #include "pliant/scene/detail/read_mesh.h"
 #include "pliant/scene/detail/scene_reader.h"
@@ -55,13 +56,18 @@ void SceneReader::read_body(const Node& node) {
         fmt::format("the name '{}' is another body's; choose another", printable(options.name)));
   }
 
-  Mesh mesh = read_mesh(node.require("mesh"), folder);
+  const Node mesh_node = node.require("mesh");
+  Mesh mesh = read_mesh(mesh_node);
+  mesh_node.locate([&] { check_mesh(mesh, printable(options.name)); });
   untransformed.emplace_back();
   if (const auto transform = node.find("transform")) {
     untransformed.back() = mesh.vertices;
     apply_transform(*transform, mesh.vertices);
+    transform->locate([&] { check_mesh(mesh, printable(options.name)); });
   }
-  const Mass mass = read_mass(node.require("mass"));
+  const Node mass_node = node.require("mass");
+  const Mass mass = read_mass(mass_node);
+  mass_node.locate([&] { vertex_masses(mesh, mass, printable(options.name)); });
   const Index vertex_count = mesh.vertex_count();
   check_rows(node, "start_positions", vertex_count);
   check_rows(node, "velocities", vertex_count);

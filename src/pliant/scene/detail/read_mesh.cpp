@@ -6,6 +6,7 @@
 
 #include "pliant/mesh/io/obj.h"
 #include "pliant/scene/detail/json_values.h"
+#include "pliant/scene/detail/scene_files.h"
 #include "pliant/scene/detail/shape_options.h"
 
 namespace pliant {
@@ -35,12 +36,11 @@ Mesh read_shape(const Node& node, std::tuple<Shape...>) {
   return mesh;
 }
 
-Mesh read_mesh_file(const Node& node, const std::filesystem::path& folder) {
+Mesh read_mesh_file(const Node& node) {
   node.check_keys({"file"});
   const Node file = node.require("file");
-  std::string path;
-  read(file, path);
-  return file.locate([&] { return read_obj(folder / path); });
+  const NamedFile named = read_named_file(file);
+  return file.locate([&] { return read_obj(named.path); });
 }
 
 Mesh read_inline_mesh(const Node& node) {
@@ -90,11 +90,11 @@ constexpr std::array masses_of_one_number = {
 
 }  // namespace
 
-Mesh read_mesh(const Node& node, const std::filesystem::path& folder) {
+Mesh read_mesh(const Node& node) {
   node.require_object();
   const std::string_view kind = node.require_one_of({"shape", "file", "vertices"});
   if (kind == "shape") return read_shape(node, Shapes{});
-  return kind == "file" ? read_mesh_file(node, folder) : read_inline_mesh(node);
+  return kind == "file" ? read_mesh_file(node) : read_inline_mesh(node);
 }
 
 void apply_transform(const Node& node, Positions& positions) {

@@ -1,15 +1,12 @@
 #pragma once
-#include <filesystem>
-
 #include "pliant/mesh/mass.h"
 #include "pliant/mesh/mesh.h"
 #include "pliant/scene/detail/json_node.h"
 
 namespace pliant {
 
-/// A body's mesh: {"file": ...}, {"shape": ..., options} or {"vertices": ..., "triangles": ...}. Relative paths start
-/// at `folder`.
-Mesh read_mesh(const Node& node, const std::filesystem::path& folder);
+/// A body's mesh: {"file": ...}, {"shape": ..., options} or {"vertices": ..., "triangles": ...}.
+Mesh read_mesh(const Node& node);
 
 /// Scales, then turns, then moves.
 void apply_transform(const Node& node, Positions& positions);

@@ -1,6 +1,5 @@
 #pragma once
 // The parts of a scene file that add to a simulation: bodies with their constraints, forces, moves.
-#include <filesystem>
 #include <map>
 #include <set>
 #include <string>
@@ -14,8 +13,7 @@ namespace pliant {
 /// What has been read so far, for what refers to it by name.
 struct SceneReader {
   Simulation& simulation;
-  std::filesystem::path folder;          ///< where relative paths start
-  std::vector<Positions> untransformed;  ///< rest positions of each body before its transform; empty: it has none
+  std::vector<Positions> untransformed = {};  ///< rest positions of each body before its transform; empty: it has none
   std::map<std::string, BodyId, std::less<>> bodies = {};
   std::map<std::string, GroupId, std::less<>> groups = {};
 

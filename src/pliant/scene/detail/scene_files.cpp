@@ -1,0 +1,35 @@
+#include "pliant/scene/detail/scene_files.h"
+
+#include <algorithm>
+
+#include "pliant/core/crc32.h"
+#include "pliant/mesh/io/read_file.h"
+#include "pliant/scene/detail/json_values.h"
+
+namespace pliant {
+
+std::string SceneFiles::read(const std::filesystem::path& path) {
+  std::string bytes = read_file(path);
+  if (std::ranges::find(files_, path.string(), &SceneFile::path) == files_.end()) {
+    files_.push_back({path.string(), bytes.size(), crc32(bytes)});
+  }
+  return bytes;
+}
+
+std::filesystem::path read_path(const Node& node) {
+  std::string name;
+  read(node, name);
+  if (name.empty()) node.fail("the path is empty; give that of a file");
+  if (name.find('\0') != name.npos) node.fail("a path cannot have the character \\u0000; take it out");
+  return node.origin().folder / name;
+}
+
+NamedFile read_named_file(const Node& node) {
+  NamedFile file;
+  file.path = read_path(node);
+  if (node.origin().files == nullptr) node.fail("no file can be read from here");
+  file.bytes = node.locate([&] { return node.origin().files->read(file.path); });
+  return file;
+}
+
+}  // namespace pliant

@@ -1,0 +1,84 @@
+#pragma once
+// How a scene is shown, in a window or a film.
+#include <array>
+#include <optional>
+
+#include "pliant/core/options.h"
+
+namespace pliant {
+
+/// Shares of red, green and blue, each from 0 to 1 (sRGB).
+struct Colour {
+  Real red = 0;
+  Real green = 0;
+  Real blue = 0;
+};
+
+struct Camera {
+  std::optional<Vec3> position{};  ///< [m]
+  std::optional<Vec3> target{};    ///< [m]
+  Vec3 up{0, 0, 1};
+  Real field_of_view = 40;  ///< [degrees]
+
+  template <class Self, class Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field(OptionInfo{"position", "m", "where it stands; default: where all that moves is in the picture"},
+          self.position);
+    field(OptionInfo{"target", "m", "what it looks at; default: the middle of the bodies"}, self.target);
+    field(OptionInfo{"up", "", "direction that is up in the picture, of any length but zero"}, self.up);
+    field(OptionInfo{"field_of_view", "degrees", "from the lower edge of the picture to the upper", Range{1, 170}},
+          self.field_of_view);
+  }
+};
+
+/// What the colour of a surface tells.
+enum class ColourBy { none, stretch, energy, speed };
+constexpr std::array<std::string_view, 4> choice_names(ColourBy) {
+  return {"none", "stretch", "energy", "speed"};
+}
+
+/// Surfaces with a normal that turns from face to face, or with one for each face.
+enum class Shading { smooth, flat };
+constexpr std::array<std::string_view, 2> choice_names(Shading) {
+  return {"smooth", "flat"};
+}
+
+struct ViewSettings {
+  Camera camera{};
+  Colour background{0.93, 0.94, 0.95};
+  ColourBy colour = ColourBy::none;
+  std::optional<std::array<Real, 2>> colour_range{};
+  bool legend = true;
+  Colour front{0.82, 0.33, 0.24};
+  Colour back{0.95, 0.77, 0.55};
+  Shading shading = Shading::smooth;
+  bool wireframe = false;
+  bool ground = true;
+  std::optional<Real> ground_height{};
+  bool shadow = true;
+  Vec3 light{-0.5, -0.8, 1.6};
+  std::array<Index, 2> size{1280, 720};
+
+  template <class Self, class Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field(OptionInfo{"camera", "", "where the picture is taken from"}, self.camera);
+    field(OptionInfo{"background", "", "behind everything"}, self.background);
+    field(OptionInfo{"colour", "", "of the bodies by `stretch`, `energy` or `speed`, or in two tones: `none`"},
+          self.colour);
+    field(OptionInfo{"colour_range", "", "values at the two ends of the colour map; default: those of the frame"},
+          self.colour_range);
+    field(OptionInfo{"legend", "", "show the colour map and its range"}, self.legend);
+    field(OptionInfo{"front", "", "tone of the side that normals point from"}, self.front);
+    field(OptionInfo{"back", "", "tone of the other side"}, self.back);
+    field(OptionInfo{"shading", "", "`smooth`, or `flat`: each face by itself"}, self.shading);
+    field(OptionInfo{"wireframe", "", "draw the edges of the elements too"}, self.wireframe);
+    field(OptionInfo{"ground", "", "draw a plane below the bodies"}, self.ground);
+    field(OptionInfo{"ground_height", "m", "of that plane; default: below everything at the start"},
+          self.ground_height);
+    field(OptionInfo{"shadow", "", "on the ground"}, self.shadow);
+    field(OptionInfo{"light", "", "direction that the light comes from, of any length but zero"}, self.light);
+    field(OptionInfo{"size", "pixels", "width and height of the picture", Range{16, 8192}}, self.size);
+  }
+};
+
+}  // namespace pliant
