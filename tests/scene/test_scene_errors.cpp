@@ -158,7 +158,7 @@ TEST_CASE("names must be known where they are used, and new where they are given
       {"\"type\": \"wind\"", "\"type\": \"wind\", \"body\": \"shet\"",
        "s.json: forces[0].body: there is no body 'shet'", "sheet"},
       {"\"group\": \"pins\"", "\"group\": \"pin\"", "s.json: moves[0].group: there is no group 'pin'", "first: pins,"},
-      {"\"group\": \"pins\"", "\"group\": \"sheet.edge_spring\"", "s.json: moves[0]: the group has no targets"},
+      {"\"group\": \"pins\"", "\"group\": \"sheet.edge_spring\"", "s.json: moves[0]: the group 'sheet.edge_spring' has no targets"},
       {"\"type\": \"edge_spring\"", "\"type\": \"edge_spring\", \"name\": \"pins\"",
        "s.json: bodies[0].constraints[1].name: the name 'pins' is another group's"},
       {"}\n  ],\n  \"forces\"",

@@ -1,6 +1,5 @@
 #include "pliant/scene/scene.h"
 
-#include "pliant/forces/gravity.h"
 #include "pliant/mesh/io/read_file.h"
 #include "pliant/scene/detail/option_reader.h"
 #include "pliant/scene/detail/scene_reader.h"
@@ -48,17 +47,6 @@ void read_run(const Node& root, const SceneOverrides& overrides, Scene& scene) {
   }
 }
 
-void add_gravity(const Node& root, Simulation& simulation) {
-  const auto node = root.find("gravity");
-  if (!node) {
-    simulation.add_force(std::make_unique<Gravity>());
-  } else if (!node->value().is_null()) {
-    Vec3 acceleration;
-    read(*node, acceleration);
-    simulation.add_force(std::make_unique<Gravity>(acceleration));
-  }
-}
-
 /// Calls f for each entry of a list that may be missing.
 void for_each_entry(const Node& root, std::string_view key, auto&& f) {
   const auto list = root.find(key);
@@ -70,8 +58,7 @@ void for_each_entry(const Node& root, std::string_view key, auto&& f) {
 }  // namespace
 
 StepReport Scene::step() {
-  timeline.apply(simulation);
-  return simulation.step();
+  return timeline.step(simulation);
 }
 
 Scene parse_scene(std::string_view text, const std::filesystem::path& folder, std::string_view name,
@@ -80,8 +67,8 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& folder, st
   const Node root(name, json);
   root.require_object();
   check_version(root);
-  root.check_keys(
-      {"pliant", "name", "description", "settings", "steps", "gravity", "bodies", "forces", "moves", "output"});
+  root.check_keys({"pliant", "name", "description", "settings", "steps", "gravity", "bodies", "forces", "moves",
+                   "events", "output"});
   Scene scene;
   scene.name = std::filesystem::path(name).stem().string();
   read_run(root, overrides, scene);
@@ -91,9 +78,10 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& folder, st
   if (const Node bodies = root.require("bodies"); bodies.value().empty()) bodies.fail("there is no body; add one");
   SceneReader reader{scene.simulation, folder, {}};
   for_each_entry(root, "bodies", [&](const Node& node) { reader.read_body(node); });
-  add_gravity(root, scene.simulation);
+  reader.read_gravity(root);
   for_each_entry(root, "forces", [&](const Node& node) { reader.read_force(node); });
-  for_each_entry(root, "moves", [&](const Node& node) { reader.read_move(node, scene.timeline); });
+  reader.read_events(root, name, scene.timeline);
+  scene.later_groups = std::move(reader.later_groups);
   return scene;
 }
 

@@ -38,8 +38,9 @@ struct Scene {
   OutputSettings output;
   Simulation simulation;
   Timeline timeline;
+  std::vector<std::string> later_groups;  ///< names of the groups that events will add
 
-  /// Makes the moves that are due and takes one step.
+  /// Lets the events act that are due and takes one step. When this throws, nothing has changed.
   StepReport step();
 };
 

@@ -35,6 +35,12 @@ class Node {
 
   const Json& value() const { return *value_; }
 
+  bool is_null() const { return value_->is_null(); }
+  bool is_list() const { return value_->is_array(); }
+  bool is_object() const { return value_->is_object(); }
+  /// Entries of a list or keys of an object; 0 for other values.
+  std::size_t size() const { return is_list() || is_object() ? value_->size() : 0; }
+
   /// Entry i of a list, with i in range.
   Node operator[](std::size_t i) const;
   /// The value of a key, or nothing when the key is not there.
