@@ -21,7 +21,7 @@ Exit codes: 0 done, 2 bad input, 3 diverged, 4 output could not be written, 130 
 
 int print_error(std::string message, pliant::ErrorKind kind) {
   std::ranges::replace(message, '\n', ' ');
-  pliant_cli::print_to_stderr("pliant: error: " + message + "\n");
+  pliant_cli::print_to_stderr("pliant: error: " + pliant_cli::printable(message) + "\n");
   return static_cast<int>(kind);
 }
 

@@ -9,6 +9,7 @@
 
 #include "commands.h"
 #include "pliant/recorder/recorder.h"
+#include "pliant/recorder/run_files.h"
 #include "pliant/scene/builtin_scenes.h"
 #include "pliant/scene/nearest_names.h"
 #include "pliant/scene/scene.h"
@@ -60,8 +61,12 @@ std::unique_ptr<pliant::FrameWriter> make_frame_writer(const Scene& scene, const
   switch (scene.output.format) {
     case pliant::FrameFormat::npy:
       return pliant::make_npy_writer(folder, scene.simulation.state().vertex_count());
+    case pliant::FrameFormat::pc2:
+      return pliant::make_pc2_writer(folder, scene.simulation.state().vertex_count());
     case pliant::FrameFormat::obj:
       return pliant::make_obj_writer(folder, scene.simulation.bodies());
+    case pliant::FrameFormat::ply:
+      return pliant::make_ply_writer(folder, scene.simulation.bodies());
     case pliant::FrameFormat::none:
       break;
   }
@@ -74,7 +79,7 @@ class Warnings {
   void print(const pliant::Simulation& simulation, Progress& progress) {
     for (; printed_ < simulation.warnings().size(); ++printed_) {
       progress.clear();
-      print_to_stderr("warning: " + simulation.warnings()[printed_] + "\n");
+      print_to_stderr("warning: " + printable(simulation.warnings()[printed_]) + "\n");
     }
   }
 
@@ -101,26 +106,24 @@ std::string size_text(std::uintmax_t bytes) {
   return fmt::format("{:.1f} MB", static_cast<double>(bytes) * 1e-6);
 }
 
-void print_summary(const Scene& scene, const pliant::RunInfo& info, std::int64_t frames, const fs::path& folder) {
+void print_summary(const Scene& scene, const pliant::RunInfo& info, const fs::path& folder) {
   const std::int64_t steps = scene.simulation.state().step;
-  fmt::print("{}: {} of {} steps, {:.3g} s simulated in {:.3g} s", scene.name, steps, scene.steps,
+  fmt::print("{}: {} of {} steps, {:.3g} s simulated in {:.3g} s", printable(scene.name), steps, scene.steps,
              scene.simulation.state().time, info.wall_seconds);
   if (steps > 0) fmt::print(", {:.3g} ms a step", 1e3 * info.wall_seconds / static_cast<double>(steps));
   fmt::print(" ({}, threads: {})\n", scene.simulation.backend(), scene.simulation.thread_count());
-  std::error_code ignored;
-  if (scene.output.format == pliant::FrameFormat::obj) {
-    fmt::print("  {}  {} files\n", (folder / "frame_*.obj").string(), frames);
-  }
-  for (const std::string_view name : {"frames.npy", "measurements.csv", "run.json"}) {
+  for (const std::string& name : pliant::run_files(info.frame_format)) {
     const fs::path file = folder / name;
-    if (!fs::exists(file, ignored)) continue;
-    fmt::print("  {}  {}\n", file.string(), size_text(fs::file_size(file, ignored)));
+    std::error_code ignored;
+    const bool is_one_file = fs::exists(file, ignored);
+    fmt::print("  {}  {}\n", printable(file.string()),
+               is_one_file ? size_text(fs::file_size(file, ignored)) : fmt::format("{} files", info.frames));
   }
 }
 
 /// The files of a run must not take the place of the scene that they come from.
-void refuse_to_replace(const fs::path& scene, const fs::path& folder) {
-  for (const std::string_view name : {"frames.npy", "measurements.csv", "run.json"}) {
+void refuse_to_replace(const fs::path& scene, const fs::path& folder, std::string_view format) {
+  for (const std::string& name : pliant::run_files(format)) {
     std::error_code ignored;
     if (!fs::equivalent(scene, folder / name, ignored)) continue;
     pliant::fail_input(fmt::format("{}: the run would replace this scene by its own {}; give another folder by --out",
@@ -128,36 +131,59 @@ void refuse_to_replace(const fs::path& scene, const fs::path& folder) {
   }
 }
 
-/// Simulates and records; what was recorded is whole however it ends, and run.json says how that was.
+/// Simulates and records; what was recorded is whole however it ends.
+void record_run(Scene& scene, const fs::path& folder, const RunOptions& options, pliant::RunInfo& info) {
+  pliant::Recorder recorder(folder, make_frame_writer(scene, folder), scene.output.every, scene.simulation);
+  const auto begin = std::chrono::steady_clock::now();
+  const auto count = [&] {
+    info.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    info.frames = recorder.frame_count();
+  };
+  try {
+    simulate(scene, recorder, options);
+  } catch (...) {
+    count();
+    throw;
+  }
+  count();
+}
+
+/// run.json may meet the same full disk; then it stays as it was at the start, and the first error is the one to tell.
+void end_failed_run(const fs::path& folder, const pliant::RunInfo& info, const pliant::Simulation& simulation) {
+  try {
+    pliant::end_run(folder, info, simulation);
+  } catch (const pliant::Error&) {
+  }
+}
+
+/// Runs a scene; run.json says how it ended, whichever way that was.
 int run_scene(const RunOptions& options) {
   Scene scene = open_scene(options);
   const fs::path folder = options.out.empty() ? fs::path("out") / fs::path(options.scene).stem() : options.out;
-  refuse_to_replace(options.scene, folder);
   catch_interrupts();
-  pliant::prepare_run_folder(folder);
-  pliant::Recorder recorder(folder, make_frame_writer(scene, folder), scene.output.every, scene.simulation);
 
   pliant::RunInfo info;
   info.scene = scene.name;
   info.source = options.scene;
   info.wanted_steps = scene.steps;
-  const auto begin = std::chrono::steady_clock::now();
-  const auto finish = [&](Outcome outcome) {
-    info.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    info.outcome = outcome;
-    recorder.finish(info, scene.simulation);
-  };
+  info.every = scene.output.every;
+  info.frame_format = choice_names(scene.output.format)[static_cast<std::size_t>(scene.output.format)];
+  refuse_to_replace(options.scene, folder, info.frame_format);
+  pliant::begin_run(folder, info, scene.simulation);
   try {
-    simulate(scene, recorder, options);
-  } catch (const pliant::Error& error) {
+    record_run(scene, folder, options, info);
+  } catch (const std::exception& error) {
+    const auto* known = dynamic_cast<const pliant::Error*>(&error);
+    const bool is_diverged = known != nullptr && known->kind() == pliant::ErrorKind::diverged;
+    info.outcome = is_diverged ? Outcome::diverged : Outcome::failed;
     info.error = error.what();
-    if (error.kind() == pliant::ErrorKind::output) throw;  // run.json would meet the same full disk
-    finish(error.kind() == pliant::ErrorKind::diverged ? Outcome::diverged : Outcome::failed);
+    end_failed_run(folder, info, scene.simulation);
     throw;
   }
   const bool interrupted = was_interrupted() && scene.simulation.state().step < scene.steps;
-  finish(interrupted ? Outcome::interrupted : Outcome::ok);
-  if (!options.quiet) print_summary(scene, info, recorder.frame_count(), folder);
+  info.outcome = interrupted ? Outcome::interrupted : Outcome::ok;
+  pliant::end_run(folder, info, scene.simulation);
+  if (!options.quiet) print_summary(scene, info, folder);
   return interrupted ? exit_interrupted : 0;
 }
 
@@ -177,7 +203,7 @@ void add_run_command(CLI::App& program, int& exit_code) {
                       "Iterate no further below this residual [N]; 0: only at exact rest");
   command->add_option("--threads", overrides.threads, "0: one a processor; results do not depend on it");
   add_choice(*command, "--backend", overrides.backend, "Library that factorizes: automatic, eigen or cholmod");
-  add_choice(*command, "--format", overrides.format, "Of the frames: npy, obj or none");
+  add_choice(*command, "--format", overrides.format, "Of the frames: npy, pc2, obj, ply or none");
   command->add_option("--every", overrides.every, "Record the start and every n-th step");
   command->add_flag("--quiet", options->quiet, "Print warnings and errors only");
   command->footer("Example:\n  pliant run curtain_wind --out out/curtain --steps 120 --format obj");

@@ -26,6 +26,20 @@ void guard_streams() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
+std::string printable(std::string_view text) {
+  std::string result;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    // U+0080 to U+009F are 0xC2 and a byte below 0xA0.
+    const bool is_upper_control =
+        byte == 0xC2 && i + 1 < text.size() && (static_cast<unsigned char>(text[i + 1]) & 0xE0U) == 0x80;
+    const bool is_control = byte < ' ' || byte == 0x7F;
+    result += is_control || is_upper_control ? '?' : text[i];
+    if (is_upper_control) ++i;
+  }
+  return result;
+}
+
 void print_to_stderr(std::string_view text) {
   std::fwrite(text.data(), 1, text.size(), stderr);
   std::fflush(stderr);

@@ -3,6 +3,7 @@ import json
 import os
 import pathlib
 import signal
+import struct
 import subprocess
 import tempfile
 import time
@@ -56,7 +57,7 @@ class Run(unittest.TestCase):
     def rows(self):
         return len((self.out / "measurements.csv").read_text().splitlines()) - 1
 
-    def test_a_run_leaves_its_three_files(self):
+    def test_a_run_leaves_its_files(self):
         done = self.pliant("run", self.write_scene(), "--out", self.out)
         self.assertIn("20 of 20 steps", done.stdout)
         self.assertEqual(done.stderr, "")
@@ -67,6 +68,9 @@ class Run(unittest.TestCase):
         numpy.testing.assert_array_equal(frames[:, 0], numpy.zeros((21, 3)))
         self.assertLess(frames[20, 9, 2], -0.3)
         self.assertEqual(self.rows(), 21)
+        mesh = (self.out / "mesh.obj").read_text().splitlines()
+        vertices = [[float(x) for x in line.split()[1:]] for line in mesh if line.startswith("v ")]
+        numpy.testing.assert_array_equal(vertices, frames[0])
         info = self.run_info()
         self.assertEqual(info["outcome"], "ok")
         self.assertEqual(info["scene"], "scene")
@@ -85,7 +89,8 @@ class Run(unittest.TestCase):
         info = self.run_info()
         settings = {"time_step": 0.01, "iterations": 3, "tolerance": 0.5, "threads": 2, "backend": "eigen"}
         self.assertEqual(info["settings"], info["settings"] | settings)
-        self.assertEqual(info["output"], {"format": "npy", "every": 3})
+        files = ["frames.npy", "mesh.obj", "run.json", "measurements.csv"]
+        self.assertEqual(info["output"], {"format": "npy", "every": 3, "files": files})
         self.assertEqual(info["used"]["backend"], "eigen")
 
     def test_two_runs_give_the_same_frames_and_replace_each_other(self):
@@ -97,7 +102,7 @@ class Run(unittest.TestCase):
         self.pliant("run", scene, "--out", self.out, "--format", "obj", "--steps", 2)
         names = sorted(path.name for path in self.out.iterdir())
         frames = [f"frame_0000{i}.obj" for i in range(3)]
-        self.assertEqual(names, frames + ["measurements.csv", "run.json"])
+        self.assertEqual(names, frames + ["measurements.csv", "mesh.obj", "run.json"])
         self.pliant("run", scene, "--out", self.out, "--format", "none")
         self.assertEqual(sorted(path.name for path in self.out.iterdir()), ["measurements.csv", "run.json"])
 
@@ -134,6 +139,30 @@ class Run(unittest.TestCase):
         self.assertIn("scene.json: stepz: unknown key", error)
         self.assertFalse(self.out.exists())
 
+    def test_a_folder_with_files_of_one_s_own_is_refused(self):
+        scene = self.write_scene()
+        (self.folder / "mesh.obj").write_text("v 0 0 0\n")
+        error = self.pliant("run", scene, "--out", self.folder, expect=4).stderr
+        self.assertIn("the run would replace its mesh.obj", error)
+        self.assertEqual((self.folder / "mesh.obj").read_text(), "v 0 0 0\n")
+        self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["mesh.obj", "scene.json"])
+
+    def test_names_do_not_reach_the_terminal_as_they_are(self):
+        scene = self.write_scene({"name": "a\u001b[2J\nb\u009bc\u00e9"})
+        done = self.pliant("run", scene, "--out", self.out, "--steps", 1)
+        self.assertIn("a?[2J?b?c\u00e9: 1 of 1 steps", done.stdout)
+
+    def test_a_point_cache_in_place_of_the_array(self):
+        self.pliant("run", self.write_scene(), "--out", self.out)
+        frames = numpy.load(self.out / "frames.npy")
+        self.pliant("run", self.write_scene(), "--out", self.out, "--format", "pc2")
+        self.assertEqual(sorted(path.name for path in self.out.iterdir()),
+                         ["frames.pc2", "measurements.csv", "mesh.obj", "run.json"])
+        data = (self.out / "frames.pc2").read_bytes()
+        self.assertEqual(struct.unpack("<12siiffi", data[:32]), (b"POINTCACHE2\0", 1, 10, 0.0, 1.0, 21))
+        points = numpy.frombuffer(data[32:], dtype="<f4").reshape(21, 10, 3)
+        numpy.testing.assert_array_equal(points, frames.astype(numpy.float32))
+
     def test_divergence_exits_with_3_and_leaves_what_came_before(self):
         scene = self.write_scene({"forces": [{"type": "test_force", "vertex": 5, "force": [1e308, 0, 0],
                                               "frames": [4, 9]}], "settings": {"time_step": 100}})
@@ -158,6 +187,8 @@ class Run(unittest.TestCase):
             error = self.pliant("run", scene, "--out", self.out, expect=4).stderr
             self.assertIn(f"{name}: cannot be written: No space left on device", error)
             (self.out / name).unlink()
+            self.assertEqual(self.run_info()["outcome"], "failed")
+            self.assertIn("No space left on device", self.run_info()["error"])
         with open("/dev/full", "w") as full:
             self.assertEqual(subprocess.run([PLIANT, "scenes"], stdout=full, stderr=subprocess.DEVNULL).returncode, 4)
 
@@ -192,6 +223,9 @@ class Run(unittest.TestCase):
         frames = numpy.load(self.out / "frames.npy")
         self.assertGreaterEqual(len(frames), 9)
         self.assertTrue(numpy.isfinite(frames).all())
+        self.assertEqual(self.run_info()["outcome"], "running")
+        self.pliant("run", self.write_scene(), "--out", self.out)  # its files are known to be a run's
+        self.assertEqual(self.run_info()["outcome"], "ok")
 
 
 if __name__ == "__main__":

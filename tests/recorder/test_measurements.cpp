@@ -128,25 +128,4 @@ TEST_CASE("the file has a row for each record, and numbers that read back to the
   CHECK(columns.at("residual")[3] > 0);
 }
 
-TEST_CASE("a folder for a run is made; what an earlier run left is removed, the rest stays") {
-  const TemporaryFolder folder;
-  const auto runs = folder.path() / "a" / "b";
-  prepare_run_folder(runs);
-  for (const char* name : {"frames.npy", "run.json", "measurements.csv", "frame_00012.obj", "frame_123456.obj",
-                           "frame_1.obj", "frame_0000x.obj", "notes.txt"}) {
-    folder.write(std::string("a/b/") + name, "x");
-  }
-  prepare_run_folder(runs);
-  std::vector<std::string> left;
-  for (const auto& entry : std::filesystem::directory_iterator(runs)) left.push_back(entry.path().filename().string());
-  std::ranges::sort(left);
-  CHECK(left == std::vector<std::string>{"frame_0000x.obj", "frame_1.obj", "notes.txt"});
-  try {
-    prepare_run_folder(folder.write("file", "x"));
-    FAIL("no error");
-  } catch (const Error& error) {
-    CHECK(error.kind() == ErrorKind::output);
-  }
-}
-
 }  // namespace

@@ -25,7 +25,14 @@ class FrameWriter {
 /// All frames in `folder`/frames.npy: float64, frames × m × 3, C order. The vertices are those of all bodies in turn.
 std::unique_ptr<FrameWriter> make_npy_writer(const std::filesystem::path& folder, Index vertex_count);
 
+/// All frames in `folder`/frames.pc2, the point cache that Blender and Houdini read on top of mesh.obj: float32. A
+/// frame of the cache is one frame of theirs.
+std::unique_ptr<FrameWriter> make_pc2_writer(const std::filesystem::path& folder, Index vertex_count);
+
 /// One file a frame, `folder`/frame_00000.obj and so on; several bodies are objects of that file (`o`, by their names).
 std::unique_ptr<FrameWriter> make_obj_writer(const std::filesystem::path& folder, std::span<const Body> bodies);
+
+/// One binary file a frame, `folder`/frame_00000.ply and so on, of all bodies.
+std::unique_ptr<FrameWriter> make_ply_writer(const std::filesystem::path& folder, std::span<const Body> bodies);
 
 }  // namespace pliant

@@ -1,5 +1,5 @@
 #pragma once
-// The files of a run, in one folder: frames.npy or frame_*.obj, measurements.csv, run.json.
+// The files of a run, in one folder; run_files.h has their names.
 #include <memory>
 
 #include "pliant/recorder/frame_writer.h"
@@ -8,9 +8,14 @@
 
 namespace pliant {
 
-/// Makes the folder where it is missing and removes the files that an earlier run left there; others stay.
-/// @throws Error (output) when the name stands for something else, or the folder cannot be used.
-void prepare_run_folder(const std::filesystem::path& folder);
+/// Makes the folder ready for a run (prepare_run_folder in run_files.h) and writes what stands there from its start on:
+/// run.json, which says that it is running and so tells whose the other files are, and mesh.obj, the bodies as objects
+/// at their positions of now, which the frames move. `info` gives the format of the frames.
+/// @throws Error (output)
+void begin_run(const std::filesystem::path& folder, RunInfo info, const Simulation& simulation);
+
+/// Writes run.json anew, with how the run ended. @throws Error (output)
+void end_run(const std::filesystem::path& folder, const RunInfo& info, const Simulation& simulation);
 
 /// Records a run. Whenever it is dropped, and whatever it throws, the frames and rows recorded before are whole.
 class Recorder {
@@ -22,9 +27,6 @@ class Recorder {
 
   /// Records the state if its step is a multiple of `every`; to be called at the start and after every step.
   void record(Simulation& simulation, const StepReport& report);
-
-  /// Writes run.json; format, every and frames of `info` are filled in here.
-  void finish(RunInfo info, const Simulation& simulation) const;
 
   std::int64_t frame_count() const { return frame_count_; }
   /// The residual of the last record [N].

@@ -6,6 +6,7 @@
 
 #include "pliant/core/atomic_file.h"
 #include "pliant/core/version.h"
+#include "pliant/recorder/run_files.h"
 
 namespace pliant {
 namespace {
@@ -73,7 +74,7 @@ void write_run_info(const std::filesystem::path& path, const RunInfo& info, cons
   if (!info.error.empty()) json["error"] = info.error;
   json["steps"] = info.wanted_steps;
   json["settings"] = describe_settings(simulation.settings());
-  json["output"] = {{"format", info.frame_format}, {"every", info.every}};
+  json["output"] = {{"format", info.frame_format}, {"every", info.every}, {"files", run_files(info.frame_format)}};
   json["used"] = {{"pliant", version},
                   {"compiler", compiler},
                   {"backend", simulation.backend()},

@@ -8,10 +8,10 @@
 
 namespace pliant {
 
-/// How a run ended.
-enum class Outcome { ok, diverged, interrupted, failed };
-constexpr std::array<std::string_view, 4> choice_names(Outcome) {
-  return {"ok", "diverged", "interrupted", "failed"};
+/// How a run ended; running: it has not yet, or it was killed.
+enum class Outcome { ok, diverged, interrupted, failed, running };
+constexpr std::array<std::string_view, 5> choice_names(Outcome) {
+  return {"ok", "diverged", "interrupted", "failed", "running"};
 }
 
 /// What the simulation does not know about its run.
@@ -23,7 +23,7 @@ struct RunInfo {
   std::int64_t wanted_steps = 0;
   std::int64_t frames = 0;
   double wall_seconds = 0;
-  Outcome outcome = Outcome::ok;
+  Outcome outcome = Outcome::running;
   std::string error;  ///< the message when it did not end well
 };
 

@@ -13,10 +13,10 @@
 
 namespace pliant {
 
-/// What the frames of a run are written as: one array, one OBJ file each, or nothing.
-enum class FrameFormat { npy, obj, none };
-constexpr std::array<std::string_view, 3> choice_names(FrameFormat) {
-  return {"npy", "obj", "none"};
+/// What the frames of a run are written as: one array, one point cache, one mesh file each, or nothing.
+enum class FrameFormat { npy, pc2, obj, ply, none };
+constexpr std::array<std::string_view, 5> choice_names(FrameFormat) {
+  return {"npy", "pc2", "obj", "ply", "none"};
 }
 
 struct OutputSettings {
@@ -25,7 +25,7 @@ struct OutputSettings {
 
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& field) {
-    field(OptionInfo{"format", "", "of the frames: `npy`, `obj` or `none`"}, self.format);
+    field(OptionInfo{"format", "", "of the frames: `npy`, `pc2`, `obj`, `ply` or `none`"}, self.format);
     field(OptionInfo{"every", "", "record the start and every n-th step"}, self.every);
   }
 };

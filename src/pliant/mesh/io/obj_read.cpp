@@ -233,10 +233,12 @@ class ObjReader {
 
 }  // namespace
 
+Mesh parse_obj(std::string_view bytes, std::string_view name) {
+  return ObjReader(bytes, name).read();
+}
+
 Mesh read_obj(const std::filesystem::path& path) {
-  const std::string text = read_file(path);
-  const std::string name = path.string();
-  return ObjReader(text, name).read();
+  return parse_obj(read_file(path), path.string());
 }
 
 }  // namespace pliant

@@ -1,27 +1,11 @@
-#include <algorithm>
+#include "pliant/recorder/detail/one_mesh.h"
+
 #include <numeric>
 
-#include <fmt/format.h>
-
-#include "pliant/mesh/io/obj.h"
 #include "pliant/mesh/topology.h"
-#include "pliant/recorder/frame_writer.h"
 
 namespace pliant {
 namespace {
-
-/// The faces that a mesh shows: its polygons, else its triangles, else the surface of its tetrahedra.
-PolygonFaces visible_faces(const Mesh& mesh) {
-  if (mesh.faces.face_count() > 0) return mesh.faces;
-  const std::vector<Triangle> triangles = mesh.triangles.empty() ? boundary_triangles(mesh.tetrahedra) : mesh.triangles;
-  PolygonFaces faces;
-  faces.offsets.push_back(0);
-  for (const Triangle& triangle : triangles) {
-    faces.vertices.insert(faces.vertices.end(), triangle.begin(), triangle.end());
-    faces.offsets.push_back(static_cast<Index>(faces.vertices.size()));
-  }
-  return faces;
-}
 
 /// Appends faces whose vertices and texture coordinates start at the given ones.
 void append_faces(PolygonFaces& all, const PolygonFaces& faces, Index first_vertex, Index first_texture) {
@@ -34,8 +18,7 @@ void append_faces(PolygonFaces& all, const PolygonFaces& faces, Index first_vert
   }
 }
 
-/// The bodies as objects of one mesh, their vertices in the simulation's order.
-Mesh one_mesh(std::span<const Body> bodies) {
+Mesh objects_of_one_mesh(std::span<const Body> bodies) {
   Mesh all;
   all.faces.offsets.push_back(0);
   for (const Body& body : bodies) {
@@ -62,28 +45,22 @@ Mesh one_mesh(std::span<const Body> bodies) {
   return all;
 }
 
-class ObjFrames final : public FrameWriter {
- public:
-  ObjFrames(std::filesystem::path folder, Mesh mesh) : folder_(std::move(folder)), mesh_(std::move(mesh)) {}
-
-  std::string_view format() const override { return "obj"; }
-  std::filesystem::path path() const override { return folder_ / "frame_*.obj"; }
-  void add(const Positions& positions) override {
-    write_obj(folder_ / fmt::format("frame_{:05}.obj", frame_count_), mesh_, positions);
-    ++frame_count_;
-  }
-
- private:
-  std::filesystem::path folder_;
-  Mesh mesh_;
-  std::int64_t frame_count_ = 0;
-};
-
 }  // namespace
 
-std::unique_ptr<FrameWriter> make_obj_writer(const std::filesystem::path& folder, std::span<const Body> bodies) {
-  Mesh mesh = bodies.size() == 1 ? bodies.front().mesh : one_mesh(bodies);
-  return std::make_unique<ObjFrames>(folder, std::move(mesh));
+PolygonFaces visible_faces(const Mesh& mesh) {
+  if (mesh.faces.face_count() > 0) return mesh.faces;
+  const std::vector<Triangle> triangles = mesh.triangles.empty() ? boundary_triangles(mesh.tetrahedra) : mesh.triangles;
+  PolygonFaces faces;
+  faces.offsets.push_back(0);
+  for (const Triangle& triangle : triangles) {
+    faces.vertices.insert(faces.vertices.end(), triangle.begin(), triangle.end());
+    faces.offsets.push_back(static_cast<Index>(faces.vertices.size()));
+  }
+  return faces;
+}
+
+Mesh one_mesh(std::span<const Body> bodies) {
+  return bodies.size() == 1 ? bodies.front().mesh : objects_of_one_mesh(bodies);
 }
 
 }  // namespace pliant

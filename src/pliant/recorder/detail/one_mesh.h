@@ -1,0 +1,15 @@
+#pragma once
+// The bodies of a simulation as one mesh, for files that hold one.
+#include <span>
+
+#include "pliant/simulation/simulation.h"
+
+namespace pliant {
+
+/// The faces that a mesh shows: its polygons, else its triangles, else the surface of its tetrahedra.
+PolygonFaces visible_faces(const Mesh& mesh);
+
+/// A single body as it is; several as objects of one mesh, by their names, their vertices in the simulation's order.
+Mesh one_mesh(std::span<const Body> bodies);
+
+}  // namespace pliant

@@ -1,0 +1,27 @@
+#pragma once
+// The files of a run, all in one folder: run.json, measurements.csv and, unless the format of its frames is "none",
+// mesh.obj and the frames.
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace pliant {
+
+/// Where the frames of a format are: frames.npy, frames.pc2, frame_*.obj or frame_*.ply; "" for "none".
+std::string frames_name(std::string_view format);
+
+/// frame_00012.obj for frame 12, the extension being the format's name.
+std::string frame_file_name(std::int64_t frame, std::string_view format);
+
+/// The names of all files of a run with frames of a format; a star stands for the numbers of frames.
+std::vector<std::string> run_files(std::string_view format);
+
+/// Makes the folder where it is missing, and removes the files that the run.json there tells an earlier run wrote.
+/// Everything else stays, and nothing of it is replaced:
+/// @throws Error (output): the name stands for something else, the folder cannot be used, or a file stands there that
+///   this run would replace and no earlier one wrote.
+void prepare_run_folder(const std::filesystem::path& folder, std::string_view format);
+
+}  // namespace pliant
