@@ -103,10 +103,40 @@ class BodyPath final : public Path {
   Index first_vertex_ = 0;
 };
 
+class CachePath final : public Path {
+ public:
+  CachePath(PointCache cache, std::vector<Index> vertices, Attach attach)
+      : cache_(std::move(cache)), vertices_(std::move(vertices)), attach_(attach) {}
+
+  Real duration() const override { return cache_.time(cache_.frame_count() - 1) - cache_.time(0); }
+
+  void begin(const Simulation&, GroupId, MotionNumbers& numbers) const override {
+    Positions first;
+    cache_.frame(0, first);
+    attach_points(first, vertices_, attach_, numbers);
+  }
+
+  void go_to(const Simulation&, const MotionNumbers&, Real elapsed) override {
+    cache_.sample(cache_.time(0) + elapsed, positions_);
+  }
+
+  Vec3 at(const MotionPoint& point) const override { return row(positions_, point.vertex) + point.from; }
+
+ private:
+  PointCache cache_;
+  std::vector<Index> vertices_;
+  Attach attach_;
+  Positions positions_;  // scratch
+};
+
 }  // namespace
 
 std::shared_ptr<Path> follow_body(BodyId body, std::vector<Index> vertices, Attach attach) {
   return std::make_shared<BodyPath>(body, std::move(vertices), attach);
+}
+
+std::shared_ptr<Path> follow_cache(PointCache cache, std::vector<Index> vertices, Attach attach) {
+  return std::make_shared<CachePath>(std::move(cache), std::move(vertices), attach);
 }
 
 }  // namespace pliant

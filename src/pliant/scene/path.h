@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "pliant/mesh/io/point_cache.h"
 #include "pliant/simulation/simulation.h"
 
 namespace pliant {
@@ -103,5 +104,9 @@ constexpr std::array<std::string_view, 2> choice_names(Attach) {
 /// each target takes the vertex that is nearest to it when the motion begins. A target is where its vertex was at the
 /// start of the step, so it lags by one step.
 std::shared_ptr<Path> follow_body(BodyId body, std::vector<Index> vertices = {}, Attach attach = Attach::offset);
+
+/// The same with the vertices of an animation, whose first frame is at the begin of the motion. A target is where its
+/// vertex is at the end of the step, linear in time between two frames, and stays where it is in the last one.
+std::shared_ptr<Path> follow_cache(PointCache cache, std::vector<Index> vertices = {}, Attach attach = Attach::offset);
 
 }  // namespace pliant

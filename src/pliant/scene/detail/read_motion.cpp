@@ -1,5 +1,6 @@
 #include "pliant/scene/detail/read_motion.h"
 
+#include "pliant/mesh/io/point_cache.h"
 #include "pliant/scene/detail/option_reader.h"
 #include "pliant/scene/detail/scene_reader.h"
 
@@ -52,9 +53,26 @@ EventPath read_move(const Node& node, std::vector<std::string_view> more_keys) {
 
 EventPath read_follow(const Node& node, std::vector<std::string_view> more_keys, const SceneReader& scene) {
   FollowOptions options;
-  more_keys.push_back("body");
+  const bool is_file = node.has("file");
+  more_keys.insert(more_keys.end(), {"body", "file"});
+  FileOptions file_options;
+  if (is_file) {
+    FileOptions::visit(file_options, [&](const OptionInfo& info, const auto&) { more_keys.push_back(info.name); });
+    FileOptions::visit(file_options, OptionReader{node});
+  }
   read_options(node, options, std::move(more_keys));
-  return {follow_body(scene.read_body_name(node), options.vertices, options.attach), options.index};
+  const std::string_view kind = node.require_one_of({"body", "file"});
+  if (kind == "body") {
+    const BodyId body = scene.read_body_name(node);
+    return {follow_body(body, options.vertices, options.attach), options.index};
+  }
+  std::string path;
+  const Node file = node.require(kind);
+  read(file, path);
+  node.locate([&] { check_options("follow", file_options); });
+  PointCache cache = file.locate(
+      [&] { return PointCache::read(scene.folder / path, {.frames_per_second = file_options.frames_per_second}); });
+  return {follow_cache(std::move(cache), options.vertices, options.attach), options.index};
 }
 
 }  // namespace pliant
