@@ -10,7 +10,8 @@
 //
 // and, where it needs them,
 //
-//     static constexpr bool has_targets = true;       // the first three fields are a point that may be moved
+//     static constexpr bool has_targets = true;       // the three fields are a point that may be moved
+//     static constexpr bool has_anchors = true;       // the first three are a point that begins where the vertices are
 //     static void begin_step(const Positions& q, std::span<const Index> stencil, Real* fields);
 //
 // z of a translation-invariant type is summed over differences to the first vertex of the stencil: far from the origin
@@ -61,6 +62,16 @@ class Batch final : public ConstraintGroup {
       return {};
     }
   }
+
+  std::span<Real> anchor(Index i) override {
+    if constexpr (requires { Type::has_anchors; }) {
+      static_assert(Type::fields >= 3, "an anchor is the first three fields");
+      return {field(static_cast<std::size_t>(i)), 3};
+    } else {
+      return ConstraintGroup::anchor(i);
+    }
+  }
+  std::span<Real> mutable_numbers() override { return fields_; }
 
   void begin_step(const StateView& state, Real) override {
     if constexpr (requires { &Type::begin_step; }) {

@@ -19,6 +19,15 @@ std::span<Real> ConstraintGroup::targets() {
   return {};
 }
 
+std::span<Real> ConstraintGroup::anchor(Index i) {
+  const auto first = 3 * static_cast<std::size_t>(i);
+  return first < targets().size() ? targets().subspan(first, 3) : std::span<Real>();
+}
+
+std::span<Real> ConstraintGroup::mutable_numbers() {
+  return targets();
+}
+
 namespace {
 
 [[noreturn]] void fail_index(Index vertex, Index vertex_count, const std::string& where) {

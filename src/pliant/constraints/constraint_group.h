@@ -44,6 +44,13 @@ class ConstraintGroup {
   /// Points in space that may be moved while the simulation runs, count × 3; empty for a type that has none.
   virtual std::span<Real> targets();
 
+  /// The point of constraint i that its builder puts where the vertices are, unless it is told where: a target, the
+  /// origin of a line. Three numbers, or none for a type without; as a rule point i of targets().
+  virtual std::span<Real> anchor(Index i);
+  /// Every number by which this group may differ from one that was made anew of the same options: what a checkpoint
+  /// must hold of it, besides the stiffness. A type that keeps others than its targets says so here.
+  virtual std::span<Real> mutable_numbers();
+
   /// Common factor of all weights; 1 where each constraint has a stiffness of its own.
   Real stiffness() const { return stiffness_; }
   /// A changed stiffness is taken up at the next step, with one numeric factorization. Refuses what is not positive.

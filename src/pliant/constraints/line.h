@@ -36,6 +36,7 @@ struct LineProjection {
   static constexpr int rows = 1;
   static constexpr int fields = 6;  // origin, unit direction
   static constexpr bool translation_invariant = false;
+  static constexpr bool has_anchors = true;
   static void project(const Real* field, const Real* z, Real* p) {
     const Real* o = field;
     const Real* d = field + 3;

@@ -1,8 +1,12 @@
 #include "pliant/constraints/position.h"
 
+#include <algorithm>
+
 #include "pliant/constraints/build.h"
+#include "pliant/core/error.h"
 
 namespace pliant {
+
 void HardPins::add(Index vertex, const Vec3& target) {
   held_.push_back(vertex);
   targets_.insert(targets_.end(), target.begin(), target.end());
@@ -33,6 +37,64 @@ ConstraintSet build(const BodyView& body, const Position& options) {
     batch->add(global_stencil(body, chosen[i]), {&one, 1}, stiffness.of(i), {point.data(), 3});
   }
   return one_part(std::move(batch));
+}
+
+namespace {
+
+/// Which constraints of a part stay, given the vertex of each.
+std::vector<std::size_t> kept_places(std::span<const Index> vertices, std::span<const Index> released) {
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    if (!std::ranges::binary_search(released, vertices[i])) kept.push_back(i);
+  }
+  return kept;
+}
+
+std::unique_ptr<ConstraintGroup> release(HardPins& pins, std::span<const Index> released) {
+  auto rest = std::make_unique<HardPins>();
+  for (const std::size_t i : kept_places(pins.held_vertices(), released)) {
+    rest->add(pins.held_vertices()[i], Eigen::Map<const Vec3>(pins.targets().subspan(3 * i, 3).data()));
+  }
+  return rest;
+}
+
+std::unique_ptr<ConstraintGroup> release(const Batch<PositionProjection>& pins, std::span<const Index> released) {
+  auto rest = std::make_unique<Batch<PositionProjection>>(pins.stiffness());
+  for (const std::size_t i : kept_places(pins.stencil(), released)) {
+    rest->add(pins.stencil().subspan(i, 1), pins.reduction().subspan(i, 1), pins.measure()[i],
+              pins.fields().subspan(3 * i, 3));
+  }
+  return rest;
+}
+
+}  // namespace
+
+ConstraintSet release(const ConstraintSet& positions, std::span<const Index> vertices) {
+  std::vector<Index> released(vertices.begin(), vertices.end());
+  std::ranges::sort(released);
+  ConstraintSet rest;
+  std::vector<Index> all;
+  for (const auto& part : positions.parts) {
+    std::unique_ptr<ConstraintGroup> kept;
+    if (auto* pins = dynamic_cast<HardPins*>(part.get())) {
+      kept = release(*pins, released);
+      all.insert(all.end(), pins->held_vertices().begin(), pins->held_vertices().end());
+    } else if (const auto* soft = dynamic_cast<const Batch<PositionProjection>*>(part.get())) {
+      kept = release(*soft, released);
+      all.insert(all.end(), soft->stencil().begin(), soft->stencil().end());
+    } else {
+      fail_input(std::string(part->type()) + ": only positions can be released; remove the group, or replace it");
+    }
+    const auto count = static_cast<Index>(kept->targets().size() / 3);
+    rest.count += count;
+    if (count > 0) rest.parts.push_back(std::move(kept));
+  }
+  std::ranges::sort(all);
+  for (const Index vertex : released) {
+    if (std::ranges::binary_search(all, vertex)) continue;
+    fail_input("vertex " + std::to_string(vertex) + " is not held here, so it cannot be released; leave it out");
+  }
+  return rest;
 }
 
 }  // namespace pliant

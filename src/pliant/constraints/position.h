@@ -69,4 +69,8 @@ class HardPins final : public ConstraintGroup {
 /// Throws Error(input) on an index out of range or a wrong number of targets.
 ConstraintSet build(const BodyView& body, const Position& options);
 
+/// The positions of a set but for those of some vertices, which have the indices of the simulation. Throws Error(input)
+/// on constraints of another type, and on a vertex that has none in the set.
+ConstraintSet release(const ConstraintSet& positions, std::span<const Index> vertices);
+
 }  // namespace pliant

@@ -1,6 +1,5 @@
 #include "pliant/scene/scene.h"
 
-#include "pliant/forces/gravity.h"
 #include "pliant/mesh/io/read_file.h"
 #include "pliant/scene/detail/option_reader.h"
 #include "pliant/scene/detail/scene_documents.h"
@@ -10,9 +9,9 @@ namespace pliant {
 namespace {
 
 constexpr std::int64_t format_version = 1;
-const std::vector<std::string_view> top_keys = {"pliant",  "name",    "description", "settings", "steps",
-                                                "gravity", "bodies",  "forces",      "moves",    "output",
-                                                "view",    "include", "$schema"};
+const std::vector<std::string_view> top_keys = {"pliant",  "name",   "description", "settings", "steps",
+                                                "gravity", "bodies", "forces",      "moves",    "events",
+                                                "output",  "view",   "include",     "$schema"};
 
 void check_version(const Node& root) {
   const Node version = root.require("pliant");
@@ -79,16 +78,6 @@ void read_run(std::span<SceneLayer* const> layers, Scene& scene) {
   if (const auto view = find_last(layers, "view")) check_view(*view, scene.view);
 }
 
-void add_gravity(const std::optional<Node>& node, Simulation& simulation) {
-  if (!node) {
-    simulation.add_force(std::make_unique<Gravity>());
-  } else if (!node->is_null()) {
-    Vec3 acceleration;
-    read(*node, acceleration);
-    simulation.add_force(std::make_unique<Gravity>(acceleration));
-  }
-}
-
 /// Calls f for each entry of the lists of all layers.
 void for_each_entry(std::span<SceneLayer* const> layers, std::string_view key, auto&& f) {
   for_each_value(layers, key, [&](const Node& list) {
@@ -112,16 +101,18 @@ void read_simulation(std::span<SceneLayer* const> layers, Scene& scene) {
   require_bodies(layers);
   SceneReader reader{scene.simulation};
   for_each_entry(layers, "bodies", [&](const Node& node) { reader.read_body(node); });
-  add_gravity(find_last(layers, "gravity"), scene.simulation);
+  reader.read_gravity(find_last(layers, "gravity"));
   for_each_entry(layers, "forces", [&](const Node& node) { reader.read_force(node); });
-  for_each_entry(layers, "moves", [&](const Node& node) { reader.read_move(node, scene.timeline); });
+  std::vector<Node> roots;
+  for (const SceneLayer* layer : layers) roots.push_back(layer->root());
+  reader.read_events(roots, scene.timeline);
+  scene.later_groups = std::move(reader.later_groups);
 }
 
 }  // namespace
 
 StepReport Scene::step() {
-  timeline.apply(simulation);
-  return simulation.step();
+  return timeline.step(simulation);
 }
 
 Scene parse_scene(SceneSource source) {

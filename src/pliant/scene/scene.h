@@ -34,10 +34,11 @@ struct Scene {
   ViewSettings view;
   Simulation simulation;
   Timeline timeline;
-  SceneSource source;            ///< what it was read from, for parse_scene
-  std::vector<SceneFile> files;  ///< of its meshes and maps, each once
+  SceneSource source;                     ///< what it was read from, for parse_scene
+  std::vector<SceneFile> files;           ///< of its meshes and maps, each once
+  std::vector<std::string> later_groups;  ///< names of the groups that events will add
 
-  /// Makes the moves that are due and takes one step.
+  /// Lets the events act that are due and takes one step. When this throws, nothing has changed.
   StepReport step();
 };
 

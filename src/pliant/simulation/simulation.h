@@ -9,44 +9,21 @@
 //     for (int i = 0; i < 60; ++i) simulation.step();
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
-#include "pliant/constraints/constraint_set.h"
 #include "pliant/forces/wind.h"
 #include "pliant/mesh/mass.h"
+#include "pliant/simulation/parts.h"
 #include "pliant/solver/settings.h"
 #include "pliant/solver/state.h"
 
 namespace pliant {
 
 class Solver;
-
-enum class BodyId : Index {};
-enum class GroupId : Index {};
-enum class ForceId : Index {};
-
-/// One body. Its vertices are [first_vertex, first_vertex + mesh.vertex_count()) of the simulation.
-struct Body {
-  std::string name;
-  Mesh mesh;  ///< its vertices are the rest positions
-  Index first_vertex = 0;
-};
-
-struct BodyOptions {
-  std::string name{};      ///< in messages; default "body 0", "body 1", ...
-  Positions start{};       ///< m × 3 [m]; default: the rest positions
-  Positions velocities{};  ///< m × 3 [m/s]; default: zero
-};
-
-/// Constraints of one type on one body, as a user sees them.
-struct Group {
-  std::string name;
-  std::string type;
-  BodyId body{};
-  ConstraintSet set;
-};
+class Undo;
 
 class Simulation {
  public:
@@ -71,22 +48,52 @@ class Simulation {
   GroupId add_set(BodyId id, ConstraintSet set, std::string type, std::string name = {});
   void remove(GroupId id);
   const std::map<GroupId, Group>& groups() const { return groups_; }
+  /// The group of that name; of several, the one that was added first.
+  std::optional<GroupId> find_group(std::string_view name) const;
+
+  /// Makes a group anew from other options, of its type or another one, under its id and name. Targets and origins
+  /// that the options leave open stay, where a constraint has the vertices of an old one; else they begin where the
+  /// vertices are now. Costs what adding the group does: a numeric factorization, and an ordering where vertices are
+  /// connected that were not.
+  template <class Constraint>
+  void replace(GroupId id, const Constraint& options) {
+    replace(id, options, gives_anchors(options) ? Anchors::given : Anchors::kept);
+  }
+  template <class Constraint>
+  void replace(GroupId id, const Constraint& options, Anchors anchors) {
+    check_options(Constraint::info.name, options);
+    replace_set(id, build(view(group(id).body), options), std::string(Constraint::info.name), anchors);
+  }
+  void replace_set(GroupId id, ConstraintSet set, std::string type, Anchors anchors);
+  /// Lets vertices of a group of positions go; the others stay as they are. Vertices have the indices of their body.
+  void release(GroupId id, std::span<const Index> vertices);
 
   /// New common factor of a group's weights: costs one numeric factorization at the next step.
   void set_stiffness(GroupId id, Real stiffness);
+  /// That factor; none for hard pins, which have no stiffness.
+  std::optional<Real> stiffness(GroupId id) const;
   /// Movable points of a group (positions, drags), in the order of its constraints.
   Index target_count(GroupId id) const;
   Vec3 target(GroupId id, Index i) const;
   /// Moves point i from the next step on; costs nothing.
   void set_target(GroupId id, Index i, const Vec3& target);
 
-  /// Refuses a force on a vertex that there is not: add the bodies first.
-  ForceId add_force(std::unique_ptr<Force> force);
+  /// Refuses a force on a vertex that there is not: add the bodies first. Default name: the type, with the first free
+  /// number from 2 behind where that is taken.
+  ForceId add_force(std::unique_ptr<Force> force, std::string name = {});
   /// Wind on all triangles of one body, or of every body there is.
-  ForceId add_wind(const WindOptions& options);
-  ForceId add_wind(BodyId id, const WindOptions& options);
+  ForceId add_wind(const WindOptions& options, std::string name = {});
+  ForceId add_wind(BodyId id, const WindOptions& options, std::string name = {});
+  /// The same wind without adding it, to replace another.
+  std::unique_ptr<Force> make_wind(const WindOptions& options) const;
+  std::unique_ptr<Force> make_wind(BodyId id, const WindOptions& options) const;
+  /// Puts a force in the place of another, under its id and name. Costs nothing.
+  void replace(ForceId id, std::unique_ptr<Force> force);
   void remove(ForceId id);
   const std::map<ForceId, std::unique_ptr<Force>>& forces() const { return forces_; }
+  const std::string& name(ForceId id) const;
+  /// The force of that name; of several, the one that was added first.
+  std::optional<ForceId> find_force(std::string_view name) const;
   /// The global index of a body's vertex. Throws Error(input) when it is out of range.
   Index vertex(BodyId id, Index vertex_of_body) const;
 
@@ -108,6 +115,9 @@ class Simulation {
   const State& state() const { return state_; }
   /// Replaces positions and velocities (m × 3 each).
   void set_state(const Positions& positions, const Positions& velocities);
+  /// Goes on from a state of this simulation, or of one with the same bodies: positions, velocities, step and time.
+  /// Refuses other masses.
+  void restore(const State& state);
 
   /// The name of the back end in use.
   std::string_view backend() const;
@@ -116,20 +126,36 @@ class Simulation {
   const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
+  friend class Undo;
+
+  template <class Constraint>
+  static bool gives_anchors(const Constraint& options) {
+    if constexpr (requires { options.targets; }) {
+      return !options.targets.empty();
+    } else if constexpr (requires { options.origin; }) {
+      return !options.origin.empty();
+    } else {
+      return false;
+    }
+  }
+
   BodyView view(BodyId id) const;
   const Group& group(GroupId id) const;
   std::span<Real> target_numbers(GroupId id, Index i) const;
-  /// A vertex can be held at one place only.
-  void check_held(const ConstraintGroup& added, const std::string& place) const;
-  static void append_triangles(const Body& owner, std::vector<Triangle>& triangles, std::vector<Real>& areas);
-  void update_problem();
+  void check_set(const ConstraintSet& set, const std::string& place, std::optional<GroupId> replaced) const;
+  void check_held(const ConstraintGroup& added, const std::string& place, std::optional<GroupId> replaced) const;
+  void warn_of(const ConstraintSet& set, const std::string& place);
+  void exchange_set(GroupId id, ConstraintSet set, std::string type, std::vector<Index> points, Index next_point);
+  void check_force(const Force* force) const;
   void check_forces();
+  void update_problem();
 
   SolverSettings settings_;
   State state_;
   std::vector<Body> bodies_;
   std::map<GroupId, Group> groups_;
   std::map<ForceId, std::unique_ptr<Force>> forces_;
+  std::map<ForceId, std::string> force_names_;
   std::unique_ptr<Solver> solver_;
   std::vector<std::string> warnings_;
   std::set<ForceId> warned_forces_;  // whose warning stands in warnings_ and still holds
@@ -137,6 +163,7 @@ class Simulation {
   Index next_force_ = 0;
   bool groups_changed_ = true;
   bool forces_changed_ = true;
+  Undo* undo_ = nullptr;  // the innermost one under way
 };
 
 }  // namespace pliant

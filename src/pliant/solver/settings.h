@@ -33,6 +33,8 @@ struct SolverSettings {
   Precision precision = Precision::double_;
   Index threads = 0;
 
+  friend bool operator==(const SolverSettings&, const SolverSettings&) = default;
+
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& field) {
     field(OptionInfo{"time_step", "s", "h; a larger one is as stable, with more damping", positive}, self.time_step);

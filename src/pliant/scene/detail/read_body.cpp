@@ -1,4 +1,3 @@
-#include "pliant/constraints/builtin.h"
 #include "pliant/mesh/geometry.h"
 #include "pliant/scene/detail/option_reader.h"
 #include "pliant/scene/detail/read_mesh.h"
@@ -22,26 +21,6 @@ Positions read_velocities(const Node& node, Index vertex_count) {
 /// Refuses a list of other than one row a vertex, which the simulation would take for "not given" when empty.
 void check_rows(const Node& node, std::string_view key, Index vertex_count) {
   if (const auto rows = node.find(key)) rows->require_list(static_cast<std::size_t>(vertex_count), "(one a vertex)");
-}
-
-/// Adds constraints of the type Constraint if that is what `type` names.
-template <class Constraint>
-bool add_constraint(const Node& node, std::string_view type, const SceneBody& body, auto&& add) {
-  if (Constraint::info.name != type) return false;
-  Constraint options;
-  read_options(node, options, {"type", "name"}, &body);
-  add(options);
-  return true;
-}
-
-template <class... Constraint>
-void add_constraint(const Node& node, const SceneBody& body, std::tuple<Constraint...>*, auto&& add) {
-  const Node type = node.require("type");
-  std::string name;
-  read(type, name);
-  if ((add_constraint<Constraint>(node, name, body, add) || ...)) return;
-  type.fail(fmt::format("'{}' is no constraint; known, the nearest first: {}", printable(name),
-                        nearest_names_text(name, {Constraint::info.name...})));
 }
 
 }  // namespace
@@ -80,38 +59,65 @@ void SceneReader::read_body(const Node& node) {
   const auto constraints = node.find("constraints");
   if (!constraints) return;
   constraints->require_list();
-  for (std::size_t i = 0; i < constraints->size(); ++i) read_constraint((*constraints)[i], id);
-}
-
-void SceneReader::read_constraint(const Node& node, BodyId id) {
-  node.require_object();
-  add_constraint(node, body(id), static_cast<BuiltinConstraints*>(nullptr), [&](const auto& options) {
-    const std::string name = group_name(node, id, options.info.name);
-    const GroupId group = node.locate([&] { return simulation.add(id, options, name); });
-    const ConstraintSet& set = simulation.groups().at(group).set;
-    if (set.count == 0 && set.skipped == 0) {
-      node.fail(
-          "makes no constraint, since the mesh has none of its stencils in the selection; select more, or remove it");
-    }
-    groups.emplace(name, group);
-  });
-}
-
-/// The name given, which must be new; else the type, with the body in front where there are several, and a number
-/// behind where that is taken.
-std::string SceneReader::group_name(const Node& node, BodyId id, std::string_view type) const {
-  if (const auto given = node.find("name")) {
-    std::string name;
-    read(*given, name);
-    if (groups.contains(name)) {
-      given->fail(fmt::format("the name '{}' is another group's; choose another", printable(name)));
-    }
-    return name;
+  for (std::size_t i = 0; i < constraints->size(); ++i) {
+    const Node entry = (*constraints)[i];
+    entry.require_object();
+    add_group(entry, id, read_constraint_options(entry, {"name"}, body(id)));
   }
-  const std::string base = fmt::format("{}.{}", simulation.body(id).name, type);
-  std::string name = base;
-  for (int i = 2; groups.contains(name); ++i) name = fmt::format("{} {}", base, i);
+}
+
+void SceneReader::add_group(const Node& node, BodyId id, ConstraintOptions options) {
+  const std::string name = group_name(node, id, type_of(options));
+  node.locate([&] { add(simulation, id, options, name); });
+  check_group(node, name);
+  groups.emplace(name, GroupEntry{id, std::move(options)});
+}
+
+void SceneReader::check_group(const Node& node, const std::string& name) const {
+  const ConstraintSet& set = simulation.groups().at(simulation.find_group(name).value()).set;
+  if (set.count == 0 && set.skipped == 0) {
+    node.fail(
+        "makes no constraint, since the mesh has none of its stencils in the selection; select more, or remove it");
+  }
+}
+
+std::string SceneReader::read_new_name(const Node& node) const {
+  std::string name;
+  read(node, name);
+  if (name.empty()) node.fail("an empty name cannot be referred to; give one, or leave out the key");
+  if (name == GravityEntry::type) node.fail("the name 'gravity' is that of the force at the top; choose another");
+  if (groups.contains(name) || forces.contains(name)) {
+    node.fail(fmt::format("the name '{}' is another {}'s; choose another", printable(name),
+                          groups.contains(name) ? "group" : "force"));
+  }
   return name;
+}
+
+std::string SceneReader::free_name(const std::string& base) const {
+  std::string name = base;
+  for (int i = 2; is_taken(name); ++i) name = fmt::format("{} {}", base, i);
+  return name;
+}
+
+std::string SceneReader::group_name(const Node& node, BodyId id, std::string_view type) const {
+  const auto given = node.find("name");
+  return given ? read_new_name(*given) : free_name(fmt::format("{}.{}", simulation.body(id).name, type));
+}
+
+std::string SceneReader::force_name(const Node& node, std::string_view type) const {
+  const auto given = node.find("name");
+  return given ? read_new_name(*given) : free_name(std::string(type));
+}
+
+GroupEntry& SceneReader::group(const Node& node) {
+  std::string name;
+  read(node, name);
+  const auto found = groups.find(name);
+  if (found != groups.end()) return found->second;
+  std::vector<std::string_view> names;
+  for (const auto& [known, entry] : groups) names.push_back(known);
+  node.fail(fmt::format("there is no group '{}'; known, the nearest first: {}", printable(name),
+                        nearest_names_text(name, names)));
 }
 
 BodyId SceneReader::read_body_name(const Node& node) const {

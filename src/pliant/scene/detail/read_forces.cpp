@@ -1,32 +1,19 @@
 #include <algorithm>
-#include <cmath>
 
-#include "pliant/forces/mouse_spring.h"
-#include "pliant/forces/test_force.h"
+#include "pliant/forces/gravity.h"
+#include "pliant/scene/detail/force_options.h"
 #include "pliant/scene/detail/option_reader.h"
 #include "pliant/scene/detail/scene_reader.h"
 
 namespace pliant {
 namespace {
 
-void read_wind(const Node& node, SceneReader& scene) {
-  WindOptions options;
-  read_options(node, options, {"type", "body"});
-  Simulation& simulation = scene.simulation;
-  const bool one_body = node.has("body");
-  const auto has_triangles = [](const Body& body) { return !body.mesh.triangles.empty(); };
-  if (one_body ? !has_triangles(simulation.body(scene.read_body_name(node)))
-               : std::ranges::none_of(simulation.bodies(), has_triangles)) {
-    node.fail("there are no triangles for the wind to blow on; give the body some, or remove the wind");
-  }
-  node.locate([&] {
-    return one_body ? simulation.add_wind(scene.read_body_name(node), options) : simulation.add_wind(options);
-  });
+/// The body that a force is on: named, or the one it was on, or the only one there is.
+BodyId read_body_of_force(const Node& node, const SceneReader& scene, Reading reading, BodyId before) {
+  return reading == Reading::changes && !node.has("body") ? before : scene.read_body_name(node);
 }
 
-void read_test_force(const Node& node, SceneReader& scene) {
-  node.check_keys({"type", "body", "vertex", "vertices", "force", "frames"});
-  const BodyId id = scene.read_body_name(node);
+std::vector<Index> read_force_vertices(const Node& node, const SceneReader& scene, BodyId id) {
   const SceneBody body = scene.body(id);
   std::vector<Index> vertices;
   const std::string_view key = node.require_one_of({"vertex", "vertices"});
@@ -38,88 +25,145 @@ void read_test_force(const Node& node, SceneReader& scene) {
     for (Index i = 0; selection.everything && i < body.mesh.vertex_count(); ++i) vertices.push_back(i);
   }
   for (Index& vertex : vertices) vertex = scene.simulation.vertex(id, vertex);
-
-  Points force;
-  read(node.require("force"), force);
-  std::array<std::int64_t, 2> frames = {0, TestForce::forever};
-  read_optional(node, "frames", frames);
-  node.locate([&] {
-    return scene.simulation.add_force(std::make_unique<TestForce>(std::move(vertices), force, frames[0], frames[1]));
-  });
+  return vertices;
 }
 
-void read_mouse_spring(const Node& node, SceneReader& scene) {
-  MouseSpringOptions options;
-  read_options(node, options, {"type", "body", "vertex"});
-  node.require("anchor");
-  const BodyId id = scene.read_body_name(node);
-  const Index vertex = read_vertex(node.require("vertex"), scene.body(id).mesh.vertex_count());
-  node.locate([&] {
-    return scene.simulation.add_force(std::make_unique<MouseSpring>(scene.simulation.vertex(id, vertex), options));
-  });
+std::vector<std::string_view> with(std::vector<std::string_view> keys,
+                                   std::initializer_list<std::string_view> more_keys) {
+  keys.insert(keys.end(), more_keys.begin(), more_keys.end());
+  return keys;
 }
-
-struct ForceType {
-  std::string_view name;
-  void (*read)(const Node&, SceneReader&);
-};
-constexpr std::array force_types = {ForceType{"wind", read_wind}, ForceType{"test_force", read_test_force},
-                                    ForceType{"mouse_spring", read_mouse_spring}};
 
 }  // namespace
 
-void SceneReader::read_force(const Node& node) {
-  const Node type = node.require("type");
-  std::string name;
-  read(type, name);
-  const auto found = std::ranges::find(force_types, std::string_view(name), &ForceType::name);
-  if (found != force_types.end()) return found->read(node, *this);
-  std::vector<std::string_view> names;
-  for (const ForceType& known : force_types) names.push_back(known.name);
-  type.fail(fmt::format("'{}' is no force; known, the nearest first: {}; gravity has its own key at the top",
-                        printable(name), nearest_names_text(name, names)));
+std::unique_ptr<Force> GravityEntry::make(const Simulation&) const {
+  return std::make_unique<Gravity>(acceleration);
+}
+
+void WindEntry::read(const Node& node, std::vector<std::string_view> keys, const SceneReader& scene, Reading) {
+  read_options(node, options, with(std::move(keys), {"body"}));
+  if (node.has("body")) body = scene.read_body_name(node);
+  const auto has_triangles = [](const Body& sail) { return !sail.mesh.triangles.empty(); };
+  if (body ? !has_triangles(scene.simulation.body(*body))
+           : std::ranges::none_of(scene.simulation.bodies(), has_triangles)) {
+    node.fail("there are no triangles for the wind to blow on; give the body some, or remove the wind");
+  }
+}
+
+std::unique_ptr<Force> WindEntry::make(const Simulation& simulation) const {
+  return body ? simulation.make_wind(*body, options) : simulation.make_wind(options);
+}
+
+void TestForceEntry::read(const Node& node, std::vector<std::string_view> keys, const SceneReader& scene,
+                          Reading reading) {
+  node.check_keys(with(std::move(keys), {"body", "vertex", "vertices", "force", "frames"}));
+  body = read_body_of_force(node, scene, reading, body);
+  if (reading == Reading::all || node.has("body") || node.has("vertex") || node.has("vertices")) {
+    vertices = read_force_vertices(node, scene, body);
+  }
+  if (reading == Reading::all) node.require("force");
+  read_optional(node, "force", force);
+  read_optional(node, "frames", frames);
+}
+
+std::unique_ptr<Force> TestForceEntry::make(const Simulation&) const {
+  return std::make_unique<TestForce>(vertices, force, frames[0], frames[1]);
+}
+
+void MouseSpringEntry::read(const Node& node, std::vector<std::string_view> keys, const SceneReader& scene,
+                            Reading reading) {
+  read_options(node, options, with(std::move(keys), {"body", "vertex"}));
+  if (reading == Reading::all) node.require("anchor");
+  body = read_body_of_force(node, scene, reading, body);
+  if (reading == Reading::changes && !node.has("body") && !node.has("vertex")) return;
+  const Index vertex_count = scene.body(body).mesh.vertex_count();
+  vertex = scene.simulation.vertex(body, read_vertex(node.require("vertex"), vertex_count));
+}
+
+std::unique_ptr<Force> MouseSpringEntry::make(const Simulation&) const {
+  return std::make_unique<MouseSpring>(vertex, options);
 }
 
 namespace {
 
-/// The first step that begins at the time or after it.
-std::int64_t step_at(const Node& node, Real time_step) {
-  Real time = 0;
-  read(node, time);
-  const Real step = std::ceil(time / time_step - 1e-9);
-  if (step < 0) node.fail(fmt::format("{} s is before the start; times count from 0", time));
-  if (step > 1e15) node.fail(fmt::format("{} s is more than 1e15 steps away; give an earlier time", time));
-  return static_cast<std::int64_t>(step);
+template <class Entry>
+constexpr bool has_type = requires(Entry entry, const Node& node, const SceneReader& scene) {
+  entry.read(node, {}, scene, Reading::all);
+};
+
+/// Calls f with a default entry of each type that may stand in the list of forces.
+template <class... Entry>
+void for_each_entry(std::variant<Entry...>*, auto&& f) {
+  const auto call = [&]<class E>(E entry) {
+    if constexpr (has_type<E>) f(std::move(entry));
+  };
+  (call(Entry{}), ...);
+}
+
+void for_each_entry(auto&& f) {
+  for_each_entry(static_cast<ForceOptions*>(nullptr), f);
 }
 
 }  // namespace
 
-void SceneReader::read_move(const Node& node, Timeline& timeline) {
-  node.check_keys({"group", "step", "time", "index", "target", "offset", "over"});
-  const Node group = node.require("group");
+bool is_force_type(std::string_view type) {
+  bool found = false;
+  for_each_entry([&](const auto& entry) { found = found || entry.type == type; });
+  return found;
+}
+
+ForceOptions read_force_options(const Node& node, std::vector<std::string_view> more_keys, const SceneReader& scene) {
+  const Node type = node.require("type");
   std::string name;
-  read(group, name);
-  const auto found = groups.find(name);
-  if (found == groups.end()) {
-    std::vector<std::string_view> names;
-    for (const auto& [known, id] : groups) names.push_back(known);
-    group.fail(fmt::format("there is no group '{}'; known, the nearest first: {}", printable(name),
-                           nearest_names_text(name, names)));
-  }
-  Move move;
-  move.group = found->second;
-  if (const auto index = node.find("index")) read(*index, move.index.emplace());
-  const std::string_view when = node.require_one_of({"step", "time"});
-  if (when == "time") {
-    move.step = step_at(node.require(when), simulation.settings().time_step);
-  } else {
-    read(node.require(when), move.step);
-  }
-  const std::string_view kind = node.require_one_of({"target", "offset"});
-  move.kind = kind == "target" ? MoveKind::target : MoveKind::offset;
-  read(node.require(kind), move.to);
-  read_optional(node, "over", move.duration);
-  node.locate([&] { timeline.add(simulation, std::move(move)); });
+  read(type, name);
+  more_keys.insert(more_keys.end(), {"type", "name"});
+  std::optional<ForceOptions> options;
+  std::vector<std::string_view> names;
+  for_each_entry([&](auto entry) {
+    names.push_back(entry.type);
+    if (entry.type != name) return;
+    entry.read(node, more_keys, scene, Reading::all);
+    options = std::move(entry);
+  });
+  if (options) return *std::move(options);
+  type.fail(fmt::format("'{}' is no force; known, the nearest first: {}; gravity has its own key at the top",
+                        printable(name), nearest_names_text(name, names)));
+}
+
+void read_changed_force(const Node& node, std::vector<std::string_view> more_keys, const SceneReader& scene,
+                        ForceOptions& options) {
+  const auto change = [&]<class Entry>(Entry& entry) {
+    if constexpr (has_type<Entry>) {
+      entry.read(node, std::move(more_keys), scene, Reading::changes);
+    } else {
+      node.fail("gravity has an event of its own; write {\"gravity\": [x, y, z]}");
+    }
+  };
+  std::visit(change, options);
+}
+
+std::string_view type_of(const ForceOptions& options) {
+  return std::visit([](const auto& entry) { return entry.type; }, options);
+}
+
+std::unique_ptr<Force> make(const ForceOptions& options, const Simulation& simulation) {
+  return std::visit([&](const auto& entry) { return entry.make(simulation); }, options);
+}
+
+void SceneReader::read_gravity(const std::optional<Node>& node) {
+  GravityEntry gravity;
+  if (node && node->is_null()) return;
+  if (node) read(*node, gravity.acceleration);
+  const std::string name(GravityEntry::type);
+  simulation.add_force(gravity.make(simulation), name);
+  forces.emplace(name, gravity);
+}
+
+void SceneReader::read_force(const Node& node) {
+  ForceOptions options = read_force_options(node, {}, *this);
+  const std::string name = force_name(node, type_of(options));
+  node.locate([&] { simulation.add_force(make(options, simulation), name); });
+  forces.emplace(name, std::move(options));
 }
 
 }  // namespace pliant

@@ -1,0 +1,70 @@
+#pragma once
+// Changes that can be taken back: all of them or none.
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "pliant/simulation/simulation.h"
+
+namespace pliant {
+
+/// Takes back, when it ends, whatever was changed of a simulation since it began, unless keep() was called: bodies,
+/// groups, forces, stiffnesses, targets, settings, a replaced state. Groups and forces that come back keep their ids.
+/// It does not take back steps, nor what a program changed inside a group or a force by itself. The simulation must
+/// stay where it is while this lives; one Undo may live inside another.
+///
+///     Undo undo(simulation);
+///     simulation.remove(pins);
+///     simulation.step();  // throws: the pins are there again
+///     undo.keep();
+class Undo {
+ public:
+  explicit Undo(Simulation& simulation);
+  ~Undo();
+  Undo(const Undo&) = delete;
+  Undo& operator=(const Undo&) = delete;
+
+  void keep() { is_kept_ = true; }
+
+ private:
+  friend class Simulation;
+
+  /// What changes without a group being another one.
+  struct Numbers {
+    std::vector<Real> stiffnesses;          // of each part
+    std::vector<std::vector<Real>> points;  // of each part
+  };
+  struct NamedForce {
+    std::unique_ptr<Force> force;
+    std::string name;
+  };
+
+  // To be told before the first change of a thing, or with what was taken away; later ones are of no interest.
+  void save_numbers(GroupId id, const Group& group);
+  void save(GroupId id, std::optional<Group> group);
+  void save(ForceId id, std::optional<NamedForce> force);
+  void save_state();
+
+  void take_back();
+  void hand_on(Undo& outer);
+
+  Simulation& simulation_;
+  Undo* outer_;
+  bool is_kept_ = false;
+  // As they were when it began.
+  SolverSettings settings_;
+  std::size_t body_count_;
+  std::size_t warning_count_;
+  std::set<ForceId> warned_forces_;
+  Index next_group_;
+  Index next_force_;
+  // As they were before their first change; none for what was not there.
+  std::map<GroupId, std::optional<Group>> groups_;
+  std::map<GroupId, Numbers> numbers_;
+  std::map<ForceId, std::optional<NamedForce>> forces_;
+  std::optional<State> state_;
+};
+
+}  // namespace pliant
