@@ -1,20 +1,25 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that Pliant is built from, those that are missing only.
 #   scripts/setup.sh         what building and testing need
-#   scripts/setup.sh --dev   and what clang builds, formatting and static analysis need
+#   scripts/setup.sh --dev   and what clang builds, formatting, static analysis and the glTF validator need; that one
+#                            comes from npm and goes to node_modules/
 set -euo pipefail
 
 packages=(
   g++ cmake ninja-build
   libeigen3-dev libfmt-dev zlib1g-dev nlohmann-json3-dev libcli11-dev doctest-dev
   libsuitesparse-dev libopenblas-dev
-  python3 python3-numpy python3-jsonschema
+  python3 python3-numpy python3-jsonschema assimp-utils
 )
 dev_packages=(ccache clang clang-format clang-tidy git libclang-rt-14-dev)
+# Whoever has them from elsewhere could not install Debian's beside them.
+command -v node >/dev/null || dev_packages+=(nodejs)
+command -v npm >/dev/null || dev_packages+=(npm)
 
+wants_npm=false
 case "${1-}" in
   "") ;;
-  --dev) packages+=("${dev_packages[@]}") ;;
+  --dev) packages+=("${dev_packages[@]}"); wants_npm=true ;;
   *) echo "setup.sh: unknown option '$1'; --dev is the only one" >&2; exit 2 ;;
 esac
 
@@ -29,24 +34,37 @@ for package in "${packages[@]}"; do
   status="$(dpkg-query -W -f='${Status}' "$package" 2>/dev/null || true)"
   [[ "$status" == "install ok installed" ]] || missing+=("$package")
 done
-[[ ${#missing[@]} -gt 0 ]] || exit 0
 
-as_root=()
-if [[ "$(id -u)" -ne 0 ]]; then
-  if ! command -v sudo >/dev/null; then
-    echo "setup.sh: these packages are missing and there is no sudo; as root: apt-get install ${missing[*]}" >&2
+install_missing() {
+  local as_root=()
+  if [[ "$(id -u)" -ne 0 ]]; then
+    if ! command -v sudo >/dev/null; then
+      echo "setup.sh: these packages are missing and there is no sudo; as root: apt-get install ${missing[*]}" >&2
+      exit 1
+    fi
+    as_root=(sudo)
+  fi
+  apt_get() { "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q "$@"; }
+
+  echo "Installing: ${missing[*]}"
+  if ! apt_get update; then
+    echo "setup.sh: apt-get update failed, see above; nothing was installed" >&2
     exit 1
   fi
-  as_root=(sudo)
-fi
-apt_get() { "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q "$@"; }
+  if ! apt_get install -y --no-install-recommends "${missing[@]}"; then
+    echo "setup.sh: could not install all of: ${missing[*]}; see apt-get's message above" >&2
+    exit 1
+  fi
+}
+[[ ${#missing[@]} -eq 0 ]] || install_missing
 
-echo "Installing: ${missing[*]}"
-if ! apt_get update; then
-  echo "setup.sh: apt-get update failed, see above; nothing was installed" >&2
-  exit 1
-fi
-if ! apt_get install -y --no-install-recommends "${missing[@]}"; then
-  echo "setup.sh: could not install all of: ${missing[*]}; see apt-get's message above" >&2
-  exit 1
-fi
+# What package.json names, as package-lock.json has it.
+install_npm_packages() {
+  cd "$(dirname "${BASH_SOURCE[0]}")/.."
+  [[ node_modules/.package-lock.json -nt package-lock.json ]] && return
+  if ! npm ci --no-audit --no-fund; then
+    echo "setup.sh: npm could not install what package.json names, see above" >&2
+    exit 1
+  fi
+}
+[[ "$wants_npm" == false ]] || install_npm_packages

@@ -10,6 +10,7 @@
 #include "choice_option.h"
 #include "commands.h"
 #include "pliant/core/error.h"
+#include "pliant/core/printable.h"
 #include "pliant/mesh/io/mesh_file.h"
 #include "pliant/recorder/export.h"
 #include "pliant/recorder/run_files.h"
@@ -60,25 +61,37 @@ pliant::FrameRange parse_frames(std::string_view text) {
   return range;
 }
 
+bool is_sequence(const fs::path& out) {
+  return out.filename().string().find('#') != std::string::npos;
+}
+
+/// Whether the output is that file, or may be in one of its frames.
+bool may_replace(const fs::path& out, const fs::path& file) {
+  std::error_code ignored;
+  if (!is_sequence(out)) return fs::equivalent(file, out, ignored);
+  const auto folder_of = [](const fs::path& path) { return path.has_parent_path() ? path.parent_path() : "."; };
+  if (!fs::equivalent(folder_of(file), folder_of(out), ignored)) return false;
+  const std::string pattern = out.filename().string();
+  const std::string name = file.filename().string();
+  const std::string_view head = std::string_view(pattern).substr(0, pattern.find('#'));
+  const std::string_view tail = std::string_view(pattern).substr(pattern.find_last_of('#') + 1);
+  return name.size() > head.size() + tail.size() && name.starts_with(head) && name.ends_with(tail);
+}
+
 /// The output must not take the place of anything it is made from.
 void refuse_to_replace(const ConvertOptions& options) {
   std::vector<fs::path> inputs = {options.in};
   if (options.mesh) inputs.push_back(*options.mesh);
   std::error_code ignored;
   if (fs::is_directory(options.in, ignored)) {
-    for (const char* format : {"npy", "pc2"}) {
-      for (const std::string& name : pliant::run_files(format)) inputs.push_back(options.in / name);
+    for (fs::directory_iterator entry(options.in, ignored), end; !ignored && entry != end; entry.increment(ignored)) {
+      if (pliant::is_run_file(entry->path().filename().string())) inputs.push_back(entry->path());
     }
   }
   for (const fs::path& input : inputs) {
-    if (!fs::equivalent(input, options.out, ignored)) continue;
-    pliant::fail_input(
-        fmt::format("{}: is what is to be converted; give another name for the output", options.out.string()));
+    if (!may_replace(options.out, input)) continue;
+    pliant::fail_input(fmt::format("{}: is what is to be converted; give another name for the output", input.string()));
   }
-}
-
-bool is_sequence(const fs::path& out) {
-  return out.filename().string().find('#') != std::string::npos;
 }
 
 [[noreturn]] void fail_extension(const fs::path& path, std::string_view what) {
@@ -129,7 +142,7 @@ std::string rate_text(const Animation& animation) {
 }
 
 void print_animation(const fs::path& out, const Animation& animation, const pliant::ExportReport& report) {
-  fmt::print("{}: {} frames, {} vertices, {:.4g} s, {}", printable(out.string()), report.frames,
+  fmt::print("{}: {} frames, {} vertices, {:.4g} s, {}", pliant::printable(out.string()), report.frames,
              animation.cache.vertex_count(), animation.times.back() - animation.times.front(), rate_text(animation));
   if (report.keyframes < report.frames) {
     fmt::print("; {} of them kept, the others off by at most {:.2g} of the body's size", report.keyframes,
@@ -161,12 +174,12 @@ void convert(const ConvertOptions& options) {
     warn_of_tolerance(options, report);
   } else if (is_sequence(options.out)) {
     const std::int64_t count = pliant::export_sequence(options.out, animation);
-    fmt::print("{}: {} files, {} vertices each, {}\n", printable(options.out.string()), count,
+    fmt::print("{}: {} files, {} vertices each, {}\n", pliant::printable(options.out.string()), count,
                animation.cache.vertex_count(), rate_text(animation));
   } else {
     pliant::export_frame(options.out, animation);
-    fmt::print("{}: {} vertices, at {:.4g} s\n", printable(options.out.string()), animation.cache.vertex_count(),
-               animation.times.front());
+    fmt::print("{}: {} vertices, at {:.4g} s\n", pliant::printable(options.out.string()),
+               animation.cache.vertex_count(), animation.times.front());
   }
 }
 

@@ -27,10 +27,11 @@ constexpr std::string_view star = "*";
 }
 
 /// Every name that a run may have written, in this version or an earlier one.
-bool is_run_file(std::string_view name) {
-  constexpr std::array names = {"run.json",   "measurements.csv", "mesh.obj",   "frames.npy",
-                                "frames.pc2", "frame_*.obj",      "frame_*.ply"};
-  return std::ranges::find(names, name) != names.end();
+constexpr std::array known_names = {"run.json",   "measurements.csv", "mesh.obj",   "frames.npy",
+                                    "frames.pc2", "frame_*.obj",      "frame_*.ply"};
+
+bool is_known(std::string_view name) {
+  return std::ranges::find(known_names, name) != known_names.end();
 }
 
 /// The number of a frame's file; none for a file of another name.
@@ -92,7 +93,7 @@ std::set<std::string> files_of_earlier_run(const fs::path& folder, const std::se
     fail_output(folder, fmt::format("its run.json was not written by a run ({})", error.what()));
   }
   for (const std::string& name : earlier.files) {
-    if (!is_run_file(name) || name == "run.json") continue;
+    if (!is_known(name) || name == "run.json") continue;
     if (is_pattern(name)) {
       add_frames(files, names, name, earlier.frame_count);
     } else if (names.contains(name)) {
@@ -102,10 +103,9 @@ std::set<std::string> files_of_earlier_run(const fs::path& folder, const std::se
   return files;
 }
 
-bool is_of_run(const std::string& file, const std::vector<std::string>& run_names) {
-  return std::ranges::any_of(run_names, [&](const std::string& name) {
-    return is_pattern(name) ? frame_number(file, name).has_value() : file == name && name != "run.json";
-  });
+/// Whether a name, or a pattern of names, is that of the file.
+bool is_name_of(std::string_view name, std::string_view file) {
+  return is_pattern(name) ? frame_number(file, name).has_value() : file == name;
 }
 
 }  // namespace
@@ -126,6 +126,10 @@ std::vector<std::string> run_files(std::string_view format) {
   return names;
 }
 
+bool is_run_file(std::string_view file) {
+  return std::ranges::any_of(known_names, [&](std::string_view name) { return is_name_of(name, file); });
+}
+
 void prepare_run_folder(const fs::path& folder, std::string_view format) {
   std::error_code error;
   fs::create_directories(folder, error);
@@ -134,7 +138,8 @@ void prepare_run_folder(const fs::path& folder, std::string_view format) {
   const std::set<std::string> earlier = files_of_earlier_run(folder, names);
   const std::vector<std::string> wanted = run_files(format);
   for (const std::string& file : names) {
-    if (earlier.contains(file) || !is_of_run(file, wanted)) continue;
+    const bool is_wanted = std::ranges::any_of(wanted, [&](const std::string& name) { return is_name_of(name, file); });
+    if (file == "run.json" || earlier.contains(file) || !is_wanted) continue;
     fail_output(folder, fmt::format("the run would replace its {}, which no run wrote", file));
   }
   for (const std::string& file : earlier) {

@@ -18,6 +18,9 @@ std::string frame_file_name(std::int64_t frame, std::string_view format);
 /// The names of all files of a run with frames of a format; a star stands for the numbers of frames.
 std::vector<std::string> run_files(std::string_view format);
 
+/// Whether a file of this name in the folder of a run is one that a run writes, whatever its format.
+bool is_run_file(std::string_view file);
+
 /// Makes the folder where it is missing, and removes the files that the run.json there tells an earlier run wrote.
 /// Everything else stays, and nothing of it is replaced:
 /// @throws Error (output): the name stands for something else, the folder cannot be used, or a file stands there that

@@ -1,5 +1,6 @@
 #include "pliant/recorder/detail/one_mesh.h"
 
+#include <algorithm>
 #include <numeric>
 
 #include "pliant/mesh/topology.h"
@@ -18,12 +19,25 @@ void append_faces(PolygonFaces& all, const PolygonFaces& faces, Index first_vert
   }
 }
 
+/// Polygons as fans from their first corner.
+std::vector<Triangle> cut_into_triangles(const PolygonFaces& faces) {
+  std::vector<Triangle> triangles;
+  for (std::size_t face = 1; face < faces.offsets.size(); ++face) {
+    const auto first = static_cast<std::size_t>(faces.offsets[face - 1]);
+    const auto last = static_cast<std::size_t>(faces.offsets[face]);
+    for (std::size_t corner = first + 2; corner < last; ++corner) {
+      triangles.push_back({faces.vertices[first], faces.vertices[corner - 1], faces.vertices[corner]});
+    }
+  }
+  return triangles;
+}
+
 Mesh objects_of_one_mesh(std::span<const Body> bodies) {
   Mesh all;
   all.faces.offsets.push_back(0);
+  if (!bodies.empty()) all.vertices.resize(bodies.back().first_vertex + bodies.back().mesh.vertex_count(), 3);
   for (const Body& body : bodies) {
-    all.vertices.conservativeResize(body.first_vertex + body.mesh.vertex_count(), 3);
-    all.vertices.bottomRows(body.mesh.vertex_count()) = body.mesh.vertices;
+    all.vertices.middleRows(body.first_vertex, body.mesh.vertex_count()) = body.mesh.vertices;
     const auto first_texture = static_cast<Index>(all.texture_coordinates.rows());
     const Index first_face = all.faces.face_count();
     append_faces(all.faces, visible_faces(body.mesh), body.first_vertex, first_texture);
@@ -41,7 +55,14 @@ Mesh objects_of_one_mesh(std::span<const Body> bodies) {
       for (Index& face : group.faces) face += first_face;
       all.groups.push_back(std::move(group));
     }
+    for (const std::string& library : body.mesh.material_libraries) {
+      if (std::ranges::find(all.material_libraries, library) == all.material_libraries.end()) {
+        all.material_libraries.push_back(library);
+      }
+    }
   }
+  if (all.texture_coordinates.rows() == 0) all.faces.texture_coordinates.clear();
+  all.triangles = cut_into_triangles(all.faces);
   return all;
 }
 

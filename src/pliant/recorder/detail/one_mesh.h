@@ -9,7 +9,8 @@ namespace pliant {
 /// The faces that a mesh shows: its polygons, else its triangles, else the surface of its tetrahedra.
 PolygonFaces visible_faces(const Mesh& mesh);
 
-/// A single body as it is; several as objects of one mesh, by their names, their vertices in the simulation's order.
+/// A single body as it is; several as objects of one mesh, by their names, their vertices in the simulation's order,
+/// without maps.
 Mesh one_mesh(std::span<const Body> bodies);
 
 }  // namespace pliant

@@ -17,6 +17,7 @@ class MeshSplitter {
       : mesh_(mesh), name_(name), parts_(ranges.size()) {
     for (const BodyRange& range : ranges) {
       bodies_.push_back({range.name, {}, range.first_vertex});
+      bodies_.back().mesh.material_libraries = mesh.material_libraries;
       bodies_.back().mesh.vertices = mesh.vertices.middleRows(range.first_vertex, range.vertex_count);
     }
   }

@@ -1,0 +1,199 @@
+"""pliant convert as its users meet it: what it refuses, and with which words; and what assimp makes of its files."""
+import json
+import os
+import shutil
+import subprocess
+import unittest
+
+import numpy
+
+from export_case import PATCH, PLIANT, ExportCase
+
+
+class Convert(ExportCase):
+    def error(self, *arguments, code=2):
+        return self.pliant("convert", *arguments, expect=code).stderr
+
+    def copy_of_run(self, name):
+        shutil.copytree(self.folder / "run", self.folder / name)
+        return self.folder / name
+
+    def vertices(self, name):
+        lines = (self.folder / name).read_text().splitlines()
+        return numpy.array([line.split()[1:4] for line in lines if line.startswith("v ")], float)
+
+    def test_mesh_to_mesh_in_another_unit_with_another_axis_up(self):
+        patch = self.vertices("patch.obj")
+        self.pliant("convert", "patch.obj", "a.obj", "--scale", 0.001)
+        numpy.testing.assert_allclose(self.vertices("a.obj"), patch / 1000, rtol=1e-15)
+        self.pliant("convert", "patch.obj", "a.obj", "--up", "y")
+        x, y, z = patch.T
+        numpy.testing.assert_array_equal(self.vertices("a.obj"), numpy.stack([x, -z, y], axis=1))
+        self.pliant("convert", "patch.obj", "A.PLY")
+        self.pliant("convert", "A.PLY", "b.off")
+        self.pliant("convert", "b.off", "c.obj")
+        numpy.testing.assert_array_equal(self.vertices("c.obj"), patch)
+        self.pliant("convert", "c.obj", "d.stl")
+        self.pliant("convert", "d.stl", "e.obj")
+        self.assertEqual(len(self.vertices("e.obj")), 7)  # merged again
+        self.assertIn("--up", self.error("patch.obj", "a.obj", "--up", "w"))
+        for scale in ["0", "-1", "nan", "1e999", "x"]:
+            self.error("patch.obj", "a.obj", "--scale", scale)
+        self.assertIn("leave out", self.error("run", "a.glb", "--scale", 2))
+
+    def test_names_that_say_nothing(self):
+        for arguments in [["run", "a.fbx"], ["run", "a"], ["patch.obj", "b.png"], ["scene.json", "a.glb"]]:
+            with self.subTest(arguments=arguments):
+                error = self.error(*arguments)
+                self.assertIn("obj, ply, off, stl", error)
+                self.assertIn("gltf, glb, usda, pc2, mdd, npy", error)
+        self.assertIn("no such file", self.error("none.obj", "a.glb"))
+        self.assertIn("no run.json", self.error(self.folder, "a.glb"))
+        self.pliant("convert", expect=2)
+        self.pliant("convert", "run", expect=2)
+
+    def test_the_input_is_never_replaced(self):
+        (self.folder / "link.obj").symlink_to("patch.obj")
+        shutil.copy(self.folder / "run/frames.npy", self.folder / "own.npy")
+        for arguments in [["patch.obj", "patch.obj"], ["patch.obj", "./link.obj"], ["own.npy", "own.npy"],
+                          ["own.npy", "run/mesh.obj", "--mesh", "run/mesh.obj", "--time", 0],
+                          ["run", "run/frames.npy"], ["run", "run/mesh.obj", "--time", 0]]:
+            with self.subTest(arguments=arguments):
+                self.assertIn("is what is to be converted", self.error(*arguments))
+        self.assertEqual((self.folder / "patch.obj").read_text(), PATCH)
+        run = self.folder / "frames_run"
+        self.pliant("run", "scene.json", "--out", run, "--format", "obj", "--steps", 3)
+        before = (run / "frame_00001.obj").read_bytes()
+        self.assertIn("is what is to be converted", self.error(run, run / "frame_#####.obj", "--frames", 1))
+        shutil.copy(self.folder / "patch.obj", self.folder / "patch_00.obj")
+        self.assertIn("is what is to be converted", self.error("patch_00.obj", "patch_##.obj"))
+        self.assertEqual((run / "frame_00001.obj").read_bytes(), before)
+
+    def test_what_does_not_go_together(self):
+        self.assertIn("--mesh", self.error("run/frames.npy", "a.glb"))
+        self.assertIn("leave out --mesh", self.error("run", "a.glb", "--mesh", "patch.obj"))
+        self.assertIn("is no point cache", self.error("patch.obj", "a.glb", "--mesh", "patch.obj"))
+        self.assertIn("the mesh has 7 vertices, but the cache", self.error("run/frames.npy", "a.glb", "--mesh", "patch.obj"))
+        self.assertIn("leave it out", self.error("run", "a.pc2", "--tolerance", 0.1))
+        self.assertIn("41 frames do not fit a file of one", self.error("run", "a.obj"))
+        self.assertIn("one run of #", self.error("run", "a_##_##.obj"))
+        error = self.error("run", "a.glb", "--body", "rop")
+        self.assertIn("rop: no body of this name", error)
+        self.assertIn("patch, 1 sheet/ä, bar, rope, still", error)
+
+    def test_frames_and_times_out_of_range(self):
+        for frames in ["41", "-42", "0:41", "3:2", "0:40:0", "0:40:-1", "1:2:3:4", "x", "", "1.5", "99999999999999999999"]:
+            with self.subTest(frames=frames):
+                self.error("run", "a.npy", f"--frames={frames}")
+        for option in ["--time=-0.1", "--time=0.81", "--time=nan", "--fps=0", "--fps=-3", "--fps=inf", "--fps=1e12",
+                       "--tolerance=-1", "--tolerance=nan", "--max-keyframes=1", "--in-fps=0"]:
+            with self.subTest(option=option):
+                source = ["run/frames.npy", "a.glb", "--mesh", "run/mesh.obj"] if "in-fps" in option else ["run", "a.glb"]
+                self.error(*source, option)
+        self.assertFalse((self.folder / "a.glb").exists())
+        for frames, count in [("-1", 1), ("0", 1), (":", 41), ("::40", 2), ("-3:-1", 3), ("40:", 1), ("::99999999999", 1)]:
+            self.pliant("convert", "run", "part.npy", f"--frames={frames}")
+            self.assertEqual(len(numpy.load(self.folder / "part.npy")), count)
+        numpy.testing.assert_array_equal(numpy.load(self.folder / "part.npy")[0], self.frames[0])
+
+    def test_output_that_cannot_be_written(self):
+        for out in ["none/a.glb", "/proc/a.usda", "/dev/full"]:
+            self.error("run", out, code=2 if out == "/dev/full" else 4)
+        (self.folder / "full.mdd").symlink_to("/dev/full")
+        self.error("run", "full.mdd", code=4)
+        left = {path.name for path in self.folder.iterdir() if ".tmp" in path.name}
+        self.assertEqual(left, set())
+
+    def test_runs_that_were_cut_off_or_damaged(self):
+        info = json.loads((self.folder / "run/run.json").read_text())
+
+        # Killed while frame 12 was being recorded, its row still missing.
+        run = self.copy_of_run("killed")
+        (run / "run.json").write_text(json.dumps(info | {"outcome": "running", "totals": {"frames": 0}}))
+        lines = (run / "measurements.csv").read_text().splitlines(keepends=True)
+        (run / "measurements.csv").write_text("".join(lines[:13]) + lines[13][:7])
+        data = (run / "frames.npy").read_bytes()
+        head = data[:128].replace(b"(41, ", b"(13, ")
+        (run / "frames.npy").write_bytes(head + data[128:128 + 14 * self.frames[0].nbytes - 5])
+        self.pliant("convert", run, "killed.npy")
+        numpy.testing.assert_array_equal(numpy.load(self.folder / "killed.npy"), self.frames[:12])
+
+        def damaged(name, text, expected):
+            shutil.rmtree(self.folder / "damaged", ignore_errors=True)
+            run = self.copy_of_run("damaged")
+            (run / name).write_text(text)
+            error = self.error(run, "a.glb")
+            self.assertIn(name, error)
+            self.assertIn(expected, error)
+
+        damaged("run.json", "{", "not JSON")
+        damaged("run.json", "[]", "is not an object")
+        damaged("run.json", json.dumps(info | {"bodies": []}), "but the bodies in run.json 0")
+        damaged("run.json", json.dumps(info | {"bodies": info["bodies"][1:]}), "bodies[0]")
+        damaged("run.json", json.dumps(info | {"bodies": [info["bodies"][0] | {"vertices": -1}]}), "bodies[0]: vertices")
+        damaged("run.json", json.dumps(info | {"settings": {"time_step": 0}}), "time_step")
+        damaged("measurements.csv", "", "measurements.csv:1")
+        damaged("measurements.csv", "step,time,x\n0,0,\n1,nan,\n", "measurements.csv:3")
+        damaged("measurements.csv", "step,time,x\n0,0,\n1,0,\n", "measurements.csv:3")
+        damaged("measurements.csv", "step,time,x\n0,0,\n", "1 rows for 41 frames")
+        damaged("mesh.obj", PATCH, "has 7 vertices")
+        mesh = (self.folder / "run/mesh.obj").read_text()
+        damaged("mesh.obj", mesh + "l 1 20\n", "vertex 1 to vertex 20, which are of two bodies")
+        damaged("frames.npy", "x", "frames.npy")
+        run = self.copy_of_run("nothing")
+        (run / "mesh.obj").unlink()
+        self.assertIn("mesh.obj: no such file", self.error(run, "a.glb"))
+        self.pliant("run", "scene.json", "--out", "none_run", "--format", "none", "--steps", 1)
+        self.assertIn("no frames", self.error("none_run", "a.glb"))
+
+    def test_steps_of_changing_length(self):
+        run = self.copy_of_run("uneven")
+        lines = (run / "measurements.csv").read_text().splitlines()
+        times = 0.02 * numpy.arange(41) ** 1.5
+        rows = [",".join([str(i), repr(float(time)), *line.split(",")[2:]])
+                for i, (time, line) in enumerate(zip(times, lines[1:]))]
+        (run / "measurements.csv").write_text("\n".join([lines[0], *rows]) + "\n")
+        self.assertIn("not evenly spaced", self.error(run, "a.pc2"))
+        self.pliant("convert", run, "a.pc2", "--fps", 10)
+        self.assertIn("not evenly spaced", self.pliant("convert", run, "a.mdd").stdout)
+        found = numpy.frombuffer((self.folder / "a.mdd").read_bytes(), ">f4", 41, 8)
+        numpy.testing.assert_allclose(found, times, rtol=1e-6)
+
+    def test_names_do_not_reach_the_terminal_as_they_are(self):
+        name = "a\x1b[2J.npy"
+        self.assertIn("a?[2J.npy", self.pliant("convert", "run", name).stdout)
+        self.assertNotIn("\x1b", self.error("\x1b[2J.obj", "a.glb"))
+
+
+@unittest.skipUnless(shutil.which("assimp"), "assimp is missing; scripts/setup.sh installs it")
+class Assimp(ExportCase):
+    def info(self, name):
+        done = subprocess.run(["assimp", "info", name], capture_output=True, text=True, timeout=120, cwd=self.folder)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        counts = {}
+        for line in done.stdout.splitlines():
+            key, colon, value = line.partition(":")
+            if colon and value.split() and value.split()[0].isdigit():
+                counts[key.strip()] = int(value.split()[0])
+        return counts
+
+    def test_animations_open(self):
+        for name in ["a.glb", "a.gltf"]:
+            self.pliant("convert", "run", name)
+            counts = self.info(name)
+            self.assertEqual(counts["Meshes"], 5)
+            self.assertEqual(counts["Animations"], 1)
+            # 5 of the patch, 48 of the sheet, 28 of the bar, 9 of the rope, 4 of what stands still
+            self.assertEqual(counts["Faces"], 5 + 48 + 28 + 9 + 4)
+
+    def test_meshes_open(self):
+        for extension in ["obj", "ply", "off", "stl"]:
+            with self.subTest(extension):
+                name = f"m.{extension}"
+                self.pliant("convert", "patch.obj", name)
+                self.assertEqual(self.info(name)["Faces"], 5)  # which it cuts into triangles
+
+
+if __name__ == "__main__":
+    assert os.path.exists(PLIANT)
+    unittest.main()
