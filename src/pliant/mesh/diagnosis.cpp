@@ -62,7 +62,6 @@ class Examination {
     examine_triangles();
     examine_tetrahedra();
     examine_edges();
-    find_pinched_vertices();
     measure_volume();
     note(DefectKind::collapsed_facets, mesh_.collapsed_face_count);
     std::erase_if(defects_, [](const Defect& defect) { return defect.count == 0; });
@@ -117,20 +116,25 @@ class Examination {
 
   void find_lonely_vertices() {
     std::vector<char> is_used(at(mesh_.vertex_count()), 0);
+    Parts parts(at(mesh_.vertex_count()));
     const auto use = [&](const auto& elements) {
       for (const auto& element : elements) {
-        for (const Index vertex : element) is_used[at(vertex)] = 1;
+        for (const Index vertex : element) {
+          is_used[at(vertex)] = 1;
+          parts.join(vertex, element[0]);
+        }
       }
     };
     use(mesh_.edges);
     use(mesh_.triangles);
     use(mesh_.tetrahedra);
     for (Index v = 0; v < mesh_.vertex_count(); ++v) {
-      if (is_used[at(v)] == 0) add(DefectKind::isolated_vertices, v);
+      if (is_used[at(v)] == 0) {
+        add(DefectKind::isolated_vertices, v);
+      } else if (parts.is_first(v)) {
+        ++result_.component_count;
+      }
     }
-    const std::vector<Index> component = components(mesh_);
-    const Index all = component.empty() ? 0 : 1 + *std::ranges::max_element(component);
-    result_.component_count = all - static_cast<Index>(defect_of(DefectKind::isolated_vertices).count);
   }
 
   void find_duplicate_vertices() {
@@ -221,6 +225,7 @@ class Examination {
     SpreadOf lengths;
     std::vector<Edge> boundary;
     TurnedSheets sheets(mesh_.triangles.size());
+    std::vector<char> ends_nonmanifold_edge(at(mesh_.vertex_count()), 0);
     visit_edges(mesh_, [&](std::span<const EdgeUse> uses) {
       const Edge edge = {uses[0].low, uses[0].high};
       ++result_.edge_count;
@@ -230,7 +235,10 @@ class Examination {
       }
       const auto triangles = triangles_of(uses);
       if (triangles.size() == 1) boundary.push_back(edge);
-      if (triangles.size() > 2) add(DefectKind::nonmanifold_edges, edge[0], edge[1]);
+      if (triangles.size() > 2) {
+        add(DefectKind::nonmanifold_edges, edge[0], edge[1]);
+        ends_nonmanifold_edge[at(edge[0])] = ends_nonmanifold_edge[at(edge[1])] = 1;
+      }
       if (triangles.size() == 2) {
         sheets.join(triangles[0].triangle(), triangles[1].triangle(),
                     triangles[0].is_reversed() != triangles[1].is_reversed());
@@ -240,6 +248,7 @@ class Examination {
     result_.is_closed = !mesh_.triangles.empty() && boundary.empty() && !has(DefectKind::nonmanifold_edges);
     find_flipped_triangles(sheets);
     sheets = TurnedSheets(0);
+    find_pinched_vertices(ends_nonmanifold_edge);
     trace_boundary(std::move(boundary));
   }
 
@@ -264,27 +273,32 @@ class Examination {
     }
   }
 
-  /// A vertex whose triangles form more than one fan. A fan ends at a boundary and at a non-manifold edge.
-  void find_pinched_vertices() {
-    CornerFans fans(mesh_.triangles.size());
-    std::vector<Index> fan_count(at(mesh_.vertex_count()), 0);
-    const auto corner = [&](const EdgeUse& use, Index vertex) {
-      const Triangle& triangle = mesh_.triangles[at(use.triangle())];
-      return 3 * at(use.triangle()) + static_cast<std::size_t>(std::ranges::find(triangle, vertex) - triangle.begin());
-    };
-    visit_edges(mesh_, [&](std::span<const EdgeUse> uses) {
-      const auto triangles = triangles_of(uses);
-      for (const Index vertex : {uses[0].low, uses[0].high}) {
-        if (triangles.size() == 2) fans.join(corner(triangles[0], vertex), corner(triangles[1], vertex));
-        if (triangles.size() > 2) fan_count[at(vertex)] += 2;
-      }
+  /// A vertex whose triangles form more than one fan, or that ends a non-manifold edge.
+  void find_pinched_vertices(const std::vector<char>& ends_nonmanifold_edge) {
+    for (Index v = 0; v < count_of(ends_nonmanifold_edge); ++v) {
+      if (ends_nonmanifold_edge[at(v)] != 0) add(DefectKind::nonmanifold_vertices, v);
+    }
+    const auto is_open_question = [&](Index v) { return ends_nonmanifold_edge[at(v)] == 0; };
+    std::vector<std::pair<Index, Index>> ends;  // of sides: neighbour, side
+    visit_vertices(mesh_, is_open_question, [&](std::span<const SideUse> uses) {
+      if (count_fans(uses, ends) > 1) add(DefectKind::nonmanifold_vertices, uses[0].vertex);
     });
-    for (std::size_t c = 0; c < 3 * mesh_.triangles.size(); ++c) {
-      if (fans.is_first(c)) ++fan_count[at(mesh_.triangles[c / 3][c % 3])];
+  }
+
+  /// Triangles belong to a fan when their sides opposite the vertex share an end. `ends` is scratch.
+  static Index count_fans(std::span<const SideUse> uses, std::vector<std::pair<Index, Index>>& ends) {
+    ends.clear();
+    for (Index s = 0; s < count_of(uses); ++s) {
+      for (const Index end : uses[at(s)].side) ends.emplace_back(end, s);
     }
-    for (Index v = 0; v < mesh_.vertex_count(); ++v) {
-      if (fan_count[at(v)] > 1) add(DefectKind::nonmanifold_vertices, v);
+    std::ranges::sort(ends);
+    Parts fans(uses.size());
+    for (std::size_t e = 1; e < ends.size(); ++e) {
+      if (ends[e].first == ends[e - 1].first) fans.join(ends[e].second, ends[e - 1].second);
     }
+    Index count = 0;
+    for (Index s = 0; s < count_of(uses); ++s) count += fans.is_first(s) ? 1 : 0;
+    return count;
   }
 
   /// Walks from each vertex along edges not yet walked, lowest first, until there is none to go on with.

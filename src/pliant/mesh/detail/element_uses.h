@@ -36,14 +36,23 @@ struct TriangleUse {
   friend auto operator<=>(const TriangleUse&, const TriangleUse&) = default;
 };
 
+/// The side of a triangle opposite one of its vertices.
+struct SideUse {
+  Index vertex;
+  Edge side;
+
+  auto key() const { return vertex; }
+  friend auto operator<=>(const SideUse&, const SideUse&) = default;
+};
+
 /// Sorts records into groups of one key. `emit_all` calls its argument with every record and is run twice a pass;
-/// `share` maps a record to any number that depends on its key alone; `visit` gets each group, ascending.
+/// `share` maps a record to any number below 2^32 that depends on its key alone; `visit` gets each group, ascending.
 template <class Use, class EmitAll, class Share, class Visit>
 void visit_groups(std::uint64_t count, const EmitAll& emit_all, const Share& share, const Visit& visit) {
   constexpr std::uint64_t at_once = 1 << 20;
   const std::uint64_t passes = count / std::max(at_once, count / 8) + 1;
   for (std::uint64_t pass = 0; pass < passes; ++pass) {
-    const auto is_mine = [&](const Use& use) { return passes == 1 || share(use) % passes == pass; };
+    const auto is_mine = [&](const Use& use) { return passes == 1 || (share(use) * passes) >> 32 == pass; };
     std::size_t mine = 0;
     emit_all([&](const Use& use) { mine += is_mine(use) ? 1 : 0; });
     std::vector<Use> uses;
@@ -95,6 +104,20 @@ void visit_edges(const Mesh& mesh, const Visit& visit) {
         return mixed(static_cast<std::uint64_t>(use.low), static_cast<std::uint64_t>(use.high));
       },
       visit);
+}
+
+/// Calls visit(span of SideUse) for each vertex that has triangles and is wanted.
+template <class IsWanted, class Visit>
+void visit_vertices(const Mesh& mesh, const IsWanted& is_wanted, const Visit& visit) {
+  const auto emit_all = [&](const auto& emit) {
+    for (const auto& [a, b, c] : mesh.triangles) {
+      if (is_wanted(a)) emit(SideUse{a, {b, c}});
+      if (is_wanted(b)) emit(SideUse{b, {c, a}});
+      if (is_wanted(c)) emit(SideUse{c, {a, b}});
+    }
+  };
+  const auto share = [](const SideUse& use) { return mixed(static_cast<std::uint64_t>(use.vertex), 0); };
+  visit_groups<SideUse>(3 * mesh.triangles.size(), emit_all, share, visit);
 }
 
 /// Calls visit(span of TriangleUse) for each three vertices that have a triangle.

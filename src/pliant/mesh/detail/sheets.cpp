@@ -5,22 +5,21 @@
 
 namespace pliant {
 
-TurnedSheets::TurnedSheets(std::size_t triangle_count)
-    : parent_(triangle_count), is_turned_(triangle_count, 0), is_unorientable_(triangle_count, 0) {
+TurnedSheets::TurnedSheets(std::size_t triangle_count) : parent_(triangle_count), marks_(triangle_count, 0) {
   std::iota(parent_.begin(), parent_.end(), 0);
 }
 
 std::pair<Index, bool> TurnedSheets::find(Index triangle) {
   auto at = static_cast<std::size_t>(triangle);
-  char is_turned = 0;
+  unsigned char is_turned = 0;
   while (parent_[at] != static_cast<Index>(at)) {
     const auto above = static_cast<std::size_t>(parent_[at]);
     // Path halving: the grandparent becomes the parent.
     if (parent_[above] != static_cast<Index>(above)) {
-      is_turned_[at] = static_cast<char>(is_turned_[at] ^ is_turned_[above]);
+      marks_[at] = static_cast<unsigned char>(marks_[at] ^ (marks_[above] & turned));
       parent_[at] = parent_[above];
     }
-    is_turned = static_cast<char>(is_turned ^ is_turned_[at]);
+    is_turned = static_cast<unsigned char>(is_turned ^ (marks_[at] & turned));
     at = static_cast<std::size_t>(parent_[at]);
   }
   return {static_cast<Index>(at), is_turned != 0};
@@ -33,29 +32,30 @@ void TurnedSheets::join(Index a, Index b, bool are_turned_alike) {
   const auto low = static_cast<std::size_t>(std::min(root_a, root_b));
   const auto high = static_cast<std::size_t>(std::max(root_a, root_b));
   if (low == high) {
-    if (is_contrary) is_unorientable_[low] = 1;
+    if (is_contrary) marks_[low] |= unorientable;
     return;
   }
+  marks_[low] = static_cast<unsigned char>(marks_[low] | (marks_[high] & unorientable));
+  marks_[high] = is_contrary ? turned : 0;
   parent_[high] = static_cast<Index>(low);
-  is_turned_[high] = is_contrary ? 1 : 0;
-  is_unorientable_[low] = static_cast<char>(is_unorientable_[low] | is_unorientable_[high]);
 }
 
-CornerFans::CornerFans(std::size_t triangle_count) : parent_(3 * triangle_count) {
-  std::iota(parent_.begin(), parent_.end(), 0u);
+Parts::Parts(std::size_t count) : parent_(count) {
+  std::iota(parent_.begin(), parent_.end(), 0);
 }
 
-std::size_t CornerFans::find(std::size_t corner) {
-  while (parent_[corner] != corner) {
-    parent_[corner] = parent_[parent_[corner]];
-    corner = parent_[corner];
+Index Parts::find(Index thing) {
+  const auto above = [&](Index i) -> Index& { return parent_[static_cast<std::size_t>(i)]; };
+  while (above(thing) != thing) {
+    above(thing) = above(above(thing));
+    thing = above(thing);
   }
-  return corner;
+  return thing;
 }
 
-void CornerFans::join(std::size_t a, std::size_t b) {
+void Parts::join(Index a, Index b) {
   const auto [low, high] = std::minmax({find(a), find(b)});
-  parent_[high] = static_cast<std::uint32_t>(low);
+  parent_[static_cast<std::size_t>(high)] = low;
 }
 
 }  // namespace pliant

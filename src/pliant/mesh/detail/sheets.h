@@ -1,5 +1,5 @@
 #pragma once
-// Which triangles and which corners hang together across edges, and how the triangles are turned. Union-find.
+// What hangs together, and how the triangles of a surface are turned. Union-find.
 #include <utility>
 #include <vector>
 
@@ -19,28 +19,30 @@ class TurnedSheets {
   std::pair<Index, bool> find(Index triangle);
 
   /// Whether going around in the sheet of that lowest triangle comes back turned.
-  bool is_unorientable(Index lowest) const { return is_unorientable_[static_cast<std::size_t>(lowest)] != 0; }
+  bool is_unorientable(Index lowest) const { return (marks_[static_cast<std::size_t>(lowest)] & unorientable) != 0; }
 
  private:
+  static constexpr unsigned char turned = 1;
+  static constexpr unsigned char unorientable = 2;
+
   std::vector<Index> parent_;
-  std::vector<char> is_turned_;  ///< against the parent
-  std::vector<char> is_unorientable_;
+  std::vector<unsigned char> marks_;  ///< of a triangle: turned against its parent; of a lowest one: unorientable
 };
 
-/// Corners of triangles joined around their vertex: corner i of triangle t has number 3t + i.
-class CornerFans {
+/// Things that are joined to parts.
+class Parts {
  public:
-  explicit CornerFans(std::size_t triangle_count);
+  explicit Parts(std::size_t count);
 
-  void join(std::size_t a, std::size_t b);
+  void join(Index a, Index b);
 
-  /// Each fan has one corner that stands for it.
-  bool is_first(std::size_t corner) const { return parent_[corner] == corner; }
+  /// Each part has one thing that stands for it.
+  bool is_first(Index thing) const { return parent_[static_cast<std::size_t>(thing)] == thing; }
 
  private:
-  std::size_t find(std::size_t corner);
+  Index find(Index thing);
 
-  std::vector<std::uint32_t> parent_;
+  std::vector<Index> parent_;
 };
 
 }  // namespace pliant
