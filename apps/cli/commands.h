@@ -9,6 +9,7 @@ inline constexpr int exit_interrupted = 130;
 inline constexpr std::size_t message_limit = 2000;  // bytes of a message on the terminal
 
 void add_convert_command(CLI::App& program);
+void add_info_command(CLI::App& program);
 void add_run_command(CLI::App& program, int& exit_code);
 void add_scenes_command(CLI::App& program);
 

@@ -54,6 +54,7 @@ int run_program(int argc, char** argv) {
   pliant_cli::add_convert_command(program);
   pliant_cli::add_scenes_command(program);
   if (argc > 1) refuse_unknown_command(program, argv[1]);
+  pliant_cli::add_info_command(program);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -14,7 +14,7 @@ PolygonBuilder::PolygonBuilder(Mesh& mesh, std::uint64_t file_size, Index first_
 void PolygonBuilder::reserve(std::uint64_t faces, std::uint64_t corners) {
   const std::uint64_t triangles = corners - std::min(corners, 2 * faces);
   mesh_.faces.offsets.reserve(static_cast<std::size_t>(std::min(faces, max_corners_ / 3)) + 1);
-  mesh_.faces.vertices.reserve(static_cast<std::size_t>(std::min(corners, max_corners_)));
+  mesh_.faces.vertices.reserve(static_cast<std::size_t>(std::min(corners, max_corners_ + 256)));
   mesh_.triangles.reserve(static_cast<std::size_t>(std::min(triangles, max_corners_)));
 }
 
