@@ -27,6 +27,12 @@ struct FaceGroup {
   std::vector<Index> faces;
 };
 
+/// A named set of vertices, whatever elements they have.
+struct VertexGroup {
+  std::string name;
+  std::vector<Index> vertices;
+};
+
 /// A mesh keeps the order and the count of the user's vertices; vertices without an element are allowed.
 struct Mesh {
   Positions vertices;                   ///< rest positions, m × 3 [m]
@@ -36,6 +42,7 @@ struct Mesh {
   PolygonFaces faces;                   ///< as read, see PolygonFaces
   Eigen::Matrix<Real, Eigen::Dynamic, 2, Eigen::RowMajor> texture_coordinates;  ///< rows referred to by `faces`
   std::vector<FaceGroup> groups;
+  std::vector<VertexGroup> vertex_groups;
 
   Index vertex_count() const { return static_cast<Index>(vertices.rows()); }
 };

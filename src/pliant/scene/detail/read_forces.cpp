@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "pliant/forces/mouse_spring.h"
+#include "pliant/forces/pressure.h"
 #include "pliant/forces/test_force.h"
 #include "pliant/scene/detail/option_reader.h"
 #include "pliant/scene/detail/scene_reader.h"
@@ -59,12 +60,21 @@ void read_mouse_spring(const Node& node, SceneReader& scene) {
   });
 }
 
+void read_pressure(const Node& node, SceneReader& scene) {
+  const BodyId id = scene.read_body_name(node);
+  const SceneBody body = scene.body(id);
+  PressureOptions options;
+  read_options(node, options, {"type", "body"}, &body);
+  const Index first_vertex = scene.simulation.body(id).first_vertex;
+  node.locate([&] { return scene.simulation.add_force(std::make_unique<Pressure>(body.mesh, first_vertex, options)); });
+}
+
 struct ForceType {
   std::string_view name;
   void (*read)(const Node&, SceneReader&);
 };
 constexpr std::array force_types = {ForceType{"wind", read_wind}, ForceType{"test_force", read_test_force},
-                                    ForceType{"mouse_spring", read_mouse_spring}};
+                                    ForceType{"mouse_spring", read_mouse_spring}, ForceType{"pressure", read_pressure}};
 
 }  // namespace
 
