@@ -6,7 +6,9 @@
 
 #include "pliant/constraints/builtin.h"
 #include "pliant/forces/mouse_spring.h"
+#include "pliant/forces/pressure.h"
 #include "pliant/forces/wind.h"
+#include "pliant/mesh/shapes.h"
 #include "pliant/scene/scene.h"
 #include "tests/support/temporary_folder.h"
 
@@ -41,6 +43,12 @@ std::string default_text(const Values& values) {
 std::string default_text(const Vec3& v) {
   return "[" + number_text(v[0]) + ", " + number_text(v[1]) + ", " + number_text(v[2]) + "]";
 }
+template <class Number, std::size_t n>
+std::string default_text(const std::array<Number, n>& numbers) {
+  std::string text;
+  for (const Number number : numbers) text += (text.empty() ? "[" : ", ") + number_text(static_cast<Real>(number));
+  return text + "]";
+}
 std::string default_text(const Selection&) {
   return "\"all\"";
 }
@@ -55,21 +63,30 @@ std::string default_text(const Option& option) {
   }
 }
 
+/// The tables of options stand under their type's heading.
 template <class Options>
-void check_rows() {
+void check_rows(std::string_view heading = "") {
+  const std::size_t begin = heading.empty() ? 0 : page().find(heading);
+  CHECK_MESSAGE(begin != std::string::npos, heading);
+  if (begin == std::string::npos) return;
+  const std::string section = page().substr(begin, page().find("\n#", begin + 1) - begin);
+  const std::string& place = heading.empty() ? page() : section;
   const Options options;
-  Options::visit(options, [](const OptionInfo& info, const auto& option) {
+  Options::visit(options, [&](const OptionInfo& info, const auto& option) {
     std::string row = "| `" + std::string(info.name) + "` | " + std::string(info.unit) + " | " + default_text(option) +
                       " | " + std::string(info.doc) + " |";
-    CHECK_MESSAGE(page().find(row) != std::string::npos, row);
+    CHECK_MESSAGE(place.find(row) != std::string::npos, row);
   });
+}
+
+template <class Shape>
+void check_shape() {
+  check_rows<Shape>("\n#### `" + std::string(Shape::shape) + "`\n");
 }
 
 template <class Constraint>
 void check_constraint() {
-  const std::string heading = "\n### `" + std::string(Constraint::info.name) + "`\n";
-  CHECK_MESSAGE(page().find(heading) != std::string::npos, heading);
-  check_rows<Constraint>();
+  check_rows<Constraint>("\n### `" + std::string(Constraint::info.name) + "`\n");
 }
 
 template <class... Constraint>
@@ -91,6 +108,15 @@ TEST_CASE("the tables list every option") {
   check_rows<OutputSettings>();
   check_rows<WindOptions>();
   check_rows<MouseSpringOptions>();
+  check_rows<PressureOptions>("\n### `pressure`\n");
+  check_shape<GridOptions>();
+  check_shape<NetOptions>();
+  check_shape<PillowOptions>();
+  check_shape<TorusOptions>();
+  check_shape<SphereOptions>();
+  check_shape<CylinderOptions>();
+  check_shape<BarOptions>();
+  check_shape<ChainOptions>();
   check_constraints(static_cast<BuiltinConstraints*>(nullptr));
 }
 

@@ -60,6 +60,16 @@ TEST_CASE("masses per vertex and each by itself are taken as they are") {
   CHECK(vertex_masses(stray, Mass::each(each), "") == each);
 }
 
+TEST_CASE("masses add up: a density for each kind of element") {
+  Mesh both = joined(grid({.columns = 2, .rows = 2}), chain({.links = 2, .length = 4}));
+  const Mass mass = Mass::area_density(6) + Mass::line_density(0.5);
+  CHECK(vertex_masses(both, mass, "") == std::vector<Real>{2, 1, 1, 2, 0.5, 1, 0.5});
+  CHECK(vertex_masses(both, mass + Mass::per_vertex(1), "") == std::vector<Real>{3, 2, 2, 3, 1.5, 2, 1.5});
+  CHECK(contains(refusal(both, Mass::area_density(6)), "vertex 4 has mass 0; no element gives it any"));
+  CHECK(contains(refusal(both, mass + Mass::line_density(-1)), "the mass is -1"));
+  CHECK(contains(refusal(both, mass + Mass::density(1)), "the mesh has no tetrahedra"));
+}
+
 TEST_CASE("a mass that is not finite and positive is refused, with its vertex") {
   const Mesh sheet = grid({.columns = 2, .rows = 2});
   constexpr Real nan = std::numeric_limits<Real>::quiet_NaN();

@@ -97,6 +97,48 @@ TEST_CASE("a grid's texture coordinates fill the unit square") {
   }
 }
 
+TEST_CASE("a net has the grid's vertices, and cords for elements") {
+  const Mesh cords = net({.columns = 3, .rows = 2, .size = {4, 1}, .plane = Plane::xy});
+  CHECK(cords.vertices == grid({.columns = 3, .rows = 2, .size = {4, 1}, .plane = Plane::xy}).vertices);
+  CHECK(cords.edges == std::vector<Edge>{{0, 1}, {1, 2}, {3, 4}, {4, 5}, {0, 3}, {1, 4}, {2, 5}});
+  CHECK(cords.triangles.empty());
+  const Mesh crossed = net({.columns = 3, .rows = 2, .diagonals = NetDiagonals::both});
+  CHECK(std::vector(crossed.edges.begin() + 7, crossed.edges.end()) ==
+        std::vector<Edge>{{0, 4}, {1, 3}, {1, 5}, {2, 4}});
+  CHECK(net({.columns = 40, .rows = 30}).edges.size() == 39 * 30 + 40 * 29);
+  CHECK_NOTHROW(check_mesh(crossed, "net"));
+}
+
+TEST_CASE("a pillow is one closed surface, sewn at its border, with nothing double") {
+  for (const Plane plane : {Plane::xy, Plane::xz, Plane::yz}) {
+    for (const auto& [columns, rows] : {std::array{3, 3}, {3, 4}, {4, 4}, {4, 7}, {6, 5}, {9, 8}, {17, 17}}) {
+      CAPTURE(columns);
+      CAPTURE(rows);
+      const Mesh cushion = pillow({.columns = columns, .rows = rows, .size = {0.6, 0.5}, .plane = plane, .gap = 1e-3});
+      CHECK(cushion.vertex_count() == columns * rows + (columns - 2) * (rows - 2));
+      CHECK(cushion.triangles.size() == static_cast<std::size_t>(4 * (columns - 1) * (rows - 1)));
+      CHECK(euler_characteristic(cushion) == 2);
+      CHECK(boundary_edges(cushion).empty());
+      CHECK(is_consistently_oriented(cushion));
+      CHECK(hinges(cushion).stencils.size() == unique_edges(cushion).size());
+      CHECK(vertex_rings(cushion).ring_count() == cushion.vertex_count());
+      CHECK_NOTHROW(check_mesh(cushion, "pillow"));
+      CHECK(area(cushion) == doctest::Approx(0.6).epsilon(1e-4));
+    }
+  }
+  // The gap over the inner faces, half of it over the cells at the border: a frustum on either side.
+  const Mesh cushion = pillow({.columns = 11, .rows = 11, .size = {1, 1}, .plane = Plane::xy, .gap = 0.2});
+  CHECK(enclosed_volume(cushion) == doctest::Approx(0.2 * (1 + 0.8 * 0.8 + 0.8) / 3).epsilon(0.01));
+  CHECK(cushion.vertices(12, 2) == 0.1);
+  CHECK(cushion.vertices(121, 2) == -0.1);
+  CHECK(cushion.vertices.row(121).head<2>() == cushion.vertices.row(12).head<2>());
+  CHECK(cushion.vertices(5, 2) == 0);
+  REQUIRE(cushion.groups.size() == 2);
+  CHECK(cushion.groups[0].name == "front");
+  CHECK(cushion.groups[1].faces.front() == 200);
+  CHECK(cushion.texture_coordinates.row(121) == cushion.texture_coordinates.row(12));
+}
+
 TEST_CASE("a torus is one closed surface with a hole") {
   const Mesh ring = torus({.major_segments = 5, .minor_segments = 4, .major_radius = 2, .minor_radius = 1});
   CHECK(ring.vertex_count() == 20);
@@ -215,30 +257,36 @@ TEST_CASE("a chain is straight, of the length asked for") {
 }
 
 TEST_CASE("options out of range are refused by name") {
-  constexpr Real nan = std::numeric_limits<Real>::quiet_NaN();
+  static constexpr Real nan = std::numeric_limits<Real>::quiet_NaN();
   const auto refused = [](const auto& make, const std::string& start) {
     const std::string message = error_of([&] { make(); });
     CAPTURE(message);
     CHECK(message.starts_with(start));
   };
-  refused([] { grid({.columns = 1}); }, "grid: columns is 1; it must be at least 2");
-  refused([] { grid({.rows = -3}); }, "grid: rows is -3;");
-  refused([] { grid({.size = {0, 1}}); }, "grid: size[0] is 0;");
-  refused([] { grid({.size = {1, nan}}); }, "grid: size[1] is nan;");
-  refused([] { torus({.major_segments = 2}); }, "torus: major_segments is 2;");
-  refused([] { torus({.minor_segments = 0}); }, "torus: minor_segments is 0;");
-  refused([] { torus({.minor_radius = -1}); }, "torus: minor_radius is -1;");
+  refused([] { grid({.columns = 1}); }, "grid: columns: 1 is out of range; give a finite number from 2");
+  refused([] { grid({.rows = -3}); }, "grid: rows: -3 ");
+  refused([] { grid({.size = {0, 1}}); }, "grid: size[0]: 0 is out of range; give a finite number above 0 [m]");
+  refused([] { grid({.size = {1, nan}}); }, "grid: size[1]: nan ");
+  refused([] { net({.columns = 1}); }, "net: columns: 1 ");
+  refused([] { net({.size = {-1, 1}}); }, "net: size[0]: -1 ");
+  refused([] { pillow({.columns = 2}); }, "pillow: columns: 2 is out of range; give a finite number from 3");
+  refused([] { pillow({.gap = 0}); }, "pillow: gap: 0 ");
+  refused([] { torus({.major_segments = 2}); }, "torus: major_segments: 2 ");
+  refused([] { torus({.minor_segments = 0}); }, "torus: minor_segments: 0 ");
+  refused([] { torus({.minor_radius = -1}); }, "torus: minor_radius: -1 ");
   refused([] { torus({.minor_radius = 0.5}); }, "torus: minor_radius is 0.5; it must be less than major_radius, 0.5");
-  refused([] { sphere({.subdivisions = -1}); }, "sphere: subdivisions is -1;");
-  refused([] { sphere({.subdivisions = 12}); }, "sphere: subdivisions is 12; it must be at most 11");
-  refused([] { sphere({.radius = 0}); }, "sphere: radius is 0;");
-  refused([] { cylinder({.segments = 2}); }, "cylinder: segments is 2;");
-  refused([] { cylinder({.rows = 1}); }, "cylinder: rows is 1;");
-  refused([] { cylinder({.height = -1}); }, "cylinder: height is -1;");
-  refused([] { bar({.cells = {1, 0, 1}}); }, "bar: cells along y is 0;");
-  refused([] { bar({.size = {1, 1, 0}}); }, "bar: size along z is 0;");
-  refused([] { chain({.links = 0}); }, "chain: links is 0;");
-  refused([] { chain({.length = nan}); }, "chain: length is nan;");
+  refused([] { sphere({.subdivisions = -1}); }, "sphere: subdivisions: -1 ");
+  refused([] { sphere({.subdivisions = 12}); },
+          "sphere: subdivisions: 12 is out of range; give a finite number from 0 up to 11");
+  refused([] { sphere({.radius = 0}); }, "sphere: radius: 0 ");
+  refused([] { cylinder({.segments = 2}); }, "cylinder: segments: 2 ");
+  refused([] { cylinder({.rows = 1}); }, "cylinder: rows: 1 ");
+  refused([] { cylinder({.height = -1}); }, "cylinder: height: -1 ");
+  refused([] { bar({.cells = {1, 0, 1}}); }, "bar: cells[1]: 0 is out of range; give a finite number from 1");
+  refused([] { bar({.size = {1, 1, 0}}); }, "bar: size[2]: 0 ");
+  refused([] { chain({.links = 0}); }, "chain: links: 0 ");
+  refused([] { chain({.length = nan}); }, "chain: length: nan ");
+  refused([] { chain({.direction = {0, nan, 0}}); }, "chain: direction: nan ");
   refused([] { chain({.direction = {0, 0, 0}}); }, "chain: direction is (0, 0, 0);");
 }
 
@@ -249,6 +297,8 @@ TEST_CASE("shapes too large for memory are refused, not tried") {
   };
   refused([] { grid({.columns = huge, .rows = huge}); },
           "grid: columns and rows ask for 4.61e+18 vertices; stay under");
+  refused([] { net({.columns = huge, .rows = huge}); }, "net: columns and rows ask for 4.61e+18 vertices");
+  refused([] { pillow({.columns = huge, .rows = huge}); }, "pillow: columns and rows ask for 9.22e+18 vertices");
   refused([] { torus({.major_segments = huge, .minor_segments = huge}); }, "ask for 4.61e+18 vertices");
   refused([] { cylinder({.segments = huge, .rows = huge}); }, "ask for 4.61e+18 vertices");
   refused([] { bar({.cells = {huge, huge, huge}}); }, "bar: cells ask for 9.9e+27 vertices");

@@ -3,6 +3,7 @@
 //
 // Every type lists its options once, in a static function `visit`; validation, scene files, the table of the docs and
 // every other interface are written over that list.
+#include <array>
 #include <cmath>
 #include <concepts>
 #include <initializer_list>
@@ -126,6 +127,10 @@ struct OptionChecker {
   void operator()(const OptionInfo& info, const Ragged<Real>& lists) const { check(info, lists.values, true); }
   void operator()(const OptionInfo& info, const Vec3& point) const {
     for (const Real x : point) check_number(type, info, x, 0, false);
+  }
+  template <class Number, std::size_t n>
+  void operator()(const OptionInfo& info, const std::array<Number, n>& numbers) const {
+    for (std::size_t i = 0; i < n; ++i) check_number(type, info, static_cast<Real>(numbers[i]), i, true);
   }
   void operator()(const OptionInfo& info, const Points& points) const {
     for (std::size_t i = 0; i < points.list().size(); ++i) {

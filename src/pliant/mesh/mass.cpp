@@ -62,21 +62,21 @@ void require_elements(bool has_elements, std::string_view what, std::string_view
                          name, what, elements));
 }
 
-void check_values(const Mesh& mesh, const Mass& mass, std::string_view name) {
-  if (mass.kind() != Mass::Kind::each) {
-    const Real value = mass.values().front();
+void check_values(const Mesh& mesh, const Mass::Part& mass, std::string_view name) {
+  if (mass.kind != Mass::Kind::each) {
+    const Real value = mass.values.front();
     if (!is_positive(value)) fail_input(fmt::format("{}: the mass is {}, but must be finite and > 0", name, value));
     return;
   }
-  if (mass.values().size() != static_cast<std::size_t>(mesh.vertex_count())) {
+  if (mass.values.size() != static_cast<std::size_t>(mesh.vertex_count())) {
     fail_input(fmt::format("{}: there are {} masses for {} vertices; give one for each vertex", name,
-                           mass.values().size(), mesh.vertex_count()));
+                           mass.values.size(), mesh.vertex_count()));
   }
 }
 
-std::vector<Real> distribute(const Mesh& mesh, const Mass& mass, std::string_view name) {
-  const Real value = mass.kind() == Mass::Kind::each ? 0 : mass.values().front();
-  switch (mass.kind()) {
+std::vector<Real> distribute(const Mesh& mesh, const Mass::Part& mass, std::string_view name) {
+  const Real value = mass.kind == Mass::Kind::each ? 0 : mass.values.front();
+  switch (mass.kind) {
     case Mass::Kind::per_vertex:
       return std::vector<Real>(static_cast<std::size_t>(mesh.vertex_count()), value);
     case Mass::Kind::total:
@@ -93,17 +93,22 @@ std::vector<Real> distribute(const Mesh& mesh, const Mass& mass, std::string_vie
     case Mass::Kind::each:
       break;
   }
-  return {mass.values().begin(), mass.values().end()};
+  return mass.values;
 }
 
 }  // namespace
 
 std::vector<Real> vertex_masses(const Mesh& mesh, const Mass& mass, std::string_view name) {
-  check_values(mesh, mass, name);
-  std::vector<Real> masses = distribute(mesh, mass, name);
+  std::vector<Real> masses(static_cast<std::size_t>(mesh.vertex_count()), 0);
+  bool is_given = false;
+  for (const Mass::Part& part : mass.parts()) {
+    check_values(mesh, part, name);
+    const std::vector<Real> more = distribute(mesh, part, name);
+    for (std::size_t v = 0; v < masses.size(); ++v) masses[v] += more[v];
+    is_given = is_given || part.kind == Mass::Kind::each || part.kind == Mass::Kind::per_vertex;
+  }
   for (std::size_t v = 0; v < masses.size(); ++v) {
     if (is_positive(masses[v])) continue;
-    const bool is_given = mass.kind() == Mass::Kind::each || mass.kind() == Mass::Kind::per_vertex;
     fail_input(fmt::format("{}: vertex {} has mass {}; {}", name, v, masses[v],
                            is_given || masses[v] != 0
                                ? "every mass must be finite and > 0"

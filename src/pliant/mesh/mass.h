@@ -28,15 +28,23 @@ class Mass {
   /// One mass for each vertex [kg].
   static Mass each(std::vector<Real> masses) { return Mass(Kind::each, std::move(masses)); }
 
-  Kind kind() const { return kind_; }
-  /// One value in the unit of the kind; for `each`, one for each vertex.
-  std::span<const Real> values() const { return values_; }
+  /// Both: planks by their volume and ropes by their length, say.
+  friend Mass operator+(Mass a, const Mass& b) {
+    a.parts_.insert(a.parts_.end(), b.parts_.begin(), b.parts_.end());
+    return a;
+  }
+
+  /// What is added up.
+  struct Part {
+    Kind kind;
+    std::vector<Real> values;  ///< one in the unit of the kind; for `each`, one for each vertex
+  };
+  std::span<const Part> parts() const { return parts_; }
 
  private:
-  Mass(Kind kind, std::vector<Real> values) : kind_(kind), values_(std::move(values)) {}
+  Mass(Kind kind, std::vector<Real> values) { parts_.push_back({kind, std::move(values)}); }
 
-  Kind kind_;
-  std::vector<Real> values_;
+  std::vector<Part> parts_;
 };
 
 /// The mass of each vertex [kg], lumped: every element gives equal parts to its vertices (Bouaziz et al. 2014, section

@@ -34,6 +34,12 @@ struct VertexMap {
   std::vector<Real> values;  ///< one for each vertex, finite
 };
 
+/// A named set of vertices, whatever elements they have.
+struct VertexGroup {
+  std::string name;
+  std::vector<Index> vertices;
+};
+
 /// A mesh keeps the order and the count of the user's vertices; vertices without an element are allowed.
 struct Mesh {
   Positions vertices;                   ///< rest positions, m × 3 [m]
@@ -46,6 +52,7 @@ struct Mesh {
   std::vector<std::string> material_libraries;  ///< files that define the materials (OBJ `mtllib`), kept unread
   std::vector<VertexMap> maps;                  ///< names differ
   Index collapsed_face_count = 0;  ///< facets of an STL file left out, two of their corners being one vertex
+  std::vector<VertexGroup> vertex_groups;
 
   Index vertex_count() const { return static_cast<Index>(vertices.rows()); }
 };

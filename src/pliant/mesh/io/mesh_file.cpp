@@ -19,12 +19,6 @@ namespace {
 
 constexpr auto format_names = choice_names(MeshFormat{});
 
-MeshFormat known_format(const std::filesystem::path& path) {
-  if (const auto format = mesh_format(path)) return *format;
-  fail_input(fmt::format("{}: not the extension of a known mesh format; known: .{}", path.string(),
-                         fmt::join(format_names, ", .")));
-}
-
 Mesh read(const ByteSource& source, MeshFormat format) {
   switch (format) {
     case MeshFormat::obj:
@@ -70,6 +64,12 @@ Mesh read_and_place(const ByteSource& source, MeshFormat format, const ImportOpt
 
 }  // namespace
 
+MeshFormat require_mesh_format(const std::filesystem::path& path) {
+  if (const auto format = mesh_format(path)) return *format;
+  fail_input(fmt::format("{}: not the extension of a known mesh format; known: .{}", path.string(),
+                         fmt::join(format_names, ", .")));
+}
+
 std::optional<MeshFormat> mesh_format(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   for (char& c : extension) {
@@ -88,12 +88,12 @@ Mesh parse_mesh(std::string_view bytes, std::string_view name, MeshFormat format
 }
 
 Mesh read_mesh(const std::filesystem::path& path, const ImportOptions& options) {
-  const MeshFormat format = known_format(path);
+  const MeshFormat format = require_mesh_format(path);
   return read_and_place(ByteSource(path), format, options);
 }
 
 void write_mesh(const std::filesystem::path& path, const Mesh& mesh, const Positions& positions) {
-  switch (known_format(path)) {
+  switch (require_mesh_format(path)) {
     case MeshFormat::obj:
       return write_obj(path, mesh, positions);
     case MeshFormat::ply:

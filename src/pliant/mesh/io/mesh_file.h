@@ -18,6 +18,8 @@ constexpr std::array<std::string_view, 4> choice_names(MeshFormat) {
 
 /// The format that the extension stands for, in capitals or not; none when it stands for no known one.
 std::optional<MeshFormat> mesh_format(const std::filesystem::path& path);
+/// The same. @throws Error (input), listing the known ones
+MeshFormat require_mesh_format(const std::filesystem::path& path);
 
 /// Which axis of a file points up.
 enum class UpAxis { z, y, x };

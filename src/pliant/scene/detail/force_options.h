@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "pliant/forces/mouse_spring.h"
+#include "pliant/forces/pressure.h"
 #include "pliant/forces/test_force.h"
 #include "pliant/forces/wind.h"
 #include "pliant/scene/detail/json_node.h"
@@ -57,7 +58,16 @@ struct MouseSpringEntry {
   std::unique_ptr<Force> make(const Simulation& simulation) const;
 };
 
-using ForceOptions = std::variant<WindEntry, TestForceEntry, MouseSpringEntry, GravityEntry>;
+struct PressureEntry {
+  static constexpr std::string_view type = "pressure";
+  BodyId body{};
+  PressureOptions options{};
+
+  void read(const Node& node, std::vector<std::string_view> keys, const SceneReader& scene, Reading reading);
+  std::unique_ptr<Force> make(const Simulation& simulation) const;
+};
+
+using ForceOptions = std::variant<WindEntry, TestForceEntry, MouseSpringEntry, PressureEntry, GravityEntry>;
 
 /// Whether that is the type of a force.
 bool is_force_type(std::string_view type);

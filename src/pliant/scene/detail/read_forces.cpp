@@ -84,6 +84,18 @@ std::unique_ptr<Force> MouseSpringEntry::make(const Simulation&) const {
   return std::make_unique<MouseSpring>(vertex, options);
 }
 
+void PressureEntry::read(const Node& node, std::vector<std::string_view> keys, const SceneReader& scene,
+                         Reading reading) {
+  body = read_body_of_force(node, scene, reading, body);
+  const SceneBody surface = scene.body(body);
+  read_options(node, options, with(std::move(keys), {"body"}), &surface);
+}
+
+std::unique_ptr<Force> PressureEntry::make(const Simulation& simulation) const {
+  const Body& surface = simulation.body(body);
+  return std::make_unique<Pressure>(surface.mesh, surface.first_vertex, options);
+}
+
 namespace {
 
 template <class Entry>

@@ -3,48 +3,67 @@
 #include <algorithm>
 #include <array>
 #include <numbers>
+#include <optional>
 
-#include "pliant/mesh/io/obj.h"
-#include "pliant/scene/detail/json_values.h"
+#include "pliant/mesh/io/mesh_file.h"
+#include "pliant/mesh/join.h"
+#include "pliant/mesh/shapes/limits.h"
+#include "pliant/scene/detail/option_reader.h"
 #include "pliant/scene/detail/scene_files.h"
 #include "pliant/scene/detail/shape_options.h"
 
 namespace pliant {
 namespace {
 
-template <class Shape>
-Mesh read_shape_of(const Node& node) {
-  Shape shape;
-  std::vector<std::string_view> keys = {"shape"};
-  shape.visit([&](std::string_view key, const auto&) { keys.push_back(key); });
-  node.check_keys(keys);
-  shape.visit([&](std::string_view key, auto& option) { read_optional(node, key, option); });
-  return node.locate([&] { return shape.make(); });
+using Keys = std::vector<std::string_view>;
+
+Keys joined(Keys keys, const Keys& more) {
+  keys.insert(keys.end(), more.begin(), more.end());
+  return keys;
 }
 
-template <class... Shape>
-Mesh read_shape(const Node& node, std::tuple<Shape...>) {
+template <class Options>
+Mesh read_shape_of(const Node& node, const Keys& more_keys) {
+  Options options;
+  read_options(node, options, joined({"shape"}, more_keys));
+  return node.locate([&] { return make_shape(options); });
+}
+
+template <class... Options>
+Mesh read_shape(const Node& node, const Keys& more_keys, std::tuple<Options...>*) {
   const Node type = node.require("shape");
   std::string name;
   read(type, name);
   Mesh mesh;
-  const bool found = ((Shape::name == name && (mesh = read_shape_of<Shape>(node), true)) || ...);
+  const bool found = ((Options::shape == name && (mesh = read_shape_of<Options>(node, more_keys), true)) || ...);
   if (!found) {
     type.fail(fmt::format("'{}' is no shape; known, the nearest first: {}", printable(name),
-                          nearest_names_text(name, {Shape::name...})));
+                          nearest_names_text(name, {Options::shape...})));
   }
   return mesh;
 }
 
-Mesh read_mesh_file(const Node& node) {
-  node.check_keys({"file"});
+Mesh read_mesh_file(const Node& node, const Keys& more_keys) {
+  ImportOptions import;
+  read_options(node, import, joined({"file", "source"}, more_keys));
   const Node file = node.require("file");
+  const std::filesystem::path path = read_path(file);
+  std::string source;
+  read_optional(node, "source", source);
+  std::error_code ignored;
+  if (!source.empty() && !std::filesystem::exists(path, ignored)) {
+    file.fail(fmt::format("{}: no such file; {}", printable_place(path.string()), printable(source)));
+  }
+  const MeshFormat format = file.locate([&] { return require_mesh_format(path); });
   const NamedFile named = read_named_file(file);
-  return file.locate([&] { return read_obj(named.path); });
+  return file.locate([&] {
+    check_options("file", import);
+    return parse_mesh(named.bytes, path.string(), format, import);
+  });
 }
 
-Mesh read_inline_mesh(const Node& node) {
-  node.check_keys({"vertices", "edges", "triangles", "tetrahedra"});
+Mesh read_inline_mesh(const Node& node, const Keys& more_keys) {
+  node.check_keys(joined({"vertices", "edges", "triangles", "tetrahedra"}, more_keys));
   Mesh mesh;
   read(node.require("vertices"), mesh.vertices);
   const Index count = mesh.vertex_count();
@@ -52,6 +71,60 @@ Mesh read_inline_mesh(const Node& node) {
   if (const auto triangles = node.find("triangles")) mesh.triangles = read_elements<3>(*triangles, count);
   if (const auto tetrahedra = node.find("tetrahedra")) mesh.tetrahedra = read_elements<4>(*tetrahedra, count);
   return mesh;
+}
+
+Mesh read_mesh(const Node& node, const Keys& more_keys);
+
+/// Where a part is repeated, each time further on by the offset.
+struct Copies {
+  Index count = 1;
+  Vec3 offset = Vec3::Zero();
+
+  template <class Self, class Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field(OptionInfo{"count", "", "how many there are of the part", Range{1, 10000}}, self.count);
+    field(OptionInfo{"offset", "m", "from one to the next"}, self.offset);
+  }
+};
+
+/// Appends a part and its copies.
+void read_part(const Node& node, std::vector<MeshPart>& parts) {
+  MeshPart part;
+  part.mesh = read_mesh(node, {"name", "transform", "copies"});
+  read_optional(node, "name", part.name);
+  if (const auto transform = node.find("transform")) apply_transform(*transform, part.mesh.vertices);
+  Copies copies;
+  if (const auto given = node.find("copies")) {
+    read_options(*given, copies);
+    given->locate([&] {
+      check_options("copies", copies);
+      require_vertex_count("copies", Real{1} * copies.count * part.mesh.vertex_count());
+    });
+  }
+  for (Index i = 0; i < copies.count; ++i) {
+    parts.push_back(part);
+    parts.back().mesh.vertices.rowwise() += i * copies.offset.transpose();
+  }
+}
+
+Mesh read_parts(const Node& node, const Keys& more_keys) {
+  node.check_keys(joined({"parts", "weld"}, more_keys));
+  const Node list = node.require("parts");
+  list.require_list();
+  std::vector<MeshPart> parts;
+  for (std::size_t i = 0; i < list.size(); ++i) read_part(list[i], parts);
+  if (parts.empty()) list.fail("there is no part; add one");
+  std::optional<Real> weld;
+  if (const auto given = node.find("weld")) read(*given, weld.emplace());
+  return node.locate([&] { return join(parts, weld); });
+}
+
+Mesh read_mesh(const Node& node, const Keys& more_keys) {
+  node.require_object();
+  const std::string_view kind = node.require_one_of({"shape", "file", "vertices", "parts"});
+  if (kind == "shape") return read_shape(node, more_keys, static_cast<Shapes*>(nullptr));
+  if (kind == "file") return read_mesh_file(node, more_keys);
+  return kind == "parts" ? read_parts(node, more_keys) : read_inline_mesh(node, more_keys);
 }
 
 Vec3 read_scale(const Node& node) {
@@ -88,13 +161,21 @@ constexpr std::array masses_of_one_number = {
     MassOfOneNumber{"line_density", Mass::line_density},
 };
 
+Mass read_mass(const Node& node, std::string_view key) {
+  if (key == "each") {
+    std::vector<Real> masses;
+    read(node, masses);
+    return Mass::each(std::move(masses));
+  }
+  Real value = 0;
+  read(node, value);
+  return std::ranges::find(masses_of_one_number, key, &MassOfOneNumber::key)->make(value);
+}
+
 }  // namespace
 
 Mesh read_mesh(const Node& node) {
-  node.require_object();
-  const std::string_view kind = node.require_one_of({"shape", "file", "vertices"});
-  if (kind == "shape") return read_shape(node, Shapes{});
-  return kind == "file" ? read_mesh_file(node) : read_inline_mesh(node);
+  return read_mesh(node, {});
 }
 
 void apply_transform(const Node& node, Positions& positions) {
@@ -107,18 +188,23 @@ void apply_transform(const Node& node, Positions& positions) {
 }
 
 Mass read_mass(const Node& node) {
-  std::vector<std::string_view> keys = {"each"};
-  for (const auto& [key, make] : masses_of_one_number) keys.push_back(key);
-  node.check_keys(keys);
-  const std::string_view key = node.require_one_of(keys);
-  if (key == "each") {
-    std::vector<Real> masses;
-    read(node.require(key), masses);
-    return Mass::each(std::move(masses));
+  Keys keys = {"each"};
+  Keys given;
+  for (const auto& [key, make] : masses_of_one_number) {
+    keys.push_back(key);
+    if (key.ends_with("density") && node.has(key)) given.push_back(key);
   }
-  Real value = 0;
-  read(node.require(key), value);
-  return std::ranges::find(masses_of_one_number, key, &MassOfOneNumber::key)->make(value);
+  node.check_keys(keys);
+  const bool is_sum = given.size() > 1 && std::ranges::none_of(keys, [&](std::string_view key) {
+                        return !key.ends_with("density") && node.has(key);
+                      });
+  if (!is_sum) given = {node.require_one_of(keys)};
+  std::optional<Mass> sum;
+  for (const std::string_view key : given) {
+    Mass mass = read_mass(node.require(key), key);
+    sum = sum ? *std::move(sum) + mass : std::move(mass);
+  }
+  return *std::move(sum);
 }
 
 }  // namespace pliant

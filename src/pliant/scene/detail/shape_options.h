@@ -1,94 +1,37 @@
 #pragma once
-// The options of mesh/shapes.h as scene files have them: name, type and function of each shape.
+// The shapes that scene files know. A shape's name and options stand with it, in mesh/shapes/.
 #include <tuple>
 
 #include "pliant/mesh/shapes.h"
 
 namespace pliant {
 
-constexpr std::array<std::string_view, 3> choice_names(Plane) {
-  return {"xy", "xz", "yz"};
+using Shapes = std::tuple<GridOptions, NetOptions, PillowOptions, TorusOptions, SphereOptions, CylinderOptions,
+                          BarOptions, ChainOptions>;
+
+inline Mesh make_shape(const GridOptions& options) {
+  return grid(options);
 }
-constexpr std::array<std::string_view, 4> choice_names(Diagonals) {
-  return {"forward", "backward", "alternating", "crossed"};
+inline Mesh make_shape(const NetOptions& options) {
+  return net(options);
 }
-constexpr std::array<std::string_view, 2> choice_names(Caps) {
-  return {"open", "closed"};
+inline Mesh make_shape(const PillowOptions& options) {
+  return pillow(options);
 }
-constexpr std::array<std::string_view, 2> choice_names(TetrahedronCut) {
-  return {"five", "six"};
+inline Mesh make_shape(const TorusOptions& options) {
+  return torus(options);
 }
-
-struct GridShape {
-  static constexpr std::string_view name = "grid";
-  GridOptions options;
-  Mesh make() const { return grid(options); }
-  void visit(auto&& field) {
-    field("columns", options.columns);
-    field("rows", options.rows);
-    field("size", options.size);
-    field("plane", options.plane);
-    field("diagonals", options.diagonals);
-  }
-};
-
-struct TorusShape {
-  static constexpr std::string_view name = "torus";
-  TorusOptions options;
-  Mesh make() const { return torus(options); }
-  void visit(auto&& field) {
-    field("major_segments", options.major_segments);
-    field("minor_segments", options.minor_segments);
-    field("major_radius", options.major_radius);
-    field("minor_radius", options.minor_radius);
-  }
-};
-
-struct SphereShape {
-  static constexpr std::string_view name = "sphere";
-  SphereOptions options;
-  Mesh make() const { return sphere(options); }
-  void visit(auto&& field) {
-    field("subdivisions", options.subdivisions);
-    field("radius", options.radius);
-  }
-};
-
-struct CylinderShape {
-  static constexpr std::string_view name = "cylinder";
-  CylinderOptions options;
-  Mesh make() const { return cylinder(options); }
-  void visit(auto&& field) {
-    field("segments", options.segments);
-    field("rows", options.rows);
-    field("radius", options.radius);
-    field("height", options.height);
-    field("caps", options.caps);
-  }
-};
-
-struct BarShape {
-  static constexpr std::string_view name = "bar";
-  BarOptions options;
-  Mesh make() const { return bar(options); }
-  void visit(auto&& field) {
-    field("cells", options.cells);
-    field("size", options.size);
-    field("cut", options.cut);
-  }
-};
-
-struct ChainShape {
-  static constexpr std::string_view name = "chain";
-  ChainOptions options;
-  Mesh make() const { return chain(options); }
-  void visit(auto&& field) {
-    field("links", options.links);
-    field("length", options.length);
-    field("direction", options.direction);
-  }
-};
-
-using Shapes = std::tuple<GridShape, TorusShape, SphereShape, CylinderShape, BarShape, ChainShape>;
+inline Mesh make_shape(const SphereOptions& options) {
+  return sphere(options);
+}
+inline Mesh make_shape(const CylinderOptions& options) {
+  return cylinder(options);
+}
+inline Mesh make_shape(const BarOptions& options) {
+  return bar(options);
+}
+inline Mesh make_shape(const ChainOptions& options) {
+  return chain(options);
+}
 
 }  // namespace pliant

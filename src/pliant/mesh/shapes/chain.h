@@ -1,0 +1,25 @@
+#pragma once
+#include "pliant/core/options.h"
+#include "pliant/mesh/mesh.h"
+
+namespace pliant {
+
+struct ChainOptions {
+  static constexpr std::string_view shape = "chain";
+
+  Index links = 10;
+  Real length = 1;
+  Vec3 direction{0, 0, -1};
+
+  template <class Self, class Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field(OptionInfo{"links", "", "edges; vertices are one more", Range{1}}, self.links);
+    field(OptionInfo{"length", "m", "of the whole chain", positive}, self.length);
+    field(OptionInfo{"direction", "", "from the first vertex, at the origin; of any length but 0"}, self.direction);
+  }
+};
+
+/// A straight line of edges: vertex i is i·length/links along the direction, edge i joins the vertices i and i + 1.
+Mesh chain(const ChainOptions& options);
+
+}  // namespace pliant

@@ -1,0 +1,76 @@
+#pragma once
+// Round surfaces of triangles: the torus, the sphere, the cylinder.
+#include "pliant/core/options.h"
+#include "pliant/mesh/mesh.h"
+
+namespace pliant {
+
+struct TorusOptions {
+  static constexpr std::string_view shape = "torus";
+
+  Index major_segments = 48;
+  Index minor_segments = 24;
+  Real major_radius = 0.5;
+  Real minor_radius = 0.2;
+
+  template <class Self, class Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field(OptionInfo{"major_segments", "", "vertices around the axis", Range{3}}, self.major_segments);
+    field(OptionInfo{"minor_segments", "", "vertices around the tube", Range{3}}, self.minor_segments);
+    field(OptionInfo{"major_radius", "m", "R, from the centre to the tube's middle", positive}, self.major_radius);
+    field(OptionInfo{"minor_radius", "m", "r, of the tube, less than R", positive}, self.minor_radius);
+  }
+};
+
+/// A torus about the z axis. With α = 2πa/major_segments and β = 2πb/minor_segments, vertex a·minor_segments + b is
+/// ((R + r cos β) cos α, (R + r cos β) sin α, r sin β). Triangles: {X(a, b), X(a + 1, b), X(a + 1, b + 1)} and
+/// {X(a, b), X(a + 1, b + 1), X(a, b + 1)}, normals outward.
+Mesh torus(const TorusOptions& options);
+
+struct SphereOptions {
+  static constexpr std::string_view shape = "sphere";
+
+  Index subdivisions = 3;
+  Real radius = 0.5;
+
+  template <class Self, class Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field(OptionInfo{"subdivisions", "", "0 is the icosahedron; each more cuts every triangle into four", Range{0, 11}},
+          self.subdivisions);
+    field(OptionInfo{"radius", "m", "of the sphere through the vertices", positive}, self.radius);
+  }
+};
+
+/// A sphere about the origin: 10·4ⁿ + 2 vertices, 20·4ⁿ triangles, normals outward.
+Mesh sphere(const SphereOptions& options);
+
+/// Whether a cylinder has lids.
+enum class Caps { open, closed };
+constexpr std::array<std::string_view, 2> choice_names(Caps) {
+  return {"open", "closed"};
+}
+
+struct CylinderOptions {
+  static constexpr std::string_view shape = "cylinder";
+
+  Index segments = 24;
+  Index rows = 11;
+  Real radius = 0.25;
+  Real height = 1;
+  Caps caps = Caps::open;
+
+  template <class Self, class Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field(OptionInfo{"segments", "", "vertices around the axis", Range{3}}, self.segments);
+    field(OptionInfo{"rows", "", "vertices along the axis", Range{2}}, self.rows);
+    field(OptionInfo{"radius", "m", "of the circle through the vertices", positive}, self.radius);
+    field(OptionInfo{"height", "m", "along the axis", positive}, self.height);
+    field(OptionInfo{"caps", "", "its ends: `open` or `closed`"}, self.caps);
+  }
+};
+
+/// A cylinder about the z axis from z = 0 up, normals outward. Vertex row·segments + a lies at angle 2πa/segments; the
+/// lids are fans about two more vertices, the bottom's and the top's middle.
+Mesh cylinder(const CylinderOptions& options);
+
+}  // namespace pliant
