@@ -7,6 +7,7 @@
 #include "pliant/constraints/builtin.h"
 #include "pliant/forces/mouse_spring.h"
 #include "pliant/forces/wind.h"
+#include "pliant/scene/event_options.h"
 #include "pliant/scene/scene.h"
 #include "tests/support/temporary_folder.h"
 
@@ -91,6 +92,12 @@ TEST_CASE("the tables list every option") {
   check_rows<OutputSettings>();
   check_rows<WindOptions>();
   check_rows<MouseSpringOptions>();
+  check_rows<MoveOptions>();
+  check_rows<Keyframe>();
+  check_rows<Rotation>();
+  check_rows<FollowOptions>();
+  check_rows<FileOptions>();
+  check_rows<RampOptions>();
   check_constraints(static_cast<BuiltinConstraints*>(nullptr));
 }
 
