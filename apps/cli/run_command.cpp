@@ -104,7 +104,8 @@ void refuse_to_replace(const fs::path& scene, const fs::path& folder, std::strin
 
 /// Simulates and records; what was recorded is whole however it ends.
 void record_run(Scene& scene, const fs::path& folder, const RunOptions& options, pliant::RunInfo& info) {
-  pliant::Recorder recorder(folder, make_frame_writer(scene, folder), scene.output.every, scene.simulation);
+  pliant::Recorder recorder(folder, make_frame_writer(scene, folder), scene.output.every, scene.simulation,
+                            scene.later_groups);
   const auto begin = std::chrono::steady_clock::now();
   const auto count = [&] {
     info.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

@@ -9,6 +9,7 @@
 #include "pliant/forces/pressure.h"
 #include "pliant/forces/wind.h"
 #include "pliant/mesh/shapes.h"
+#include "pliant/scene/event_options.h"
 #include "pliant/scene/scene.h"
 #include "tests/support/temporary_folder.h"
 
@@ -117,6 +118,12 @@ TEST_CASE("the tables list every option") {
   check_shape<CylinderOptions>();
   check_shape<BarOptions>();
   check_shape<ChainOptions>();
+  check_rows<MoveOptions>();
+  check_rows<Keyframe>();
+  check_rows<Rotation>();
+  check_rows<FollowOptions>();
+  check_rows<FileOptions>();
+  check_rows<RampOptions>();
   check_constraints(static_cast<BuiltinConstraints*>(nullptr));
 }
 

@@ -10,6 +10,7 @@
 
 #include "pliant/constraints/edge_spring.h"
 #include "pliant/constraints/position.h"
+#include "pliant/constraints/triangle_strain.h"
 #include "pliant/forces/gravity.h"
 #include "pliant/mesh/shapes.h"
 #include "pliant/recorder/recorder.h"
@@ -126,6 +127,37 @@ TEST_CASE("the file has a row for each record, and numbers that read back to the
     CHECK(columns.at("iterations")[i] == (i == 0 ? 0 : 10));
   }
   CHECK(columns.at("residual")[3] > 0);
+}
+
+TEST_CASE("groups that come and go have columns from the start, and 0 where they are not") {
+  const TemporaryFolder folder;
+  Simulation simulation;
+  const BodyId body = simulation.add_body(grid({.columns = 3, .rows = 3}), Mass::total(1));
+  const GroupId springs = simulation.add(body, EdgeSpring{.stiffness = 50}, "springs");
+  simulation.add_force(std::make_unique<Gravity>());
+  const std::vector<std::string> later = {"skin", "springs"};
+  Recorder recorder(folder.path(), nullptr, 1, simulation, later);
+  const auto step = [&] { recorder.record(simulation, simulation.step()); };
+  recorder.record(simulation, {});
+  simulation.add(body, Position{.on = {6}, .hold = Hold::soft, .stiffness = 70}, "unannounced");
+  step();
+  const GroupId skin = simulation.add(body, TriangleStrain{.stiffness = 20}, "skin");
+  simulation.remove(springs);
+  step();
+  simulation.remove(skin);
+  simulation.add(body, EdgeSpring{.stiffness = 5}, "springs");
+  step();
+  const auto columns = read_columns(TemporaryFolder::read(folder.path() / "measurements.csv"));
+  CHECK(columns.size() == 18);
+  const std::vector<Real>& of_springs = columns.at("elastic_springs");
+  const std::vector<Real>& of_skin = columns.at("elastic_skin");
+  REQUIRE(of_springs.size() == 4);
+  CHECK(of_springs[1] > 0);
+  CHECK(of_springs[2] == 0);
+  CHECK(of_springs[3] > 0);
+  CHECK(of_skin[1] == 0);
+  CHECK(of_skin[2] > 0);
+  CHECK(of_skin[3] == 0);
 }
 
 }  // namespace

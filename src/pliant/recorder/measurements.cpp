@@ -1,5 +1,6 @@
 #include "pliant/recorder/measurements.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -87,6 +88,7 @@ Measurements measure(Simulation& simulation, const StepReport& report) {
   }
   row.total = row.kinetic;
   for (const auto& [id, group] : simulation.groups()) {
+    row.groups.push_back(group.name);
     row.elastic.push_back(simulation.elastic_energy(id));
     row.total += row.elastic.back();
   }
@@ -99,19 +101,40 @@ Measurements measure(Simulation& simulation, const StepReport& report) {
   return row;
 }
 
-MeasurementsWriter::MeasurementsWriter(const std::filesystem::path& path, const Simulation& simulation) : file_(path) {
+MeasurementsWriter::MeasurementsWriter(const std::filesystem::path& path, const Simulation& simulation,
+                                       std::span<const std::string> later_groups)
+    : file_(path) {
+  for (const auto& [id, group] : simulation.groups()) groups_.push_back(group.name);
+  for (const std::string& name : later_groups) {
+    if (std::ranges::find(groups_, name) == groups_.end()) groups_.push_back(name);
+  }
   std::string line = "step";
   for (const Column& column : before_elastic) line += fmt::format(",{}", column.name);
-  for (const auto& [id, group] : simulation.groups()) line += ',' + csv_field("elastic_" + group.name);
+  for (const std::string& name : groups_) line += ',' + csv_field("elastic_" + name);
   for (const Column& column : after_elastic) line += fmt::format(",{}", column.name);
   file_.write(line + '\n');
   file_.flush();
 }
 
+/// The energies of the groups that have columns. Of several groups with one name, each takes the next such column.
+std::vector<Real> MeasurementsWriter::elastic_columns(const Measurements& row) const {
+  std::vector<Real> columns(groups_.size(), 0);
+  std::vector<char> is_taken(groups_.size(), 0);
+  for (std::size_t i = 0; i < row.groups.size(); ++i) {
+    for (std::size_t c = 0; c < groups_.size(); ++c) {
+      if (is_taken[c] != 0 || groups_[c] != row.groups[i]) continue;
+      is_taken[c] = 1;
+      columns[c] = row.elastic[i];
+      break;
+    }
+  }
+  return columns;
+}
+
 void MeasurementsWriter::add(const Measurements& row) {
   std::string line = std::to_string(row.step);
   for (const Column& column : before_elastic) line += fmt::format(",{}", column.value(row));
-  for (const Real energy : row.elastic) line += fmt::format(",{}", energy);
+  for (const Real energy : elastic_columns(row)) line += fmt::format(",{}", energy);
   for (const Column& column : after_elastic) line += fmt::format(",{}", column.value(row));
   file_.write(line + '\n');
   file_.flush();

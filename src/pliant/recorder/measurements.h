@@ -1,5 +1,7 @@
 #pragma once
 // What a run is judged by: energies, momenta, residual and times, one row a recorded step.
+#include <span>
+#include <string>
 #include <vector>
 
 #include "pliant/recorder/output_file.h"
@@ -12,7 +14,8 @@ struct Measurements {
   std::int64_t step = 0;
   Real time = 0;                         ///< [s]
   Real kinetic = 0;                      ///< Σ m ‖v‖²/2
-  std::vector<Real> elastic;             ///< of each group, in the order of Simulation::groups()
+  std::vector<std::string> groups;       ///< names, in the order of Simulation::groups()
+  std::vector<Real> elastic;             ///< of each of these groups
   Real gravitational = 0;                ///< the potentials of all forces that have one
   Real total = 0;                        ///< the sum of the energies
   Real speed_sum = 0;                    ///< Σ ‖v‖ [m/s]
@@ -30,13 +33,18 @@ Measurements measure(Simulation& simulation, const StepReport& report);
 /// back to the same bits.
 class MeasurementsWriter {
  public:
-  /// Makes the file and writes the names. The groups are those of now. @throws Error (output)
-  MeasurementsWriter(const std::filesystem::path& path, const Simulation& simulation);
+  /// Makes the file and writes the names. The groups are those of now and those of `later_groups`, by name: a group
+  /// that is not there has the energy 0, one that is not among them counts in the total alone. @throws Error (output)
+  MeasurementsWriter(const std::filesystem::path& path, const Simulation& simulation,
+                     std::span<const std::string> later_groups = {});
 
   void add(const Measurements& row);
 
  private:
+  std::vector<Real> elastic_columns(const Measurements& row) const;
+
   OutputFile file_;
+  std::vector<std::string> groups_;
 };
 
 }  // namespace pliant

@@ -24,10 +24,10 @@ void end_run(const fs::path& folder, const RunInfo& info, const Simulation& simu
 }
 
 Recorder::Recorder(fs::path folder, std::unique_ptr<FrameWriter> frames, std::int64_t every,
-                   const Simulation& simulation)
+                   const Simulation& simulation, std::span<const std::string> later_groups)
     : folder_(std::move(folder)),
       frames_(std::move(frames)),
-      measurements_(folder_ / "measurements.csv", simulation),
+      measurements_(folder_ / "measurements.csv", simulation, later_groups),
       every_(every) {
   if (every < 1) fail_input(fmt::format("records every {} steps are not possible; give a number from 1 up", every));
 }

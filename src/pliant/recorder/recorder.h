@@ -20,10 +20,11 @@ void end_run(const std::filesystem::path& folder, const RunInfo& info, const Sim
 /// Records a run. Whenever it is dropped, and whatever it throws, the frames and rows recorded before are whole.
 class Recorder {
  public:
-  /// Opens the files in a prepared folder. `frames` may be null. every ≥ 1: steps from record to record.
+  /// Opens the files in a prepared folder. `frames` may be null. every ≥ 1: steps from record to record. later_groups:
+  /// names of groups that will be added, which have columns of measurements.csv from the start.
   /// @throws Error (output), as do all members.
   Recorder(std::filesystem::path folder, std::unique_ptr<FrameWriter> frames, std::int64_t every,
-           const Simulation& simulation);
+           const Simulation& simulation, std::span<const std::string> later_groups = {});
 
   /// Records the state if its step is a multiple of `every`; to be called at the start and after every step.
   void record(Simulation& simulation, const StepReport& report);

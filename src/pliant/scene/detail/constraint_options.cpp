@@ -43,6 +43,7 @@ void read_changed_options(const Node& node, std::vector<std::string_view> more_k
       if constexpr (requires { of_type.origin; }) of_type.origin = {};
     }
     read_options(node, of_type, std::move(more_keys), &body);
+    node.locate([&] { check_options(of_type.info.name, of_type); });
   };
   std::visit(change, options);
 }

@@ -1,0 +1,123 @@
+// What an edit costs while a curtain of 100 × 100 vertices runs: the call, what the step after it takes to sum and
+// factorize the matrix anew, and for comparison a step without. Minima over repeats, one thread.
+//
+//     bench_live_edits [repeats]
+#include <algorithm>
+#include <functional>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "pliant/core/stopwatch.h"
+#include "pliant/pliant.h"
+#include "pliant/scene/timeline.h"
+
+namespace {
+
+using namespace pliant;
+
+constexpr BodyId curtain{0};
+
+Simulation make() {
+  Simulation simulation({.iterations = 10, .threads = 1});
+  simulation.add_body(grid({.columns = 100, .rows = 100}), Mass::area_density(0.3));
+  simulation.add(curtain, EdgeSpring{.stiffness = 1e3}, "springs");
+  simulation.add(curtain, HingeBending{.stiffness = 1e-3}, "hinges");
+  simulation.add(curtain, Position{.on = {9900, 9999}}, "pins");
+  simulation.add(curtain, TriangleStrain{.stiffness = 10}, "skin");
+  simulation.add_force(std::make_unique<Gravity>());
+  simulation.add_wind(curtain, {.velocity = {0, 1, 0}}, "wind");
+  return simulation;
+}
+
+double best(const std::vector<double>& seconds) {
+  return *std::ranges::min_element(seconds);
+}
+
+struct Edit {
+  std::string name;
+  std::function<void(Simulation&, int repeat)> act;
+  std::function<void(Simulation&)> back = [](Simulation&) {};  // not measured
+};
+
+GroupId id(const Simulation& simulation, std::string_view name) {
+  return simulation.find_group(name).value();
+}
+
+void measure(const Edit& edit, int repeats) {
+  Simulation simulation = make();
+  for (int i = 0; i < 5; ++i) simulation.step();
+  std::vector<double> call;
+  std::vector<double> factor;
+  std::vector<double> step;
+  for (int i = 0; i < repeats; ++i) {
+    edit.back(simulation);
+    simulation.step();
+    const Stopwatch editing;
+    edit.act(simulation, i + 1);
+    call.push_back(editing.seconds());
+    factor.push_back(simulation.step().seconds_factor);
+    step.push_back(simulation.step().seconds_total);
+  }
+  fmt::print("{:44} {:8.2f} {:9.2f} {:8.2f}\n", edit.name, 1e3 * best(call), 1e3 * best(factor), 1e3 * best(step));
+}
+
+std::vector<Edit> edits() {
+  const auto map = [](const Simulation& s, int repeat) {
+    const auto count = static_cast<std::size_t>(s.groups().at(id(s, "springs")).set.count);
+    return std::vector<Real>(count, 1000 + repeat);
+  };
+  const auto settings = [](Simulation& s, auto&& change) {
+    SolverSettings changed = s.settings();
+    change(changed);
+    s.set_settings(changed);
+  };
+  return {
+      {"nothing", [](Simulation&, int) {}},
+      {"stiffness of a group", [](Simulation& s, int i) { s.set_stiffness(id(s, "springs"), 1000 + i); }},
+      {"stiffness map of a group",
+       [=](Simulation& s, int i) { s.replace(id(s, "springs"), EdgeSpring{.stiffness = map(s, i)}); }},
+      {"time step",
+       [=](Simulation& s, int i) { settings(s, [i](SolverSettings& x) { x.time_step = 1.0 / (60 + i % 2); }); }},
+      {"iterations", [=](Simulation& s, int i) { settings(s, [i](SolverSettings& x) { x.iterations = 10 + i % 2; }); }},
+      {"pin added", [](Simulation& s, int) { s.add(curtain, Position{.on = {9950}}, "one"); },
+       [](Simulation& s) {
+         if (const auto one = s.find_group("one")) s.remove(*one);
+       }},
+      {"pin released", [](Simulation& s, int) { s.release(id(s, "pins"), std::array<Index, 1>{9900}); },
+       [](Simulation& s) {
+         s.replace(id(s, "pins"), Position{.on = {9900, 9999}});
+       }},
+      {"pin moved",
+       [](Simulation& s, int i) {
+         s.set_target(id(s, "pins"), 0, {0, 1e-4 * i, 1});
+       }},
+      {"group removed, edges stay connected by others", [](Simulation& s, int) { s.remove(id(s, "skin")); },
+       [](Simulation& s) {
+         if (!s.find_group("skin")) s.add(curtain, TriangleStrain{.stiffness = 10}, "skin");
+       }},
+      {"group removed that alone connects vertices", [](Simulation& s, int) { s.remove(id(s, "hinges")); },
+       [](Simulation& s) {
+         if (!s.find_group("hinges")) s.add(curtain, HingeBending{.stiffness = 1e-3}, "hinges");
+       }},
+      {"group added that connects others",
+       [](Simulation& s, int) { s.add(curtain, HingeBending{.stiffness = 1e-3}, "hinges"); },
+       [](Simulation& s) {
+         if (const auto hinges = s.find_group("hinges")) s.remove(*hinges);
+       }},
+      {"wind changed",
+       [](Simulation& s, int i) {
+         s.replace(*s.find_force("wind"), s.make_wind(curtain, {.velocity = {0, 1 + 1e-3 * i, 0}}));
+       }},
+      {"gravity changed", [](Simulation& s, int i) {
+         s.replace(*s.find_force("gravity"), std::make_unique<Gravity>(Vec3(0, 1e-3 * i, -9.81)));
+       }}};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int repeats = argc > 1 ? std::max(1, std::atoi(argv[1])) : 11;
+  fmt::print("{:44} {:>8} {:>9} {:>8}\n", "edit", "call ms", "factor ms", "step ms");
+  for (const Edit& edit : edits()) measure(edit, repeats);
+}
