@@ -51,10 +51,11 @@ int run_program(int argc, char** argv) {
   program.require_subcommand(1);
   int exit_code = 0;
   pliant_cli::add_run_command(program, exit_code);
+  pliant_cli::add_resume_command(program, exit_code);
   pliant_cli::add_convert_command(program);
   pliant_cli::add_scenes_command(program);
-  if (argc > 1) refuse_unknown_command(program, argv[1]);
   pliant_cli::add_info_command(program);
+  if (argc > 1) refuse_unknown_command(program, argv[1]);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

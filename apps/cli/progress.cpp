@@ -18,19 +18,19 @@ std::string duration_text(double seconds) {
 
 }  // namespace
 
-Progress::Progress(std::int64_t steps, Show show)
-    : steps_(steps), active_(show == Show::on_terminal && has_error_terminal()) {}
+Progress::Progress(std::int64_t first, std::int64_t last, Show show)
+    : first_(first), last_step_(last), active_(show == Show::on_terminal && has_error_terminal()) {}
 
-void Progress::update(std::int64_t done, double residual) {
+void Progress::update(std::int64_t step, double residual) {
   using namespace std::chrono_literals;
   const Clock::time_point now = Clock::now();
-  if (!active_ || done < 1 || now - last_ < 100ms) return;
+  if (!active_ || step <= first_ || now - last_ < 100ms) return;
   last_ = now;
-  const double per_step = std::chrono::duration<double>(now - start_).count() / static_cast<double>(done);
+  const double per_step = std::chrono::duration<double>(now - start_).count() / static_cast<double>(step - first_);
   print_to_stderr(fmt::format(
       "\r\x1b[K"
       "step {} of {}   {:.3g} ms a step   residual {:.2e} N   {} left",
-      done, steps_, 1e3 * per_step, residual, duration_text(per_step * static_cast<double>(steps_ - done))));
+      step, last_step_, 1e3 * per_step, residual, duration_text(per_step * static_cast<double>(last_step_ - step))));
   shown_ = true;
 }
 

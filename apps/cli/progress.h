@@ -9,20 +9,22 @@ class Progress {
  public:
   enum class Show { never, on_terminal };
 
-  Progress(std::int64_t steps, Show show);
+  /// Of the steps from `first` to `last`.
+  Progress(std::int64_t first, std::int64_t last, Show show);
   ~Progress() { clear(); }
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// After `done` steps; residual [N] of the last record.
-  void update(std::int64_t done, double residual);
+  /// After a step; residual [N] of the last record.
+  void update(std::int64_t step, double residual);
   /// Takes the line away, so that something else can be printed.
   void clear();
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  std::int64_t steps_;
+  std::int64_t first_;
+  std::int64_t last_step_;
   bool active_;
   bool shown_ = false;
   Clock::time_point start_ = Clock::now();

@@ -1,10 +1,10 @@
 #pragma once
 // What the sub-commands that take a scene have in common.
-#include <algorithm>
 #include <optional>
 
 #include <CLI/CLI.hpp>
 
+#include "choice_option.h"
 #include "pliant/scene/scene.h"
 
 namespace pliant_cli {
@@ -31,16 +31,5 @@ void add_number(CLI::App& command, const std::string& name, std::optional<pliant
                 const std::string& help);
 void add_number(CLI::App& command, const std::string& name, std::optional<pliant::Real>& number,
                 const std::string& help);
-
-/// An option whose value is one of the names of an enumeration.
-template <class Choice>
-void add_choice(CLI::App& command, const std::string& name, std::optional<Choice>& choice, const std::string& help) {
-  constexpr auto names = choice_names(Choice{});
-  const auto take = [&choice, names](const std::string& value) {
-    choice = static_cast<Choice>(std::ranges::find(names, std::string_view(value)) - names.begin());
-  };
-  command.add_option_function<std::string>(name, take, help)
-      ->check(CLI::IsMember(std::vector<std::string>(names.begin(), names.end())));
-}
 
 }  // namespace pliant_cli

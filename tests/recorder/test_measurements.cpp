@@ -93,7 +93,7 @@ TEST_CASE("the file has a row for each record, and numbers that read back to the
   simulation.add(body, EdgeSpring{.stiffness = 50}, "springs");
   simulation.add(body, Position{.on = {12, 15}}, "pins, hard");
   simulation.add_force(std::make_unique<Gravity>());
-  Recorder recorder(folder.path(), make_npy_writer(folder.path(), 16), 3, simulation);
+  Recorder recorder(folder.path(), make_npy_writer(folder.path(), 16), 3, simulation.group_names());
   recorder.record(simulation, {});
   std::vector<Measurements> rows = {measure(simulation, {})};
   for (int i = 1; i <= 10; ++i) {

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <string>
 
 #include <fmt/format.h>
 
 #include "pliant/core/error.h"
+#include "pliant/core/printable.h"
 
 namespace pliant {
 namespace {
@@ -101,20 +103,48 @@ Measurements measure(Simulation& simulation, const StepReport& report) {
   return row;
 }
 
-MeasurementsWriter::MeasurementsWriter(const std::filesystem::path& path, const Simulation& simulation,
-                                       std::span<const std::string> later_groups)
-    : file_(path) {
-  for (const auto& [id, group] : simulation.groups()) groups_.push_back(group.name);
-  for (const std::string& name : later_groups) {
-    if (std::ranges::find(groups_, name) == groups_.end()) groups_.push_back(name);
-  }
+namespace {
+
+std::string column_names(const std::vector<std::string>& groups) {
   std::string line = "step";
   for (const Column& column : before_elastic) line += fmt::format(",{}", column.name);
-  for (const std::string& name : groups_) line += ',' + csv_field("elastic_" + name);
+  for (const std::string& name : groups) line += ',' + csv_field("elastic_" + name);
   for (const Column& column : after_elastic) line += fmt::format(",{}", column.name);
-  file_.write(line + '\n');
-  file_.flush();
+  return line + '\n';
 }
+
+/// Where the rows end that stay. Names of groups may hold line ends, rows cannot.
+std::uintmax_t kept_bytes(const std::filesystem::path& path, const std::string& names, std::int64_t kept_rows) {
+  std::ifstream file(path, std::ios::binary);
+  std::string begin(names.size(), '\0');
+  file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  bool is_ours = file && begin == names;
+  std::uintmax_t bytes = names.size();
+  std::string row;
+  for (std::int64_t i = 0; is_ours && i < kept_rows; ++i) {
+    is_ours = std::getline(file, row) && !file.eof();
+    bytes += row.size() + 1;
+  }
+  if (is_ours) return bytes;
+  fail_input(
+      fmt::format("{}: not {} rows of this run, after which it would go on; run the scene from its start, or put "
+                  "that file back",
+                  printable_place(path.string()), kept_rows));
+}
+
+OutputFile open(const std::filesystem::path& path, const std::string& names, std::int64_t kept_rows) {
+  if (kept_rows > 0) return OutputFile(path, kept_bytes(path, names, kept_rows));
+  OutputFile file(path);
+  file.write(names);
+  file.flush();
+  return file;
+}
+
+}  // namespace
+
+MeasurementsWriter::MeasurementsWriter(const std::filesystem::path& path, std::vector<std::string> groups,
+                                       std::int64_t kept_rows)
+    : file_(open(path, column_names(groups), kept_rows)), groups_(std::move(groups)) {}
 
 /// The energies of the groups that have columns. Of several groups with one name, each takes the next such column.
 std::vector<Real> MeasurementsWriter::elastic_columns(const Measurements& row) const {

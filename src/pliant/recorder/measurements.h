@@ -33,10 +33,10 @@ Measurements measure(Simulation& simulation, const StepReport& report);
 /// back to the same bits.
 class MeasurementsWriter {
  public:
-  /// Makes the file and writes the names. The groups are those of now and those of `later_groups`, by name: a group
-  /// that is not there has the energy 0, one that is not among them counts in the total alone. @throws Error (output)
-  MeasurementsWriter(const std::filesystem::path& path, const Simulation& simulation,
-                     std::span<const std::string> later_groups = {});
+  /// Makes the file and writes the names of the columns; `groups` have columns: one that is not there has the energy 0,
+  /// one that is not among them counts in the total alone. Or goes on behind the first `kept_rows` rows of the file
+  /// that is there. @throws Error (output); Error (input): that file has other columns, or fewer rows
+  MeasurementsWriter(const std::filesystem::path& path, std::vector<std::string> groups, std::int64_t kept_rows = 0);
 
   void add(const Measurements& row);
 

@@ -10,10 +10,22 @@
 namespace pliant {
 
 OutputFile::OutputFile(std::filesystem::path path) : path_(std::move(path)) {
+  open("wb");
+}
+
+OutputFile::OutputFile(std::filesystem::path path, std::uintmax_t kept_bytes) : path_(std::move(path)) {
+  std::error_code error;
+  std::filesystem::resize_file(path_, kept_bytes, error);
+  if (error) fail(error.value());
+  open("r+b");
+  if (std::fseek(file_.get(), 0, SEEK_END) != 0) fail(errno);
+}
+
+void OutputFile::open(const char* mode) {
   std::error_code ignored;
   const std::filesystem::file_status status = std::filesystem::status(path_, ignored);
   if (std::filesystem::is_fifo(status)) fail(EINVAL);  // opening it would wait for a reader
-  file_.reset(std::fopen(path_.string().c_str(), "wb"));
+  file_.reset(std::fopen(path_.string().c_str(), mode));
   if (!file_) fail(errno);
 }
 

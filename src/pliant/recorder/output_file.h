@@ -12,6 +12,8 @@ class OutputFile {
  public:
   /// Makes the file, in place of one that has its name.
   explicit OutputFile(std::filesystem::path path);
+  /// Opens the file that is there, to go on behind its first bytes; the others are cut off.
+  OutputFile(std::filesystem::path path, std::uintmax_t kept_bytes);
 
   void write(std::string_view bytes);
   /// Replaces the first bytes of the file.
@@ -20,6 +22,7 @@ class OutputFile {
   void flush();
 
  private:
+  void open(const char* mode);
   [[noreturn]] void fail(int error_number) const;
 
   struct Closer {

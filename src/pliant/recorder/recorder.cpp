@@ -23,12 +23,18 @@ void end_run(const fs::path& folder, const RunInfo& info, const Simulation& simu
   write_run_info(folder / "run.json", info, simulation);
 }
 
+void resume_run(const fs::path& folder, RunInfo info, const Simulation& simulation) {
+  info.outcome = Outcome::running;
+  write_run_info(folder / "run.json", info, simulation);
+}
+
 Recorder::Recorder(fs::path folder, std::unique_ptr<FrameWriter> frames, std::int64_t every,
-                   const Simulation& simulation, std::span<const std::string> later_groups)
+                   std::vector<std::string> groups, std::int64_t kept)
     : folder_(std::move(folder)),
       frames_(std::move(frames)),
-      measurements_(folder_ / "measurements.csv", simulation, later_groups),
-      every_(every) {
+      measurements_(folder_ / "measurements.csv", std::move(groups), kept),
+      every_(every),
+      frame_count_(frames_ ? kept : 0) {
   if (every < 1) fail_input(fmt::format("records every {} steps are not possible; give a number from 1 up", every));
 }
 

@@ -14,17 +14,21 @@ namespace pliant {
 /// @throws Error (output)
 void begin_run(const std::filesystem::path& folder, RunInfo info, const Simulation& simulation);
 
+/// Writes run.json of a run that goes on where one has stopped: it is running again. @throws Error (output)
+void resume_run(const std::filesystem::path& folder, RunInfo info, const Simulation& simulation);
+
 /// Writes run.json anew, with how the run ended. @throws Error (output)
 void end_run(const std::filesystem::path& folder, const RunInfo& info, const Simulation& simulation);
 
 /// Records a run. Whenever it is dropped, and whatever it throws, the frames and rows recorded before are whole.
 class Recorder {
  public:
-  /// Opens the files in a prepared folder. `frames` may be null. every ≥ 1: steps from record to record. later_groups:
-  /// names of groups that will be added, which have columns of measurements.csv from the start.
-  /// @throws Error (output), as do all members.
+  /// Opens the files in a prepared folder. `frames` may be null. every ≥ 1: steps from record to record. `groups` have
+  /// columns in measurements.csv; a group that comes later may be among them. kept: records of an earlier run that
+  /// stay, for one that goes on.
+  /// @throws Error (output), as do all members; Error (input) when those records are not there.
   Recorder(std::filesystem::path folder, std::unique_ptr<FrameWriter> frames, std::int64_t every,
-           const Simulation& simulation, std::span<const std::string> later_groups = {});
+           std::vector<std::string> groups, std::int64_t kept = 0);
 
   /// Records the state if its step is a multiple of `every`; to be called at the start and after every step.
   void record(Simulation& simulation, const StepReport& report);

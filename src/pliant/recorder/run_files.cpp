@@ -27,8 +27,8 @@ constexpr std::string_view star = "*";
 }
 
 /// Every name that a run may have written, in this version or an earlier one.
-constexpr std::array known_names = {"run.json",   "measurements.csv", "mesh.obj",   "frames.npy",
-                                    "frames.pc2", "frame_*.obj",      "frame_*.ply"};
+constexpr std::array known_names = {"run.json",   "measurements.csv", "checkpoint.pliant", "mesh.obj",
+                                    "frames.npy", "frames.pc2",       "frame_*.obj",       "frame_*.ply"};
 
 bool is_known(std::string_view name) {
   return std::ranges::find(known_names, name) != known_names.end();
@@ -121,7 +121,7 @@ std::string frame_file_name(std::int64_t frame, std::string_view format) {
 }
 
 std::vector<std::string> run_files(std::string_view format) {
-  std::vector<std::string> names = {"run.json", "measurements.csv"};
+  std::vector<std::string> names = {"run.json", "measurements.csv", std::string(checkpoint_name)};
   if (format != "none") names.insert(names.begin(), {frames_name(format), "mesh.obj"});
   return names;
 }

@@ -9,6 +9,9 @@
 
 namespace pliant {
 
+/// From which a run goes on.
+inline constexpr std::string_view checkpoint_name = "checkpoint.pliant";
+
 /// Where the frames of a format are: frames.npy, frames.pc2, frame_*.obj or frame_*.ply; "" for "none".
 std::string frames_name(std::string_view format);
 

@@ -73,6 +73,7 @@ void write_run_info(const std::filesystem::path& path, const RunInfo& info, cons
   json["outcome"] = choice_names(info.outcome)[static_cast<std::size_t>(info.outcome)];
   if (!info.error.empty()) json["error"] = info.error;
   json["steps"] = info.wanted_steps;
+  if (info.resumed_from) json["resumed_from"] = *info.resumed_from;
   json["settings"] = describe_settings(simulation.settings());
   json["output"] = {{"format", info.frame_format}, {"every", info.every}, {"files", run_files(info.frame_format)}};
   json["used"] = {{"pliant", version},

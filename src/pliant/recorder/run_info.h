@@ -2,6 +2,7 @@
 // run.json: what was run, with what, and how it ended.
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "pliant/simulation/simulation.h"
@@ -22,6 +23,7 @@ struct RunInfo {
   std::int64_t every = 1;    ///< steps from record to record
   std::int64_t wanted_steps = 0;
   std::int64_t frames = 0;
+  std::optional<std::int64_t> resumed_from;  ///< step at which this run went on
   double wall_seconds = 0;
   Outcome outcome = Outcome::running;
   std::string error;  ///< the message when it did not end well

@@ -1,5 +1,7 @@
 #include "pliant/scene/scene.h"
 
+#include <algorithm>
+
 #include "pliant/mesh/io/read_file.h"
 #include "pliant/scene/detail/option_reader.h"
 #include "pliant/scene/detail/scene_documents.h"
@@ -106,7 +108,10 @@ void read_simulation(std::span<SceneLayer* const> layers, Scene& scene) {
   std::vector<Node> roots;
   for (const SceneLayer* layer : layers) roots.push_back(layer->root());
   reader.read_events(roots, scene.timeline);
-  scene.later_groups = std::move(reader.later_groups);
+  scene.group_names = scene.simulation.group_names();
+  for (std::string& name : reader.later_groups) {
+    if (std::ranges::find(scene.group_names, name) == scene.group_names.end()) scene.group_names.push_back(name);
+  }
 }
 
 }  // namespace

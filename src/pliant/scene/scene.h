@@ -34,9 +34,9 @@ struct Scene {
   ViewSettings view;
   Simulation simulation;
   Timeline timeline;
-  SceneSource source;                     ///< what it was read from, for parse_scene
-  std::vector<SceneFile> files;           ///< of its meshes and maps, each once
-  std::vector<std::string> later_groups;  ///< names of the groups that events will add
+  SceneSource source;                    ///< what it was read from, for parse_scene
+  std::vector<SceneFile> files;          ///< of its meshes and maps, each once
+  std::vector<std::string> group_names;  ///< of the groups there are, and behind them those that events add
 
   /// Lets the events act that are due and takes one step. When this throws, nothing has changed.
   StepReport step();

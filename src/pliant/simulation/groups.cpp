@@ -114,6 +114,12 @@ void Simulation::check_held(const ConstraintGroup& added, const std::string& pla
   }
 }
 
+std::vector<std::string> Simulation::group_names() const {
+  std::vector<std::string> names;
+  for (const auto& [id, group] : groups_) names.push_back(group.name);
+  return names;
+}
+
 void Simulation::remove(GroupId id) {
   const auto found = groups_.find(id);
   if (found == groups_.end()) fail_input("group " + std::to_string(static_cast<Index>(id)) + " does not exist");

@@ -48,6 +48,7 @@ class Simulation {
   GroupId add_set(BodyId id, ConstraintSet set, std::string type, std::string name = {});
   void remove(GroupId id);
   const std::map<GroupId, Group>& groups() const { return groups_; }
+  std::vector<std::string> group_names() const;
   /// The group of that name; of several, the one that was added first.
   std::optional<GroupId> find_group(std::string_view name) const;
 

@@ -1,0 +1,161 @@
+// A scene to the files of a run, from its start or from where it was left.
+#include "recording.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+
+#include <fmt/format.h>
+
+#include "commands.h"
+#include "pliant/core/printable.h"
+#include "pliant/recorder/recorder.h"
+#include "pliant/recorder/run_files.h"
+#include "pliant/scene/checkpoint.h"
+#include "progress.h"
+#include "terminal.h"
+
+namespace pliant_cli {
+namespace {
+
+namespace fs = std::filesystem;
+using pliant::Outcome;
+using pliant::Scene;
+
+std::unique_ptr<pliant::FrameWriter> make_frame_writer(const Scene& scene, const fs::path& folder, std::int64_t kept) {
+  switch (scene.output.format) {
+    case pliant::FrameFormat::npy:
+      return pliant::make_npy_writer(folder, scene.simulation.state().vertex_count(), kept);
+    case pliant::FrameFormat::pc2:
+      return pliant::make_pc2_writer(folder, scene.simulation.state().vertex_count(), kept);
+    case pliant::FrameFormat::obj:
+      return pliant::make_obj_writer(folder, scene.simulation.bodies(), kept);
+    case pliant::FrameFormat::ply:
+      return pliant::make_ply_writer(folder, scene.simulation.bodies(), kept);
+    case pliant::FrameFormat::none:
+      break;
+  }
+  return nullptr;
+}
+
+/// Prints each warning once, when it has come.
+class Warnings {
+ public:
+  void print(const pliant::Simulation& simulation, Progress& progress) {
+    for (; printed_ < simulation.warnings().size(); ++printed_) {
+      progress.clear();
+      print_to_stderr("warning: " + pliant::printable(simulation.warnings()[printed_], message_limit) + "\n");
+    }
+  }
+
+ private:
+  std::size_t printed_ = 0;
+};
+
+void simulate(Scene& scene, pliant::Recorder& recorder, const fs::path& checkpoint, const RecordingOptions& options) {
+  std::int64_t step = scene.simulation.state().step;
+  Progress progress(step, scene.steps, options.quiet ? Progress::Show::never : Progress::Show::on_terminal);
+  Warnings warnings;
+  warnings.print(scene.simulation, progress);
+  const std::int64_t every = options.checkpoint_every;
+  while (step < scene.steps && !was_interrupted()) {
+    const pliant::StepReport report = scene.step();
+    recorder.record(scene.simulation, report);
+    ++step;
+    if (every > 0 && step % every == 0 && step < scene.steps) pliant::write_checkpoint(checkpoint, scene);
+    warnings.print(scene.simulation, progress);
+    progress.update(step, recorder.residual());
+  }
+  pliant::write_checkpoint(checkpoint, scene);
+}
+
+std::string size_text(std::uintmax_t bytes) {
+  if (bytes < 1000) return fmt::format("{} B", bytes);
+  if (bytes < 1000 * 1000) return fmt::format("{:.1f} kB", static_cast<double>(bytes) * 1e-3);
+  return fmt::format("{:.1f} MB", static_cast<double>(bytes) * 1e-6);
+}
+
+void print_summary(const Scene& scene, const pliant::RunInfo& info, const fs::path& folder) {
+  const std::int64_t steps = scene.simulation.state().step;
+  fmt::print("{}: {} of {} steps", pliant::printable(scene.name), steps, scene.steps);
+  if (info.resumed_from) fmt::print(", from step {} on", *info.resumed_from);
+  fmt::print(", {:.3g} s simulated in {:.3g} s", scene.simulation.state().time, info.wall_seconds);
+  const std::int64_t taken = steps - info.resumed_from.value_or(0);
+  if (taken > 0) fmt::print(", {:.3g} ms a step", 1e3 * info.wall_seconds / static_cast<double>(taken));
+  fmt::print(" ({}, threads: {})\n", scene.simulation.backend(), scene.simulation.thread_count());
+  for (const std::string& name : pliant::run_files(info.frame_format)) {
+    const fs::path file = folder / name;
+    std::error_code ignored;
+    const bool is_one_file = fs::exists(file, ignored);
+    fmt::print("  {}  {}\n", pliant::printable(file.string()),
+               is_one_file ? size_text(fs::file_size(file, ignored)) : fmt::format("{} files", info.frames));
+  }
+}
+
+/// Simulates and records; what was recorded is whole however it ends.
+void record_run(Scene& scene, const fs::path& folder, const RecordingOptions& options, pliant::RunInfo& info) {
+  const std::int64_t kept = info.resumed_from ? *info.resumed_from / scene.output.every + 1 : 0;
+  pliant::Recorder recorder(folder, make_frame_writer(scene, folder, kept), scene.output.every, scene.group_names,
+                            kept);
+  if (kept == 0) recorder.record(scene.simulation, {});
+  const auto begin = std::chrono::steady_clock::now();
+  const auto count = [&] {
+    info.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    info.frames = recorder.frame_count();
+  };
+  try {
+    simulate(scene, recorder, folder / pliant::checkpoint_name, options);
+  } catch (...) {
+    count();
+    throw;
+  }
+  count();
+}
+
+/// run.json may meet the same full disk; then it stays as it was at the start, and the first error is the one to tell.
+void end_failed_run(const fs::path& folder, const pliant::RunInfo& info, const pliant::Simulation& simulation) {
+  try {
+    pliant::end_run(folder, info, simulation);
+  } catch (const pliant::Error&) {
+  }
+}
+
+}  // namespace
+
+void add_recording_options(CLI::App& command, RecordingOptions& options) {
+  command
+      .add_option("--checkpoint", options.checkpoint_every,
+                  "Steps from checkpoint to checkpoint, from which `pliant resume` goes on; default: one at the end")
+      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 53));
+  command.add_flag("--quiet", options.quiet, "Print warnings and errors only");
+}
+
+pliant::RunInfo run_info(const Scene& scene, std::string source) {
+  pliant::RunInfo info;
+  info.scene = scene.name;
+  info.source = std::move(source);
+  info.wanted_steps = scene.steps;
+  info.every = scene.output.every;
+  info.frame_format = choice_names(scene.output.format)[static_cast<std::size_t>(scene.output.format)];
+  return info;
+}
+
+int record_scene(Scene& scene, const fs::path& folder, pliant::RunInfo info, const RecordingOptions& options) {
+  try {
+    record_run(scene, folder, options, info);
+  } catch (const std::exception& error) {
+    const auto* known = dynamic_cast<const pliant::Error*>(&error);
+    const bool is_diverged = known != nullptr && known->kind() == pliant::ErrorKind::diverged;
+    info.outcome = is_diverged ? Outcome::diverged : Outcome::failed;
+    info.error = error.what();
+    end_failed_run(folder, info, scene.simulation);
+    throw;
+  }
+  const bool interrupted = was_interrupted() && scene.simulation.state().step < scene.steps;
+  info.outcome = interrupted ? Outcome::interrupted : Outcome::ok;
+  pliant::end_run(folder, info, scene.simulation);
+  if (!options.quiet) print_summary(scene, info, folder);
+  return interrupted ? exit_interrupted : 0;
+}
+
+}  // namespace pliant_cli

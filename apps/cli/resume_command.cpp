@@ -1,0 +1,62 @@
+// pliant resume: a run goes on from its last checkpoint.
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "commands.h"
+#include "pliant/core/error.h"
+#include "pliant/core/printable.h"
+#include "pliant/recorder/recorder.h"
+#include "pliant/recorder/run_files.h"
+#include "pliant/scene/checkpoint.h"
+#include "recording.h"
+#include "scene_options.h"
+#include "terminal.h"
+
+namespace pliant_cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ResumeArguments {
+  fs::path folder;
+  pliant::ResumeOptions options;
+  RecordingOptions recording;
+};
+
+int resume_scene(const ResumeArguments& arguments) {
+  const fs::path checkpoint = arguments.folder / pliant::checkpoint_name;
+  std::error_code ignored;
+  if (!fs::exists(checkpoint, ignored)) {
+    pliant::fail_input(
+        fmt::format("{}: no such file: no run left a checkpoint there; give the folder of a run, one that "
+                    "may be killed with --checkpoint",
+                    pliant::printable_place(checkpoint.string())));
+  }
+  pliant::Scene scene = pliant::read_checkpoint(checkpoint, arguments.options);
+  catch_interrupts();
+  pliant::RunInfo info = run_info(scene, scene.source.texts.front().name);
+  info.resumed_from = scene.simulation.state().step;
+  pliant::resume_run(arguments.folder, info, scene.simulation);
+  return record_scene(scene, arguments.folder, info, arguments.recording);
+}
+
+}  // namespace
+
+void add_resume_command(CLI::App& program, int& exit_code) {
+  CLI::App* command = program.add_subcommand(
+      "resume", "Go on with a run that was interrupted or killed, or add steps to one that ended");
+  const auto arguments = std::make_shared<ResumeArguments>();
+  command->add_option("folder", arguments->folder, "The folder of the run")->required();
+  add_number(*command, "--steps", arguments->options.steps,
+             "Steps in all, with those taken; default: as many as before");
+  add_number(*command, "--threads", arguments->options.threads, "0: one a processor; results do not depend on it");
+  add_recording_options(*command, arguments->recording);
+  command->footer(
+      "Frames and measurements after the checkpoint are taken again; all have the bits of a run without a\n"
+      "stop.\nExample:\n  pliant resume out/curtain --steps 900");
+  command->callback([arguments, &exit_code] { exit_code = resume_scene(*arguments); });
+}
+
+}  // namespace pliant_cli
