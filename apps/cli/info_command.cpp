@@ -249,7 +249,7 @@ void print_json(const Info& info) {
 void add_info_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand("info", "Describe a mesh file and what is wrong with it");
   const auto options = std::make_shared<InfoOptions>();
-  command->add_option("file", options->file, "A mesh: .obj, .ply, .off or .stl")->required();
+  command->add_option("file", options->file, "A mesh: .obj, .ply, .off, .stl, .msh, .node or .ele")->required();
   add_import_options(*command, options->import);
   command->add_flag("--json", options->json, "Print JSON, in metres and square metres");
   command->footer("Example:\n  pliant info shirt.obj --scale 0.01 --up y");

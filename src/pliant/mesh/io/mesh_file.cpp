@@ -1,13 +1,15 @@
 #include "pliant/mesh/io/mesh_file.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "pliant/core/error.h"
 #include "pliant/mesh/io/detail/readers.h"
+#include "pliant/mesh/io/gmsh.h"
 #include "pliant/mesh/io/obj.h"
 #include "pliant/mesh/io/off.h"
 #include "pliant/mesh/io/ply.h"
@@ -17,12 +19,21 @@ namespace pliant {
 
 namespace {
 
-constexpr auto format_names = choice_names(MeshFormat{});
+constexpr std::array<std::pair<std::string_view, MeshFormat>, 7> extensions{{
+    {".obj", MeshFormat::obj},
+    {".ply", MeshFormat::ply},
+    {".off", MeshFormat::off},
+    {".stl", MeshFormat::stl},
+    {".msh", MeshFormat::gmsh},
+    {".node", MeshFormat::tetgen},
+    {".ele", MeshFormat::tetgen},
+}};
 
 MeshFormat known_format(const std::filesystem::path& path) {
   if (const auto format = mesh_format(path)) return *format;
-  fail_input(fmt::format("{}: not the extension of a known mesh format; known: .{}", path.string(),
-                         fmt::join(format_names, ", .")));
+  std::string known;
+  for (const auto& [extension, format] : extensions) known += fmt::format("{}{}", known.empty() ? "" : ", ", extension);
+  fail_input(fmt::format("{}: not the extension of a known mesh format; known: {}", path.string(), known));
 }
 
 Mesh read(const ByteSource& source, MeshFormat format) {
@@ -35,6 +46,10 @@ Mesh read(const ByteSource& source, MeshFormat format) {
       return read_off(source);
     case MeshFormat::stl:
       return read_stl(source);
+    case MeshFormat::gmsh:
+      return read_gmsh(source);
+    case MeshFormat::tetgen:
+      return read_tetgen(source);
   }
   source.fail("a format that has no reader; see mesh_file.h");
 }
@@ -61,11 +76,17 @@ void place(Mesh& mesh, const ImportOptions& options, std::string_view name) {
   }
 }
 
-Mesh read_and_place(const ByteSource& source, MeshFormat format, const ImportOptions& options) {
-  check_options(source.name(), options);
-  Mesh mesh = read(source, format);
-  place(mesh, options, source.name());
-  return mesh;
+/// Of the pair, whichever of the two files is named; as it is written, in capitals or not.
+Mesh read_tetgen_files(const std::filesystem::path& path) {
+  const std::string extension = path.extension().string();
+  const bool is_points = extension.size() == std::string_view(".node").size();
+  std::string other = is_points ? ".ele" : ".node";
+  if (extension[1] < 'a') {
+    for (char& c : other) c = c >= 'a' ? static_cast<char>(c - 'a' + 'A') : c;
+  }
+  const ByteSource named(path);
+  const ByteSource second(std::filesystem::path(path).replace_extension(other));
+  return is_points ? read_tetgen(named, second) : read_tetgen(second, named);
 }
 
 }  // namespace
@@ -75,21 +96,24 @@ std::optional<MeshFormat> mesh_format(const std::filesystem::path& path) {
   for (char& c : extension) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   }
-  for (std::size_t i = 0; i < format_names.size(); ++i) {
-    if (extension.size() == format_names[i].size() + 1 && extension.ends_with(format_names[i])) {
-      return static_cast<MeshFormat>(i);
-    }
-  }
-  return std::nullopt;
+  const auto* entry = std::ranges::find(extensions, extension, &decltype(extensions)::value_type::first);
+  return entry == extensions.end() ? std::nullopt : std::optional(entry->second);
 }
 
 Mesh parse_mesh(std::string_view bytes, std::string_view name, MeshFormat format, const ImportOptions& options) {
-  return read_and_place(ByteSource(bytes, name), format, options);
+  check_options(name, options);
+  Mesh mesh = read(ByteSource(bytes, name), format);
+  place(mesh, options, name);
+  return mesh;
 }
 
 Mesh read_mesh(const std::filesystem::path& path, const ImportOptions& options) {
+  const std::string name = path.string();
+  check_options(name, options);
   const MeshFormat format = known_format(path);
-  return read_and_place(ByteSource(path), format, options);
+  Mesh mesh = format == MeshFormat::tetgen ? read_tetgen_files(path) : read(ByteSource(path), format);
+  place(mesh, options, name);
+  return mesh;
 }
 
 void write_mesh(const std::filesystem::path& path, const Mesh& mesh, const Positions& positions) {
@@ -102,6 +126,10 @@ void write_mesh(const std::filesystem::path& path, const Mesh& mesh, const Posit
       return write_off(path, mesh, positions);
     case MeshFormat::stl:
       return write_stl(path, mesh, positions);
+    case MeshFormat::gmsh:
+      return write_gmsh(path, mesh, positions);
+    case MeshFormat::tetgen:
+      fail_input(fmt::format("{}: TetGen's files are not written; write .msh", path.string()));
   }
 }
 
