@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that Pliant is built from, those that are missing only.
 #   scripts/setup.sh         what building and testing need
-#   scripts/setup.sh --dev   and what clang builds, formatting and static analysis need
+#   scripts/setup.sh --dev   and what clang builds, formatting, static analysis and benchmarks need
 set -euo pipefail
 
 packages=(
@@ -10,7 +10,7 @@ packages=(
   libsuitesparse-dev libopenblas-dev
   python3 python3-numpy
 )
-dev_packages=(ccache clang clang-format clang-tidy git)
+dev_packages=(ccache clang clang-format clang-tidy git libtinyobjloader-dev)
 
 case "${1-}" in
   "") ;;

@@ -159,7 +159,7 @@ void print_defects(const Diagnosis& d) {
   for (const Defect& defect : d.defects) {
     const pliant::DefectInfo& kind = info_of(defect.kind);
     const auto effect = choice_names(kind.effect)[static_cast<std::size_t>(kind.effect)];
-    fmt::print("  {:<8} {} {}\n", effect, defect.count, kind.text);
+    fmt::print("  {:<8} {}: {}\n", effect, kind.text, defect.count);
     if (!defect.first.empty()) {
       fmt::print("           {} {}\n", element_name(kind.element, defect.count), indices_text(defect));
     }

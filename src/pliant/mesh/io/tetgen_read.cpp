@@ -20,7 +20,7 @@ constexpr TextSyntax tetgen_syntax{.comment = '#'};
 class TetgenReader {
  public:
   void read_points(TextLexer& lexer) {
-    const std::int64_t count = read_count(lexer, "points", 3);
+    const std::int64_t count = read_count(lexer, "points");
     const std::int64_t dimension = read_head_number(lexer);
     const std::int64_t attributes = read_head_number(lexer);
     const std::int64_t markers = read_head_number(lexer);
@@ -29,6 +29,7 @@ class TetgenReader {
     if (attributes < 0 || attributes > most_attributes) {
       lexer.fail(fmt::format("{} attributes of a point; give at most {}", attributes, most_attributes));
     }
+    check_room(lexer, count, "points", static_cast<std::uint64_t>(4 + attributes + (markers > 0 ? 1 : 0)));
     for (std::int64_t a = 0; a < attributes; ++a) add_map(fmt::format("attribute{}", a + 1), count);
     if (markers > 0) add_map("marker", count);
     mesh_.vertices.resize(count, 3);
@@ -36,10 +37,11 @@ class TetgenReader {
   }
 
   void read_tetrahedra(TextLexer& lexer) {
-    const std::int64_t count = read_count(lexer, "tetrahedra", 4);
+    const std::int64_t count = read_count(lexer, "tetrahedra");
     const std::int64_t corners = read_head_number(lexer);
     lexer.skip_rest_of_line();
     if (corners != 4) lexer.fail(fmt::format("tetrahedra of {} points; export them of first order, with 4", corners));
+    check_room(lexer, count, "tetrahedra", 5);
     mesh_.tetrahedra.reserve(static_cast<std::size_t>(count));
     for (std::int64_t t = 0; t < count; ++t) {
       next_row(lexer, "tetrahedra");
@@ -62,15 +64,17 @@ class TetgenReader {
  private:
   static constexpr std::int64_t most_attributes = 100;
 
-  /// The first number of the first line; a row takes so many numbers of two bytes at least.
-  static std::int64_t read_count(TextLexer& lexer, std::string_view what, std::uint64_t numbers) {
+  /// The first number of the first line.
+  static std::int64_t read_count(TextLexer& lexer, std::string_view what) {
     next_row(lexer, what);
-    const std::int64_t count = lexer.integer(lexer.next_word());
+    return lexer.integer(lexer.next_word());
+  }
+
+  /// Before anything is allocated. A number takes two bytes at least.
+  static void check_room(const TextLexer& lexer, std::int64_t count, std::string_view what, std::uint64_t numbers) {
     const std::uint64_t room = std::min(max_index_count, lexer.remaining() / (2 * numbers) + 1);
-    if (count < 1 || static_cast<std::uint64_t>(count) > room) {
-      lexer.fail(fmt::format("{} {}, but the file has room for at most {}; it may be cut short", count, what, room));
-    }
-    return count;
+    if (count >= 1 && static_cast<std::uint64_t>(count) <= room) return;
+    lexer.fail(fmt::format("{} {}, but the file has room for at most {}; it may be cut short", count, what, room));
   }
 
   static std::int64_t read_head_number(TextLexer& lexer) {
