@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that Pliant is built from, those that are missing only.
 #   scripts/setup.sh         what building and testing need
-#   scripts/setup.sh --dev   and what clang builds, formatting, static analysis and the glTF validator need; that one
-#                            comes from npm and goes to node_modules/
+#   scripts/setup.sh --dev   and what clang builds, formatting, static analysis, benchmarks and the glTF validator need;
+#                            that one comes from npm and goes to node_modules/
 set -euo pipefail
 
 packages=(
@@ -11,7 +11,7 @@ packages=(
   libsuitesparse-dev libopenblas-dev
   python3 python3-numpy python3-jsonschema assimp-utils
 )
-dev_packages=(ccache clang clang-format clang-tidy git libclang-rt-14-dev)
+dev_packages=(ccache clang clang-format clang-tidy git libclang-rt-14-dev libtinyobjloader-dev)
 # Whoever has them from elsewhere could not install Debian's beside them.
 command -v node >/dev/null || dev_packages+=(nodejs)
 command -v npm >/dev/null || dev_packages+=(npm)

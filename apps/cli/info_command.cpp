@@ -159,7 +159,7 @@ void print_defects(const Diagnosis& d) {
   for (const Defect& defect : d.defects) {
     const pliant::DefectInfo& kind = info_of(defect.kind);
     const auto effect = choice_names(kind.effect)[static_cast<std::size_t>(kind.effect)];
-    fmt::print("  {:<8} {} {}\n", effect, defect.count, kind.text);
+    fmt::print("  {:<8} {}: {}\n", effect, kind.text, defect.count);
     if (!defect.first.empty()) {
       fmt::print("           {} {}\n", element_name(kind.element, defect.count), indices_text(defect));
     }
@@ -249,7 +249,7 @@ void print_json(const Info& info) {
 void add_info_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand("info", "Describe a mesh file and what is wrong with it");
   const auto options = std::make_shared<InfoOptions>();
-  command->add_option("file", options->file, "A mesh: .obj, .ply, .off or .stl")->required();
+  command->add_option("file", options->file, "A mesh: .obj, .ply, .off, .stl, .msh, .node or .ele")->required();
   add_import_options(*command, options->import);
   command->add_flag("--json", options->json, "Print JSON, in metres and square metres");
   command->footer("Example:\n  pliant info shirt.obj --scale 0.01 --up y");

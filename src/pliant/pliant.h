@@ -6,6 +6,7 @@
 #include "pliant/forces/mouse_spring.h"
 #include "pliant/forces/test_force.h"
 #include "pliant/forces/wind.h"
+#include "pliant/mesh/io/mesh_file.h"
 #include "pliant/mesh/io/obj.h"
 #include "pliant/mesh/mass.h"
 #include "pliant/mesh/shapes.h"

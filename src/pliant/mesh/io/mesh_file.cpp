@@ -1,13 +1,15 @@
 #include "pliant/mesh/io/mesh_file.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "pliant/core/error.h"
 #include "pliant/mesh/io/detail/readers.h"
+#include "pliant/mesh/io/gmsh.h"
 #include "pliant/mesh/io/obj.h"
 #include "pliant/mesh/io/off.h"
 #include "pliant/mesh/io/ply.h"
@@ -17,7 +19,15 @@ namespace pliant {
 
 namespace {
 
-constexpr auto format_names = choice_names(MeshFormat{});
+constexpr std::array<std::pair<std::string_view, MeshFormat>, 7> extensions{{
+    {".obj", MeshFormat::obj},
+    {".ply", MeshFormat::ply},
+    {".off", MeshFormat::off},
+    {".stl", MeshFormat::stl},
+    {".msh", MeshFormat::gmsh},
+    {".node", MeshFormat::tetgen},
+    {".ele", MeshFormat::tetgen},
+}};
 
 Mesh read(const ByteSource& source, MeshFormat format) {
   switch (format) {
@@ -29,6 +39,10 @@ Mesh read(const ByteSource& source, MeshFormat format) {
       return read_off(source);
     case MeshFormat::stl:
       return read_stl(source);
+    case MeshFormat::gmsh:
+      return read_gmsh(source);
+    case MeshFormat::tetgen:
+      return read_tetgen(source);
   }
   source.fail("a format that has no reader; see mesh_file.h");
 }
@@ -55,19 +69,30 @@ void place(Mesh& mesh, const ImportOptions& options, std::string_view name) {
   }
 }
 
-Mesh read_and_place(const ByteSource& source, MeshFormat format, const ImportOptions& options) {
-  check_options(source.name(), options);
-  Mesh mesh = read(source, format);
-  place(mesh, options, source.name());
-  return mesh;
+/// The points and the elements, whichever of the two files is named; as it is written, in capitals or not.
+std::vector<std::filesystem::path> tetgen_files(const std::filesystem::path& path) {
+  const std::string extension = path.extension().string();
+  const bool is_points = extension.size() == std::string_view(".node").size();
+  std::string other = is_points ? ".ele" : ".node";
+  if (extension[1] < 'a') {
+    for (char& c : other) c = c >= 'a' ? static_cast<char>(c - 'a' + 'A') : c;
+  }
+  const std::filesystem::path second = std::filesystem::path(path).replace_extension(other);
+  return is_points ? std::vector{path, second} : std::vector{second, path};
+}
+
+Mesh read_files(const std::vector<std::filesystem::path>& files, MeshFormat format) {
+  if (format != MeshFormat::tetgen) return read(ByteSource(files[0]), format);
+  return read_tetgen(ByteSource(files[0]), ByteSource(files[1]));
 }
 
 }  // namespace
 
 MeshFormat require_mesh_format(const std::filesystem::path& path) {
   if (const auto format = mesh_format(path)) return *format;
-  fail_input(fmt::format("{}: not the extension of a known mesh format; known: .{}", path.string(),
-                         fmt::join(format_names, ", .")));
+  std::string known;
+  for (const auto& [extension, format] : extensions) known += fmt::format("{}{}", known.empty() ? "" : ", ", extension);
+  fail_input(fmt::format("{}: not the extension of a known mesh format; known: {}", path.string(), known));
 }
 
 std::optional<MeshFormat> mesh_format(const std::filesystem::path& path) {
@@ -75,21 +100,27 @@ std::optional<MeshFormat> mesh_format(const std::filesystem::path& path) {
   for (char& c : extension) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   }
-  for (std::size_t i = 0; i < format_names.size(); ++i) {
-    if (extension.size() == format_names[i].size() + 1 && extension.ends_with(format_names[i])) {
-      return static_cast<MeshFormat>(i);
-    }
-  }
-  return std::nullopt;
+  const auto* entry = std::ranges::find(extensions, extension, &decltype(extensions)::value_type::first);
+  return entry == extensions.end() ? std::nullopt : std::optional(entry->second);
+}
+
+std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& path) {
+  return require_mesh_format(path) == MeshFormat::tetgen ? tetgen_files(path) : std::vector{path};
 }
 
 Mesh parse_mesh(std::string_view bytes, std::string_view name, MeshFormat format, const ImportOptions& options) {
-  return read_and_place(ByteSource(bytes, name), format, options);
+  check_options(name, options);
+  Mesh mesh = read(ByteSource(bytes, name), format);
+  place(mesh, options, name);
+  return mesh;
 }
 
 Mesh read_mesh(const std::filesystem::path& path, const ImportOptions& options) {
-  const MeshFormat format = require_mesh_format(path);
-  return read_and_place(ByteSource(path), format, options);
+  const std::string name = path.string();
+  check_options(name, options);
+  Mesh mesh = read_files(mesh_files(path), require_mesh_format(path));
+  place(mesh, options, name);
+  return mesh;
 }
 
 void write_mesh(const std::filesystem::path& path, const Mesh& mesh, const Positions& positions) {
@@ -102,6 +133,10 @@ void write_mesh(const std::filesystem::path& path, const Mesh& mesh, const Posit
       return write_off(path, mesh, positions);
     case MeshFormat::stl:
       return write_stl(path, mesh, positions);
+    case MeshFormat::gmsh:
+      return write_gmsh(path, mesh, positions);
+    case MeshFormat::tetgen:
+      fail_input(fmt::format("{}: TetGen's files are not written; write .msh", path.string()));
   }
 }
 

@@ -10,10 +10,10 @@
 
 namespace pliant {
 
-/// A file format of meshes, named by its extension.
-enum class MeshFormat { obj, ply, off, stl };
-constexpr std::array<std::string_view, 4> choice_names(MeshFormat) {
-  return {"obj", "ply", "off", "stl"};
+/// A file format of meshes. The extensions are .obj, .ply, .off, .stl, .msh of Gmsh, and .node or .ele of TetGen.
+enum class MeshFormat { obj, ply, off, stl, gmsh, tetgen };
+constexpr std::array<std::string_view, 6> choice_names(MeshFormat) {
+  return {"obj", "ply", "off", "stl", "gmsh", "tetgen"};
 }
 
 /// The format that the extension stands for, in capitals or not; none when it stands for no known one.
@@ -41,8 +41,8 @@ struct ImportOptions {
 };
 
 /// Reads the mesh of a file: its vertices in their order and number, polygons, edges, groups, texture coordinates and
-/// per-vertex numbers, as far as the format holds them. Then it is scaled and turned: `y` up takes (x, y, z) to
-/// (x, −z, y), `x` up to (−z, y, x), both without mirroring.
+/// per-vertex numbers, as far as the format holds them; of TetGen's pair of files either may be named. Then it is
+/// scaled and turned: `y` up takes (x, y, z) to (x, −z, y), `x` up to (−z, y, x), both without mirroring.
 ///
 /// What comes out is sound as data (indices in range, coordinates finite, no vertex twice in an element), but may have
 /// elements without extent, which check_mesh in geometry.h refuses and diagnose in diagnosis.h lists.
@@ -51,13 +51,15 @@ struct ImportOptions {
 ///   memory of the file, whatever it claims to hold.
 Mesh read_mesh(const std::filesystem::path& path, const ImportOptions& options = {});
 
-/// The same from bytes in memory. `name` is what messages call them.
+/// The same from bytes in memory, of TetGen the two files one after the other. `name` is what messages call them.
 Mesh parse_mesh(std::string_view bytes, std::string_view name, MeshFormat format, const ImportOptions& options = {});
 
 /// Writes the mesh with `positions` [m] (m × 3) in place of its rest positions, whole or not at all (atomic_file.h), in
 /// the format of the extension: polygons where the mesh came from polygons, else its triangles, else the surface of its
-/// tetrahedra, and with them what the format holds. Coordinates stay in metres with +z up.
-/// @throws Error (input): an extension that is not known, a count of positions other than the mesh's, a position that
+/// tetrahedra (Gmsh: the tetrahedra themselves), and with them what the format holds. Coordinates stay in metres with
+/// +z up.
+/// @throws Error (input): an extension that is not known, or TetGen's, a count of positions other than the mesh's, a
+/// position that
 ///   is not finite or that the format cannot hold.
 /// @throws Error (output): the file cannot be written.
 void write_mesh(const std::filesystem::path& path, const Mesh& mesh, const Positions& positions);

@@ -76,7 +76,7 @@ class PlyReader {
     std::size_t bytes = 0;
     for (const PlyProperty& property : element.properties)
       bytes += byte_count(property.count_type.value_or(property.type));
-    const std::uint64_t room = rows_.room(bytes);
+    const std::uint64_t room = rows_.room(element.properties.size(), bytes);
     if (element.count <= room) return;
     source_.fail(
         fmt::format("the header counts {} rows of element {}, but the file ends after at most {}; it may be "
@@ -197,7 +197,7 @@ class PlyReader {
   /// How long the list is that comes next; no longer than the file can hold.
   std::uint64_t take_count(const PlyProperty& property) {
     const Real count = rows_.take(*property.count_type);
-    const std::uint64_t room = rows_.room(byte_count(property.type));
+    const std::uint64_t room = rows_.room(1, byte_count(property.type));
     if (!(count >= 0 && count <= static_cast<Real>(room)) || count != std::floor(count)) {
       rows_.fail(fmt::format("a list of {} numbers, but the rest of the file holds at most {}; it may be cut short",
                              count, room));
@@ -231,7 +231,7 @@ class PlyReader {
 
   /// Most files have faces of one size.
   void reserve_like_first(const PlyElement& element, const PlyProperty& property, std::uint64_t corners) {
-    const std::uint64_t room = rows_.room(byte_count(property.type));
+    const std::uint64_t room = rows_.room(1, byte_count(property.type));
     polygons_.reserve(element.count, std::min(room, element.count * std::min(corners, room / element.count + 1)));
   }
 

@@ -4,7 +4,7 @@
 //   begin_row(i), end_row()   around each row of an element
 //   take(type)                the next number
 //   skip(property)            the next number or list
-//   room(bytes)               how many things of so many bytes, or of one word each, the rest of the file can hold
+//   room(numbers, bytes)      how many things of so many numbers, so many bytes in all, the rest of the file can hold
 //   fail(message)             throws Error (input) with the place
 #include <array>
 #include <bit>
@@ -26,7 +26,7 @@ class PlyTextRows {
   void end_row();
   Real take(PlyType) { return lexer_.number_or_nan(next_word()); }
   void skip(const PlyProperty& property);
-  std::uint64_t room(std::size_t) const { return lexer_.remaining() / 2 + 1; }
+  std::uint64_t room(std::size_t numbers, std::size_t) const { return lexer_.remaining() / (2 * numbers) + 1; }
   [[noreturn]] void fail(std::string_view message) const { lexer_.fail(message); }
   /// Refuses what follows the last row.
   void finish();
@@ -47,7 +47,7 @@ class PlyBinaryRows {
   void end_row() {}
   Real take(PlyType type);
   void skip(const PlyProperty& property);
-  std::uint64_t room(std::size_t bytes) const { return remaining() / bytes; }
+  std::uint64_t room(std::size_t, std::size_t bytes) const { return remaining() / bytes; }
   [[noreturn]] void fail(std::string_view message) const;
   void finish();
 
