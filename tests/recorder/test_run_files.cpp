@@ -119,6 +119,10 @@ TEST_CASE("what an earlier run wrote is removed, and nothing else") {
   // One that was killed: 0, 1, ... without a gap.
   CHECK(earlier(head + R"("outcome": "running", )" + objects + R"("totals": {"frames": 0}})", all) ==
         without_measurements());
+  // What it was writing goes as well.
+  CHECK(earlier(head + R"("outcome": "running", )" + objects + R"("totals": {"frames": 0}})",
+                {"frame_00000.obj", "frame_00001.obj.tmp-0", "mesh.obj.tmp-3", "run.json.tmp-0", "notes.txt.tmp-0"}) ==
+        Names{"notes.txt.tmp-0", "run.json"});
   // A name that no run has is not followed.
   folder.write("notes.txt", "x");
   CHECK(earlier(head + R"("outcome": "ok", "output": {"format": "npy", "every": 1, "files": ["notes.txt", "../x"]},

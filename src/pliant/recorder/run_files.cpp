@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -54,6 +55,11 @@ bool is_pattern(std::string_view name) {
   return name.find(star) != name.npos;
 }
 
+/// Whether a name, or a pattern of names, is that of the file.
+bool is_name_of(std::string_view name, std::string_view file) {
+  return is_pattern(name) ? frame_number(file, name).has_value() : file == name;
+}
+
 std::set<std::string> names_in(const fs::path& folder) {
   std::set<std::string> names;
   std::error_code error;
@@ -81,6 +87,12 @@ void add_frames(std::set<std::string>& files, const std::set<std::string>& names
   }
 }
 
+/// What a killed run was writing (atomic_file.h), of a file of that name.
+bool is_temporary_of(std::string_view name, std::string_view file) {
+  const std::size_t end = file.rfind(".tmp-");
+  return end != file.npos && is_name_of(name, file.substr(0, end));
+}
+
 /// The files among `names` that an earlier run wrote, but for run.json: that one is replaced at once, and tells of the
 /// others until then.
 std::set<std::string> files_of_earlier_run(const fs::path& folder, const std::set<std::string>& names) {
@@ -93,7 +105,10 @@ std::set<std::string> files_of_earlier_run(const fs::path& folder, const std::se
     fail_output(folder, fmt::format("its run.json was not written by a run ({})", error.what()));
   }
   for (const std::string& name : earlier.files) {
-    if (!is_known(name) || name == "run.json") continue;
+    if (!is_known(name)) continue;
+    std::ranges::copy_if(names, std::inserter(files, files.end()),
+                         [&](const std::string& file) { return is_temporary_of(name, file); });
+    if (name == "run.json") continue;
     if (is_pattern(name)) {
       add_frames(files, names, name, earlier.frame_count);
     } else if (names.contains(name)) {
@@ -101,11 +116,6 @@ std::set<std::string> files_of_earlier_run(const fs::path& folder, const std::se
     }
   }
   return files;
-}
-
-/// Whether a name, or a pattern of names, is that of the file.
-bool is_name_of(std::string_view name, std::string_view file) {
-  return is_pattern(name) ? frame_number(file, name).has_value() : file == name;
 }
 
 }  // namespace
