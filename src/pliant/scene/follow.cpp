@@ -8,24 +8,18 @@
 namespace pliant {
 namespace {
 
-/// Finds nearest vertices: sorted along the longest axis, a search ends where the distance along it alone is too long.
+/// Finds nearest vertices by a tree of halves, each cut across the longest side of its box.
 class NearestVertex {
  public:
-  explicit NearestVertex(const Positions& x) : x_(x) {
-    (x.colwise().maxCoeff() - x.colwise().minCoeff()).maxCoeff(&axis_);
-    order_.resize(static_cast<std::size_t>(x.rows()));
-    for (std::size_t i = 0; i < order_.size(); ++i) order_[i] = static_cast<Index>(i);
-    std::ranges::sort(order_, {}, [&](Index i) { return std::pair(x_(i, axis_), i); });
+  explicit NearestVertex(const Positions& x) : x_(x), cuts_(static_cast<std::size_t>(x.rows())) {
+    for (Index i = 0; i < x.rows(); ++i) order_.push_back(i);
+    build(order_);
   }
 
   /// Of several at the same distance the first.
   Index operator()(const Vec3& place) const {
-    const auto middle = std::ranges::lower_bound(order_, place[axis_], {}, [&](Index i) { return x_(i, axis_); });
     Best best;
-    for (auto next = middle; next != order_.end() && improves(best, *next, place); ++next) {
-    }
-    for (auto next = middle; next != order_.begin() && improves(best, *(next - 1), place); --next) {
-    }
+    search(order_, place, best);
     return best.vertex;
   }
 
@@ -35,18 +29,44 @@ class NearestVertex {
     Index vertex = 0;
   };
 
-  /// Takes a vertex up if it is nearer; false when it and all behind it are too far along the axis.
-  bool improves(Best& best, Index vertex, const Vec3& place) const {
-    const Real along = x_(vertex, axis_) - place[axis_];
-    if (along * along > best.squared) return false;
+  std::size_t place_of(const Index& entry) const { return static_cast<std::size_t>(&entry - order_.data()); }
+
+  /// Sorts a part into those below its middle, the middle, where the axis is noted, and those above.
+  void build(std::span<Index> part) {
+    if (part.size() < 2) return;
+    Vec3 min = row(x_, part[0]);
+    Vec3 max = min;
+    for (const Index i : part) {
+      min = min.cwiseMin(row(x_, i));
+      max = max.cwiseMax(row(x_, i));
+    }
+    Index axis = 0;
+    (max - min).maxCoeff(&axis);
+    const std::size_t middle = part.size() / 2;
+    std::ranges::nth_element(part, part.begin() + static_cast<std::ptrdiff_t>(middle), {},
+                             [&](Index i) { return x_(i, axis); });
+    cuts_[place_of(part[middle])] = axis;
+    build(part.first(middle));
+    build(part.subspan(middle + 1));
+  }
+
+  void search(std::span<const Index> part, const Vec3& place, Best& best) const {
+    if (part.empty()) return;
+    const std::size_t middle = part.size() / 2;
+    const Index vertex = part[middle];
     const Real squared = (row(x_, vertex) - place).squaredNorm();
     if (squared < best.squared || (squared == best.squared && vertex < best.vertex)) best = {squared, vertex};
-    return true;
+    const Index axis = cuts_[place_of(part[middle])];
+    const Real above = place[axis] - x_(vertex, axis);
+    const std::span<const Index> low = part.first(middle);
+    const std::span<const Index> high = part.subspan(middle + 1);
+    search(above < 0 ? low : high, place, best);
+    if (above * above <= best.squared) search(above < 0 ? high : low, place, best);
   }
 
   const Positions& x_;
-  Index axis_ = 0;
   std::vector<Index> order_;
+  std::vector<Index> cuts_;  // the axis of the cut at each place of order_
 };
 
 /// Gives each point its vertex, and the distance that it keeps. `x`: where the followed vertices are now.

@@ -16,14 +16,28 @@ const Group& group_of(const Simulation& simulation, GroupId id) {
   return found->second;
 }
 
-/// Where a group has the target of that number; tried at `hint` first.
-std::optional<Index> find_point(const Group& group, Index number, Index hint) {
-  const auto i = static_cast<std::size_t>(hint);
-  if (i < group.points.size() && group.points[i] == number) return hint;
-  const auto found = std::ranges::find(group.points, number);
-  if (found == group.points.end()) return std::nullopt;
-  return static_cast<Index>(found - group.points.begin());
-}
+/// Where a group has its targets, by their numbers.
+class PointFinder {
+ public:
+  explicit PointFinder(const Group& group) : points_(group.points) {}
+
+  /// The place of a number, tried at `hint` first.
+  std::optional<Index> operator()(Index number, Index hint) {
+    const auto i = static_cast<std::size_t>(hint);
+    if (i < points_.size() && points_[i] == number) return hint;
+    if (order_.empty()) {
+      for (std::size_t k = 0; k < points_.size(); ++k) order_.emplace_back(points_[k], static_cast<Index>(k));
+      std::ranges::sort(order_);
+    }
+    const auto found = std::ranges::lower_bound(order_, std::pair(number, Index{0}));
+    if (found == order_.end() || found->first != number) return std::nullopt;
+    return found->second;
+  }
+
+ private:
+  const std::vector<Index>& points_;
+  std::vector<std::pair<Index, Index>> order_;  // number and place, made once it is needed
+};
 
 [[noreturn]] void fail_no_point(const Group& group, Index number) {
   if (number >= 0 && number < group.next_point) {
@@ -116,10 +130,11 @@ void Timeline::start(Simulation& simulation, GroupId id, std::shared_ptr<Path> p
     fail_input(fmt::format("the group '{}' has no targets to be moved; only positions and drags have", group.name));
   }
   Motion motion{id, std::move(path), {}};
+  PointFinder find_point(group);
   const std::vector<Index>& moved = numbers.empty() ? group.points : numbers;
   for (const Index number : moved) {
     const auto place = static_cast<Index>(motion.indices.size());
-    const std::optional<Index> index = find_point(group, number, place);
+    const std::optional<Index> index = find_point(number, place);
     if (!index) fail_no_point(group, number);
     motion.state.numbers.points.push_back({number, place, simulation.target(id, *index)});
     motion.indices.push_back(*index);
@@ -237,10 +252,11 @@ StepReport Timeline::step(Simulation& simulation) {
 /// Finds the targets of a motion anew where others of its group have gone; a released one leaves.
 void Timeline::find_targets(const Group& group, Motion& motion) {
   std::vector<MotionPoint>& points = motion.state.numbers.points;
+  PointFinder find_point(group);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Index hint = motion.indices[i] >= 0 ? motion.indices[i] : points[i].place;
-    const std::optional<Index> index = find_point(group, points[i].number, hint);
+    const std::optional<Index> index = find_point(points[i].number, hint);
     if (!index) continue;
     points[kept] = points[i];
     motion.indices[kept++] = *index;

@@ -255,25 +255,46 @@ std::vector<Index> held_vertices(const Simulation& simulation, const Group& grou
   return vertices;
 }
 
+bool contains(const std::vector<Index>& sorted, Index number) {
+  return std::ranges::binary_search(sorted, number);
+}
+
 /// Which of these a selection holds; of a list, all of them must be there.
 std::vector<Index> read_released(const Node& node, const SceneBody& body, const std::vector<Index>& held) {
-  const Selection selection = read_selection(node, body);
+  Selection selection = read_selection(node, body);
   if (selection.everything) return held;
   if (node.is_list()) return selection.vertices;
+  std::ranges::sort(selection.vertices);
   std::vector<Index> released;
-  for (const Index vertex : held) {
-    if (std::ranges::find(selection.vertices, vertex) != selection.vertices.end()) released.push_back(vertex);
-  }
+  std::ranges::copy_if(held, std::back_inserter(released), [&](Index v) { return contains(selection.vertices, v); });
   if (released.empty()) node.fail("the group holds none of these vertices; select others");
   return released;
 }
 
+/// The same by the numbers of constraints.
+std::vector<Index> read_released_numbers(const Node& node, const Group& group, const std::vector<Index>& held) {
+  ConstraintNumbers numbers;
+  read(node, numbers);
+  std::map<Index, Index> vertices;  // by number
+  for (std::size_t i = 0; i < held.size(); ++i) vertices.emplace(group.points[i], held[i]);
+  for (Index& number : numbers) {
+    const auto found = vertices.find(number);
+    if (found == vertices.end()) {
+      node.fail(
+          fmt::format("the group has no constraint {} then; it began with 0 to {}", number, group.next_point - 1));
+    }
+    number = found->second;
+  }
+  return numbers;
+}
+
 /// Positions without those of some vertices.
-void leave_out(const std::vector<Index>& released, const std::vector<Index>& held, Position& options) {
+void leave_out(std::vector<Index> released, const std::vector<Index>& held, Position& options) {
+  std::ranges::sort(released);
   Stencils stencils;
   std::vector<Real> stiffness;
   for (std::size_t i = 0; i < held.size(); ++i) {
-    if (std::ranges::find(released, held[i]) != released.end()) continue;
+    if (contains(released, held[i])) continue;
     stencils.add({held[i]});
     if (options.stiffness.each()) stiffness.push_back(options.stiffness[static_cast<Index>(i)]);
   }
@@ -295,21 +316,9 @@ Timeline::Edit EventReader::read_release(const Node& node) {
   const Group& group = scene_.simulation.groups().at(find_group(scene_.simulation, name));
   const std::vector<Index> held = held_vertices(scene_.simulation, group);
   const std::string_view key = node_.require_one_of({"vertices", "index"});
-  std::vector<Index> released;
-  if (key == "vertices") {
-    released = read_released(node_.require(key), scene_.body(entry.body), held);
-  } else {
-    ConstraintNumbers numbers;
-    pliant::read(node_.require(key), numbers);
-    for (const Index number : numbers) {
-      const auto found = std::ranges::find(group.points, number);
-      if (found == group.points.end()) {
-        node_.require(key).fail(
-            fmt::format("the group has no constraint {} then; it began with 0 to {}", number, group.next_point - 1));
-      }
-      released.push_back(held[static_cast<std::size_t>(found - group.points.begin())]);
-    }
-  }
+  const std::vector<Index> released = key == "vertices"
+                                          ? read_released(node_.require(key), scene_.body(entry.body), held)
+                                          : read_released_numbers(node_.require(key), group, held);
   leave_out(released, held, *options);
   return [name, released](Simulation& simulation, Timeline&) {
     simulation.release(find_group(simulation, name), released);
