@@ -7,6 +7,7 @@ namespace pliant_cli {
 
 inline constexpr int exit_interrupted = 130;
 
+void add_info_command(CLI::App& program);
 void add_run_command(CLI::App& program, int& exit_code);
 void add_scenes_command(CLI::App& program);
 

@@ -40,6 +40,7 @@ int run_program(int argc, char** argv) {
   int exit_code = 0;
   pliant_cli::add_run_command(program, exit_code);
   pliant_cli::add_scenes_command(program);
+  pliant_cli::add_info_command(program);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -10,8 +10,7 @@
 #include "pliant/mesh/io/obj.h"
 #include "pliant/mesh/shapes.h"
 #include "pliant/mesh/topology.h"
-#include "tests/mesh/meshes.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/mesh/files.h"
 
 namespace fs = std::filesystem;
 using namespace pliant;
@@ -35,32 +34,8 @@ std::string refusal(const std::string& text) {
   return message.starts_with(start) ? message.substr(start.size()) : message;
 }
 
-void check_same(const Mesh& a, const Mesh& b) {
-  REQUIRE(a.vertices.rows() == b.vertices.rows());
-  for (Eigen::Index i = 0; i < a.vertices.size(); ++i) {
-    CHECK(a.vertices.data()[i] == b.vertices.data()[i]);
-    CHECK(std::signbit(a.vertices.data()[i]) == std::signbit(b.vertices.data()[i]));
-  }
-  CHECK(a.edges == b.edges);
-  CHECK(a.triangles == b.triangles);
-  CHECK(a.faces.offsets == b.faces.offsets);
-  CHECK(a.faces.vertices == b.faces.vertices);
-  CHECK(a.faces.texture_coordinates == b.faces.texture_coordinates);
-  CHECK(a.texture_coordinates == b.texture_coordinates);
-  REQUIRE(a.groups.size() == b.groups.size());
-  for (std::size_t g = 0; g < a.groups.size(); ++g) {
-    CHECK(a.groups[g].name == b.groups[g].name);
-    CHECK(a.groups[g].kind == b.groups[g].kind);
-    CHECK(a.groups[g].faces == b.groups[g].faces);
-  }
-}
-
 Mesh written_and_read(const Mesh& mesh) {
-  const TemporaryFolder folder;
-  const fs::path file = folder.path() / "b.obj";
-  write_obj(file, mesh, mesh.vertices);
-  CHECK(folder.file_count() == 1);
-  return read_obj(file);
+  return pliant_tests::written_and_read(mesh, "b.obj");
 }
 
 }  // namespace
@@ -110,21 +85,103 @@ TEST_CASE("numbers in every notation, without a word of the locale") {
   CHECK(row(mesh.vertices, 3) == Vec3(0.1, 123456789012345678901234567890.0, std::numeric_limits<Real>::min()));
 }
 
-TEST_CASE("weights, colours and a third texture coordinate are dropped") {
-  const Mesh mesh = parsed("v 1 2 3 1\nv 4 5 6 .1 .2 .3\nv 7 8 9 .1 .2 .3 1\nvt .5\nvt .1 .2 .3\n");
-  CHECK(mesh.vertices == mesh_of({{1, 2, 3}, {4, 5, 6}, {7, 8, 9}}).vertices);
+TEST_CASE("weights and a third texture coordinate are dropped") {
+  const Mesh mesh = parsed("v 1 2 3 1\nv 4 5 6\nvt .5\nvt .1 .2 .3\n");
+  CHECK(mesh.vertices == mesh_of({{1, 2, 3}, {4, 5, 6}}).vertices);
+  CHECK(mesh.maps.empty());
   REQUIRE(mesh.texture_coordinates.rows() == 2);
   CHECK(mesh.texture_coordinates(0, 0) == 0.5);
   CHECK(mesh.texture_coordinates(0, 1) == 0);
   CHECK(mesh.texture_coordinates(1, 1) == 0.2);
 }
 
+TEST_CASE("colours become maps, white where a vertex has none") {
+  const Mesh mesh = parsed("v 1 2 3\nv 4 5 6 .1 .2 .3\nv 7 8 9 .4 .5 .6\n");
+  CHECK(mesh.vertices == mesh_of({{1, 2, 3}, {4, 5, 6}, {7, 8, 9}}).vertices);
+  REQUIRE(mesh.maps.size() == 3);
+  CHECK(mesh.maps[0].name == "red");
+  CHECK(mesh.maps[0].values == std::vector<Real>{1, 0.1, 0.4});
+  CHECK(mesh.maps[1].name == "green");
+  CHECK(mesh.maps[1].values == std::vector<Real>{1, 0.2, 0.5});
+  CHECK(mesh.maps[2].name == "blue");
+  CHECK(mesh.maps[2].values == std::vector<Real>{1, 0.3, 0.6});
+  check_same(written_and_read(mesh), mesh);
+
+  const Mesh opaque = parsed("v 1 2 3 .1 .2 .3 .5\nv 4 5 6 .1 .2 .3\n");
+  REQUIRE(opaque.maps.size() == 4);
+  CHECK(opaque.maps[3].name == "alpha");
+  CHECK(opaque.maps[3].values == std::vector<Real>{0.5, 1});
+  check_same(written_and_read(opaque), opaque);
+
+  Mesh bytes = mesh_of({{0, 0, 0}, {1, 0, 0}});
+  bytes.maps = {{"red", {255, 0}}, {"green", {0, 51}}, {"blue", {0, 0}}};
+  CHECK(written_and_read(bytes).maps[1].values == std::vector<Real>{0, 0.2});  // OBJ counts from 0 to 1
+}
+
+TEST_CASE("materials and their libraries are kept and written back") {
+  const Mesh mesh = parsed(four_vertices +
+                           "mtllib a b.mtl\nmtllib c.mtl\nmtllib a b.mtl\nusemtl unused\no shirt\ng left\n"
+                           "usemtl red wool\nf 1 2 3\nusemtl\nf 2 3 4\nusemtl red wool\ng right\nf 3 4 1\n");
+  CHECK(mesh.material_libraries == std::vector<std::string>{"a b.mtl", "c.mtl"});
+  REQUIRE(mesh.groups.size() == 4);
+  CHECK(mesh.groups[2].name == "red wool");
+  CHECK(mesh.groups[2].kind == FaceGroupKind::material);
+  CHECK(mesh.groups[2].faces == std::vector<Index>{0, 2});
+  CHECK(mesh.groups[3].name == "right");
+  check_same(written_and_read(mesh), mesh);
+}
+
+TEST_CASE("statements without which the mesh would be another are refused, points and the like passed over") {
+  for (const std::string statement :
+       {"surf 0 1 0 1 1 2 3", "curv 0 1 1 2 3", "bzp 1 2 3", "bsp 1 2", "cdp 1 2", "call other.obj", "csh rm x"}) {
+    CAPTURE(statement);
+    CHECK(refusal(four_vertices + "f 1 2 3\n" + statement + "\n").starts_with("a.obj:6: a "));
+  }
+  const Mesh mesh = parsed(four_vertices + "cstype bezier\ndeg 3\np 1 2 3\nvp 0 0\ncurv2 1 2\nlod 1\nfo 1 2 3\n");
+  CHECK(mesh.triangles == std::vector<Triangle>{{0, 1, 2}});
+}
+
+TEST_CASE("words, line ends and continued lines at the edge of every block") {
+  // Lines of growing length, so that the edges of blocks (2^18 bytes) fall on every kind of character.
+  for (const std::string end : {"\n", "\r\n", "\r"}) {
+    std::string text;
+    Index count = 0;
+    while (text.size() < 1'500'000) {
+      const std::string number = std::to_string(count) + ".125";
+      text += "# " + std::string(static_cast<std::size_t>(count % 97), 'c') + end + "  v " + number + "\t\\" + end;
+      text += " -" + number + std::string(static_cast<std::size_t>(count % 5), ' ') + " 1e-3 # \\" + end;
+      ++count;
+    }
+    const Mesh mesh = parsed(text);
+    CHECK(pliant::parse_obj(text, "a").vertices == mesh.vertices);
+    REQUIRE(mesh.vertex_count() == count);
+    for (Index v = 0; v < count; ++v) {
+      if (row(mesh.vertices, v) != Vec3(v + 0.125, -v - 0.125, 1e-3)) FAIL(v);
+    }
+    CHECK(refusal(text + "f 1 2 x").starts_with("a.obj:" + std::to_string(3 * count + 1) + ": \"x\""));
+  }
+}
+
+TEST_CASE("few bytes of names do not take a quadratic amount of memory") {
+  std::string names;
+  for (int i = 0; i < 5000; ++i) names += " n" + std::to_string(i);
+  std::string faces;
+  for (int i = 0; i < 10000; ++i) faces += "f 1 2 3\n";
+  CHECK(refusal(four_vertices + "g" + names + "\n" + faces).starts_with("a.obj:5: more than 256 groups at once;"));
+  names.resize(names.find(" n250"));
+  CHECK(contains(refusal(four_vertices + "g" + names + "\n" + faces), ": too many faces in too many groups at once"));
+  std::string objects;
+  for (int i = 0; i < 120000; ++i) objects += "o " + std::to_string(i) + "\nf 1 2 3\n";
+  CHECK(contains(refusal(four_vertices + objects), " groups, objects and materials for a file of this size;"));
+  CHECK(contains(refusal(four_vertices + "g " + std::string(300'000, 'a')), "a.obj:5: a word of more than "));
+}
+
 TEST_CASE("line ends, comments, continued lines, a byte order mark and keywords of other programs") {
   const Mesh expected = parsed(four_vertices + "f 1 2 3 4\n");
   for (const std::string end : {"\n", "\r\n", "\r"}) {
-    std::string text = "\xEF\xBB\xBF# C:\\meshes\\" + end + "mtllib a b.mtl" + end + "v 0 0 0 # first" + end;
+    std::string text = "\xEF\xBB\xBF# C:\\meshes\\" + end + "mtllib" + end + "v 0 0 0 # first" + end;
     text += "v 1 \\" + end + "0 0" + end + "v 1 1 0  " + end + "v 0 1 0 #" + end;
-    text += end + "usemtl cloth" + end + "s off" + end + "vp 0 0" + end + "\tunknown \\" + end + "f 9 9" + end;
+    text += end + "usemtl" + end + "s off" + end + "vp 0 0" + end + "\tunknown \\" + end + "f 9 9" + end;
     text += "f 1 2 3\\" + end + " 4";
     CAPTURE(end.size());
     check_same(parsed(text), expected);
@@ -183,6 +240,7 @@ TEST_CASE("a malformed file is refused with file, line and what is wrong") {
   SUBCASE("counts of coordinates") {
     check("v 0 0\n", "a.obj:1: 2 of the 3 coordinates of a vertex;");
     check("v\r\n", "a.obj:1: 0 of the 3 coordinates of a vertex;");
+    check("v 1 2 3 4 5\n", "a.obj:1: 5 coordinates for a vertex;");
     check("v 1 2 3 4 5 6 7 8\n", "a.obj:1: too many coordinates for a vertex;");
     check("vt 1 2 3 4\n", "a.obj:1: too many coordinates for a texture coordinate;");
     check("vt\n", "a.obj:1: 0 of the 1 coordinates of a texture coordinate;");
@@ -231,6 +289,7 @@ TEST_CASE("what is no regular file is refused with its path, and not waited for"
   CHECK(message_for(folder.path() / "b.obj") == (folder.path() / "b.obj").string() + ": no such file; check the path");
   CHECK(message_for("").starts_with(": no such file"));
   CHECK(contains(message_for(folder.path()), ": is a directory;"));
+  CHECK(contains(message_for(folder.write("file", "") / "b.obj"), ": no such file;"));
   CHECK(contains(message_for("/dev/zero"), "/dev/zero: is not a regular file;"));
   const fs::path pipe = folder.path() / "pipe";
   REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);

@@ -17,8 +17,6 @@ namespace {
 
 /// Measure under which an element has no extent, relative to that power of its longest edge.
 constexpr Real flatness_limit = 1e-12;
-/// Coordinates up to here leave areas and volumes finite.
-constexpr Real coordinate_limit = 1e100;
 
 template <std::size_t n>
 Real longest_edge(const Positions& x, const std::array<Index, n>& element) {
@@ -29,6 +27,11 @@ Real longest_edge(const Positions& x, const std::array<Index, n>& element) {
     }
   }
   return longest;
+}
+
+Real volume_of(const Positions& x, const Tetrahedron& tetrahedron) {
+  const auto& [a, b, c, d] = tetrahedron;
+  return tetrahedron_volume(row(x, a), row(x, b), row(x, c), row(x, d));
 }
 
 /// Which element a message is about, as in `triangle 3 (vertices 0, 4, 5)`.
@@ -75,39 +78,30 @@ void check_indices(Index vertex_count, const std::vector<std::array<Index, n>>& 
 
 void check_edges(const Mesh& mesh, std::string_view name) {
   for (std::size_t i = 0; i < mesh.edges.size(); ++i) {
-    const auto& edge = mesh.edges[i];
-    const Vec3 a = row(mesh.vertices, edge[0]);
-    const Vec3 b = row(mesh.vertices, edge[1]);
-    const Real rounding = 4 * std::numeric_limits<Real>::epsilon() * std::max(a.stableNorm(), b.stableNorm());
-    if ((b - a).stableNorm() <= rounding) {
-      fail_input(
-          fmt::format("{}: {} has zero length; move its ends apart or remove it", name, describe("edge", i, edge)));
-    }
+    if (!has_no_extent(mesh.vertices, mesh.edges[i])) continue;
+    fail_input(fmt::format("{}: {} has zero length; move its ends apart or remove it", name,
+                           describe("edge", i, mesh.edges[i])));
   }
 }
 
 void check_triangles(const Mesh& mesh, std::string_view name) {
-  const std::vector<Real> areas = triangle_areas(mesh.vertices, mesh.triangles);
-  for (std::size_t i = 0; i < areas.size(); ++i) {
-    const Real length = longest_edge(mesh.vertices, mesh.triangles[i]);
-    if (areas[i] <= flatness_limit * length * length) {
-      fail_input(fmt::format("{}: {} has zero area; move its vertices off one line or remove it", name,
-                             describe("triangle", i, mesh.triangles[i])));
-    }
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (!has_no_extent(mesh.vertices, mesh.triangles[i])) continue;
+    fail_input(fmt::format("{}: {} has zero area; move its vertices off one line or remove it", name,
+                           describe("triangle", i, mesh.triangles[i])));
   }
 }
 
 void check_tetrahedra(const Mesh& mesh, std::string_view name) {
-  const std::vector<Real> volumes = tetrahedron_volumes(mesh.vertices, mesh.tetrahedra);
-  for (std::size_t i = 0; i < volumes.size(); ++i) {
-    const Real length = longest_edge(mesh.vertices, mesh.tetrahedra[i]);
-    if (std::abs(volumes[i]) <= flatness_limit * length * length * length) {
+  for (std::size_t i = 0; i < mesh.tetrahedra.size(); ++i) {
+    const Tetrahedron& tetrahedron = mesh.tetrahedra[i];
+    if (has_no_extent(mesh.vertices, tetrahedron)) {
       fail_input(fmt::format("{}: {} has zero volume; move its vertices off one plane or remove it", name,
-                             describe("tetrahedron", i, mesh.tetrahedra[i])));
+                             describe("tetrahedron", i, tetrahedron)));
     }
-    if (volumes[i] < 0) {
+    if (const Real volume = volume_of(mesh.vertices, tetrahedron); volume < 0) {
       fail_input(fmt::format("{}: {} is inverted, its volume is {:.3g} m^3; swap two of its vertices", name,
-                             describe("tetrahedron", i, mesh.tetrahedra[i]), volumes[i]));
+                             describe("tetrahedron", i, tetrahedron), volume));
     }
   }
 }
@@ -192,6 +186,23 @@ std::vector<Real> vertex_areas(const Positions& x, std::span<const Triangle> tri
 BoundingBox bounding_box(const Positions& x) {
   if (x.rows() == 0) return {};
   return {x.colwise().minCoeff().transpose(), x.colwise().maxCoeff().transpose()};
+}
+
+bool has_no_extent(const Positions& x, const Edge& edge) {
+  const Vec3 a = row(x, edge[0]);
+  const Vec3 b = row(x, edge[1]);
+  return (b - a).stableNorm() <= 4 * std::numeric_limits<Real>::epsilon() * std::max(a.stableNorm(), b.stableNorm());
+}
+
+bool has_no_extent(const Positions& x, const Triangle& triangle) {
+  const auto& [a, b, c] = triangle;
+  const Real length = longest_edge(x, triangle);
+  return triangle_area(row(x, a), row(x, b), row(x, c)) <= flatness_limit * length * length;
+}
+
+bool has_no_extent(const Positions& x, const Tetrahedron& tetrahedron) {
+  const Real length = longest_edge(x, tetrahedron);
+  return std::abs(volume_of(x, tetrahedron)) <= flatness_limit * length * length * length;
 }
 
 void check_mesh(const Mesh& mesh, std::string_view name) {

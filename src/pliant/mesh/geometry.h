@@ -41,12 +41,20 @@ struct BoundingBox {
 /// The box of at least one position; of none, the empty box at the origin.
 BoundingBox bounding_box(const Positions& x);
 
+/// Coordinates up to here leave areas and volumes finite [m].
+inline constexpr Real coordinate_limit = 1e100;
+
+/// Whether an element has no extent: its measure is under 1e-12 of that power of its own longest edge; the ends of an
+/// edge agree to rounding.
+bool has_no_extent(const Positions& x, const Edge& edge);
+bool has_no_extent(const Positions& x, const Triangle& triangle);
+bool has_no_extent(const Positions& x, const Tetrahedron& tetrahedron);
+
 /// Refuses a mesh that cannot be simulated. `name` is what the message calls the mesh: a body's name or its file.
-/// Indices in messages count from 0. An element has no extent when its measure is under 1e-12 of that power of its own
-/// longest edge, an edge when its ends agree to rounding.
+/// Indices in messages count from 0.
 /// @throws Error (input) naming the first vertex or element and the remedy: no vertices; a coordinate not finite or
-///   past 1e100 m; an index out of range, also in Mesh::faces; a vertex repeated within an element; an edge, triangle
-///   or tetrahedron without length, area or volume; an inverted tetrahedron.
+///   past coordinate_limit; an index out of range, also in Mesh::faces; a vertex repeated within an element; an edge,
+///   triangle or tetrahedron without length, area or volume; an inverted tetrahedron.
 void check_mesh(const Mesh& mesh, std::string_view name);
 
 }  // namespace pliant

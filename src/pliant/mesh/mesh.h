@@ -17,10 +17,11 @@ struct PolygonFaces {
   Index face_count() const { return offsets.empty() ? 0 : static_cast<Index>(offsets.size()) - 1; }
 };
 
-/// What named a part of the mesh. A face is in at most one object and in any number of groups.
-enum class FaceGroupKind { group, object };
+/// What named a part of the mesh. A face is in at most one object, has at most one material, and is in any number of
+/// groups.
+enum class FaceGroupKind { group, object, material };
 
-/// A named part of the mesh (OBJ `g` or `o`): indices into PolygonFaces.
+/// A named part of the mesh (OBJ `g`, `o` or `usemtl`): indices into PolygonFaces.
 struct FaceGroup {
   std::string name;
   FaceGroupKind kind = FaceGroupKind::group;
@@ -33,6 +34,12 @@ struct VertexGroup {
   std::vector<Index> vertices;
 };
 
+/// A named number for each vertex: a scalar vertex property of a PLY file, or `red`, `green`, `blue` of colours.
+struct VertexMap {
+  std::string name;
+  std::vector<Real> values;  ///< one for each vertex, finite
+};
+
 /// A mesh keeps the order and the count of the user's vertices; vertices without an element are allowed.
 struct Mesh {
   Positions vertices;                   ///< rest positions, m × 3 [m]
@@ -42,7 +49,10 @@ struct Mesh {
   PolygonFaces faces;                   ///< as read, see PolygonFaces
   Eigen::Matrix<Real, Eigen::Dynamic, 2, Eigen::RowMajor> texture_coordinates;  ///< rows referred to by `faces`
   std::vector<FaceGroup> groups;
-  std::vector<VertexGroup> vertex_groups;
+  std::vector<VertexGroup> vertex_groups;       ///< names differ
+  std::vector<std::string> material_libraries;  ///< files that define the materials (OBJ `mtllib`), kept unread
+  std::vector<VertexMap> maps;                  ///< names differ
+  Index collapsed_face_count = 0;  ///< facets of an STL file left out, two of their corners being one vertex
 
   Index vertex_count() const { return static_cast<Index>(vertices.rows()); }
 };

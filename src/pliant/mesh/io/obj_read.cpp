@@ -1,8 +1,8 @@
-// The packaged readers do not serve here: tinyobjloader takes a malformed number for 0, and neither it nor the others
+// The packaged readers do not serve here, see docs/formats.md: tinyobjloader takes a malformed number for 0, and none
 // can name the line of what is wrong.
 #include <algorithm>
-#include <limits>
-#include <map>
+#include <array>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -10,130 +10,221 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include "pliant/core/error.h"
-#include "pliant/mesh/io/detail/obj_lexer.h"
+#include "pliant/mesh/io/detail/byte_source.h"
+#include "pliant/mesh/io/detail/colours.h"
+#include "pliant/mesh/io/detail/face_groups.h"
+#include "pliant/mesh/io/detail/polygon_builder.h"
+#include "pliant/mesh/io/detail/readers.h"
+#include "pliant/mesh/io/detail/text_lexer.h"
 #include "pliant/mesh/io/obj.h"
-#include "pliant/mesh/io/read_file.h"
 
 namespace pliant {
 
 namespace {
 
-constexpr std::size_t max_count = std::numeric_limits<Index>::max();
+constexpr TextSyntax obj_syntax{.comment = '#', .continuation = '\\'};
+
+/// What a file holds. Counting takes a pass of its own; with it every list is allocated once, to its size.
+struct Counts {
+  std::uint64_t vertices = 0;
+  std::uint64_t textures = 0;
+  std::uint64_t faces = 0;
+  std::uint64_t corners = 0;
+  std::uint64_t edges = 0;
+};
+
+bool is_face(std::string_view keyword) {
+  return keyword == "f" || keyword == "fo";
+}
+
+std::uint64_t count_words(TextLexer& lexer) {
+  std::uint64_t count = 0;
+  while (!lexer.next_word().empty()) ++count;
+  return count;
+}
+
+Counts count_elements(const ByteSource& source) {
+  Counts counts;
+  TextLexer lexer(source, obj_syntax);
+  while (lexer.next_line()) {
+    const std::string_view keyword = lexer.next_word();
+    if (keyword == "v") {
+      ++counts.vertices;
+    } else if (keyword == "vt") {
+      ++counts.textures;
+    } else if (is_face(keyword)) {
+      ++counts.faces;
+      counts.corners += count_words(lexer);
+      continue;
+    } else if (keyword == "l") {
+      counts.edges += count_words(lexer);
+      continue;
+    }
+    lexer.skip_rest_of_line();
+  }
+  return counts;
+}
 
 /// One of the three lists that face corners refer to.
 struct Referred {
   std::string_view name;
-  std::size_t count = 0;  ///< so far in the file
+  std::uint64_t count = 0;   ///< so far in the file
+  std::int64_t largest = 0;  ///< index that was used before the file had defined so many, from 1
+  std::int64_t line = 0;     ///< where
 };
 
-/// An index to something that the file had not yet defined where it was used.
-struct Promise {
-  const Referred* list;
-  std::int64_t index;  ///< as in the file, from 1
-  std::int64_t line;
-};
+/// Statements without which the mesh would not be the one in the file.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 7> refused_keywords{{
+    {"curv", "a free-form curve"},
+    {"surf", "a free-form surface"},
+    {"bsp", "a B-spline patch"},
+    {"bzp", "a Bezier patch"},
+    {"cdp", "a Cardinal patch"},
+    {"call", "a statement that includes another file"},
+    {"csh", "a statement that runs a command"},
+}};
 
 class ObjReader {
  public:
-  ObjReader(std::string_view text, std::string_view name) : name_(name), lexer_(text, name) {}
+  explicit ObjReader(const ByteSource& source)
+      : source_(source),
+        lexer_(source, obj_syntax),
+        polygons_(mesh_, source.size(), 1),
+        groups_(mesh_, source.size()) {}
 
   Mesh read() {
-    mesh_.faces.offsets.push_back(0);
+    const Counts counts = count_elements(source_);
+    vertex_room_ = std::min(counts.vertices, max_index_count);
+    mesh_.vertices.resize(static_cast<Eigen::Index>(vertex_room_), 3);
+    texture_room_ = std::min(counts.textures, max_index_count);
+    mesh_.texture_coordinates.resize(static_cast<Eigen::Index>(texture_room_), 2);
+    polygons_.reserve(counts.faces, counts.corners);
+    mesh_.edges.reserve(static_cast<std::size_t>(counts.edges));
     while (lexer_.next_line()) read_line();
-    check_promises();
-    if (vertices_.count == 0) fail_input(fmt::format("{}: no vertices; give at least one line \"v x y z\"", name_));
-    return finish();
+    for (const Referred& list : {vertices_, textures_, normals_}) check_largest(list);
+    if (vertices_.count == 0) source_.fail("no vertices; give at least one line \"v x y z\"");
+    polygons_.finish();
+    colours_.finish(mesh_);
+    return std::move(mesh_);
   }
 
  private:
   void read_line() {
     const std::string_view keyword = lexer_.next_word();
     if (keyword == "v") {
-      read_coordinates(vertices_, coordinates_, {3, 7}, 3);
+      read_vertex();
     } else if (keyword == "vt") {
-      read_coordinates(textures_, texture_coordinates_, {1, 3}, 2);
+      read_texture();
     } else if (keyword == "vn") {
-      count_one_more(normals_);
+      count_one_more(normals_, max_index_count);
       lexer_.skip_rest_of_line();
-    } else if (keyword == "f") {
+    } else if (is_face(keyword)) {
       read_face();
     } else if (keyword == "l") {
       read_polyline();
     } else if (keyword == "g") {
-      group_names_ = read_words();
-      is_group_current_ = false;
+      groups_.clear_groups();
+      for (auto word = lexer_.next_word(); !word.empty(); word = lexer_.next_word()) refuse(groups_.add_group(word));
     } else if (keyword == "o") {
-      object_name_ = fmt::format("{}", fmt::join(read_words(), " "));
-      is_group_current_ = false;
+      groups_.set_name(FaceGroupKind::object, rest_of_line());
+    } else if (keyword == "usemtl") {
+      groups_.set_name(FaceGroupKind::material, rest_of_line());
+    } else if (keyword == "mtllib") {
+      read_library();
     } else {
+      for (const auto& [refused, what] : refused_keywords) {
+        if (keyword == refused) lexer_.fail(fmt::format("{} ({}); export the mesh as polygons", what, refused));
+      }
       lexer_.skip_rest_of_line();
     }
   }
 
-  /// Reads a whole line of numbers; keeps the first `kept`, with zeros for what is not there.
-  void read_coordinates(Referred& list, std::vector<Real>& numbers, std::pair<std::size_t, std::size_t> allowed,
-                        std::size_t kept) {
-    count_one_more(list);
+  void refuse(const std::string& message) const {
+    if (!message.empty()) lexer_.fail(message);
+  }
+
+  /// Reads a whole line of numbers, at most as many as there is room for.
+  std::span<const Real> read_numbers(const Referred& list, std::size_t least, std::size_t most) {
     std::size_t count = 0;
     for (auto word = lexer_.next_word(); !word.empty(); word = lexer_.next_word()) {
       const Real number = lexer_.number(word);
-      if (count++ < kept) numbers.push_back(number);
-      if (count > allowed.second) {
-        lexer_.fail(fmt::format("too many coordinates for a {}; give at most {}", list.name, allowed.second));
+      if (count == most) {
+        lexer_.fail(fmt::format("too many coordinates for a {}; give at most {}", list.name, most));
       }
+      numbers_[count++] = number;
     }
-    if (count < allowed.first) {
-      lexer_.fail(fmt::format("{} of the {} coordinates of a {}; give them all", count, allowed.first, list.name));
+    if (count < least) {
+      lexer_.fail(fmt::format("{} of the {} coordinates of a {}; give them all", count, least, list.name));
     }
-    numbers.resize(list.count * kept, 0);
+    return std::span(numbers_).first(count);
   }
 
-  void count_one_more(Referred& list) {
-    if (list.count == max_count)
-      lexer_.fail(fmt::format("more than {} of a {}; cut the mesh up", max_count, list.name));
-    ++list.count;
+  /// x y z; or x y z and a weight, which only free-form surfaces use; or x y z, a colour and perhaps its opacity.
+  void read_vertex() {
+    const std::size_t v = count_one_more(vertices_, vertex_room_);
+    const auto numbers = read_numbers(vertices_, 3, 7);
+    if (numbers.size() == 5) {
+      lexer_.fail("5 coordinates for a vertex; give 3, or 4 with a weight, 6 with a colour, 7 with its opacity");
+    }
+    for (std::size_t k = 0; k < 3; ++k) mesh_.vertices.data()[3 * v + k] = numbers[k];
+    if (numbers.size() > 4) colours_.set(v, numbers.subspan(3), static_cast<std::size_t>(vertex_room_));
   }
 
-  std::vector<std::string> read_words() {
-    std::vector<std::string> words;
-    for (auto word = lexer_.next_word(); !word.empty(); word = lexer_.next_word()) words.emplace_back(word);
-    return words;
+  void read_texture() {
+    const std::size_t t = count_one_more(textures_, texture_room_);
+    const auto numbers = read_numbers(textures_, 1, 3);
+    mesh_.texture_coordinates.data()[2 * t] = numbers[0];
+    mesh_.texture_coordinates.data()[2 * t + 1] = numbers.size() > 1 ? numbers[1] : 0;
+  }
+
+  /// The place of the next entry of a list.
+  std::size_t count_one_more(Referred& list, std::uint64_t room) {
+    if (list.count == max_index_count) {
+      lexer_.fail(fmt::format("more than {} of a {}; cut the mesh up", max_index_count, list.name));
+    }
+    if (list.count == room) lexer_.fail("a file that changes while it is read; try again when nothing writes to it");
+    return static_cast<std::size_t>(list.count++);
+  }
+
+  std::string rest_of_line() {
+    std::string text;
+    for (auto word = lexer_.next_word(); !word.empty(); word = lexer_.next_word()) {
+      if (!text.empty()) text += ' ';
+      text += word;
+    }
+    return text;
+  }
+
+  void read_library() {
+    constexpr std::size_t most = 1000;
+    std::string library = rest_of_line();
+    if (library.empty() || std::ranges::find(mesh_.material_libraries, library) != mesh_.material_libraries.end()) {
+      return;
+    }
+    if (mesh_.material_libraries.size() == most) {
+      lexer_.fail(fmt::format("more than {} material libraries; join some", most));
+    }
+    mesh_.material_libraries.push_back(std::move(library));
   }
 
   void read_face() {
-    PolygonFaces& faces = mesh_.faces;
-    const std::size_t first = faces.vertices.size();
     const std::int64_t line = lexer_.line();
     for (auto word = lexer_.next_word(); !word.empty(); word = lexer_.next_word()) read_corner(word);
-    const auto corners = std::span(faces.vertices).subspan(first);
-    if (corners.size() < 3) {
-      lexer_.fail_at(line, fmt::format("a face with {} corners; give it at least 3", corners.size()));
-    }
-    check_distinct(corners, line);
-    if (faces.vertices.size() > max_count) {
-      lexer_.fail_at(line, fmt::format("more than {} face corners; cut the mesh up", max_count));
-    }
-    faces.offsets.push_back(static_cast<Index>(faces.vertices.size()));
-    for (std::size_t i = 2; i < corners.size(); ++i) {
-      mesh_.triangles.push_back({corners[0], corners[i - 1], corners[i]});
-    }
-    make_groups_current();
-    for (std::size_t group : current_groups_) mesh_.groups[group].faces.push_back(faces.face_count() - 1);
+    std::string message = polygons_.finish_face();
+    if (message.empty()) message = groups_.add_face(mesh_.faces.face_count() - 1);
+    if (!message.empty()) lexer_.fail_at(line, message);
   }
 
   /// v, v/vt, v//vn or v/vt/vn.
   void read_corner(std::string_view word) {
     const auto [vertex, rest] = split(word);
+    if (rest.empty()) return polygons_.add_corner(resolve(vertex, vertices_));
     const auto [texture, normal] = split(rest);
     if (normal.find('/') != std::string_view::npos) {
-      lexer_.fail(fmt::format("{} is not a face corner; write v, v/vt, v//vn or v/vt/vn", ObjLexer::quoted(word)));
+      lexer_.fail(fmt::format("{} is not a face corner; write v, v/vt, v//vn or v/vt/vn", TextLexer::quoted(word)));
     }
-    mesh_.faces.vertices.push_back(resolve(vertex, vertices_));
-    mesh_.faces.texture_coordinates.push_back(texture.empty() ? -1 : resolve(texture, textures_));
-    has_texture_ = has_texture_ || !texture.empty();
+    polygons_.add_corner(resolve(vertex, vertices_), texture.empty() ? -1 : resolve(texture, textures_));
     if (!normal.empty()) resolve(normal, normals_);
   }
 
@@ -149,7 +240,7 @@ class ObjReader {
     for (auto word = lexer_.next_word(); !word.empty(); word = lexer_.next_word(), ++count) {
       const Index vertex = resolve(split(word).first, vertices_);
       if (vertex == previous) {
-        lexer_.fail(fmt::format("vertex {} twice in a row in a line; remove one", ObjLexer::quoted(word)));
+        lexer_.fail(fmt::format("vertex {} twice in a row in a line; remove one", TextLexer::quoted(word)));
       }
       if (count > 0) mesh_.edges.push_back({previous, vertex});
       previous = vertex;
@@ -158,7 +249,7 @@ class ObjReader {
   }
 
   /// From the file's index, which counts from 1 or, if negative, back from the last, to ours.
-  Index resolve(std::string_view word, const Referred& list) {
+  Index resolve(std::string_view word, Referred& list) {
     const std::int64_t index = lexer_.integer(word);
     const auto count = static_cast<std::int64_t>(list.count);
     if (index == 0) lexer_.fail(fmt::format("index 0 of a {}; the first one is 1, the last one -1", list.name));
@@ -166,77 +257,46 @@ class ObjReader {
       lexer_.fail(fmt::format("{} {} is out of range, since there are {} above; use -1 to -{}", list.name, index, count,
                               count));
     }
-    if (index > count) promises_.push_back({&list, index, lexer_.line()});
-    return static_cast<Index>(index < 0 ? count + index : std::min<std::int64_t>(index - 1, max_count));
-  }
-
-  void check_promises() const {
-    for (const auto& [list, index, line] : promises_) {
-      if (index <= static_cast<std::int64_t>(list->count)) continue;
-      lexer_.fail_at(line, fmt::format("{} {} is out of range, since the file has {}; correct the index", list->name,
-                                       index, list->count));
+    if (index > count && index > list.largest) {
+      list.largest = index;
+      list.line = lexer_.line();
     }
+    return static_cast<Index>(index < 0 ? count + index
+                                        : std::min<std::int64_t>(index, std::int64_t{max_index_count}) - 1);
   }
 
-  void check_distinct(std::span<const Index> corners, std::int64_t line) {
-    sorted_corners_.assign(corners.begin(), corners.end());
-    std::ranges::sort(sorted_corners_);
-    const auto repeated = std::ranges::adjacent_find(sorted_corners_);
-    if (repeated == sorted_corners_.end()) return;
-    lexer_.fail_at(line, fmt::format("a face with vertex {} at two corners; remove one", *repeated + std::int64_t{1}));
+  void check_largest(const Referred& list) const {
+    if (list.largest <= static_cast<std::int64_t>(list.count)) return;
+    lexer_.fail_at(list.line, fmt::format("{} {} is out of range, since the file has {}; correct the index", list.name,
+                                          list.largest, list.count));
   }
 
-  /// Groups come into being with their first face, so that their order does not change when the mesh is written.
-  void make_groups_current() {
-    if (is_group_current_) return;
-    current_groups_.clear();
-    if (!object_name_.empty()) add_current(FaceGroupKind::object, object_name_);
-    for (const std::string& name : group_names_) add_current(FaceGroupKind::group, name);
-    is_group_current_ = true;
-  }
-
-  void add_current(FaceGroupKind kind, const std::string& name) {
-    const auto [entry, is_new] = group_index_.try_emplace({kind, name}, mesh_.groups.size());
-    if (is_new) mesh_.groups.push_back({name, kind, {}});
-    if (std::ranges::find(current_groups_, entry->second) == current_groups_.end()) {
-      current_groups_.push_back(entry->second);
-    }
-  }
-
-  Mesh finish() {
-    mesh_.vertices = Eigen::Map<const Positions>(coordinates_.data(), static_cast<Index>(vertices_.count), 3);
-    mesh_.texture_coordinates = Eigen::Map<const decltype(mesh_.texture_coordinates)>(
-        texture_coordinates_.data(), static_cast<Index>(textures_.count), 2);
-    if (!has_texture_) mesh_.faces.texture_coordinates.clear();
-    if (mesh_.faces.vertices.empty()) mesh_.faces.offsets.clear();
-    return std::move(mesh_);
-  }
-
-  std::string_view name_;
-  ObjLexer lexer_;
+  const ByteSource& source_;
+  TextLexer lexer_;
   Mesh mesh_;
+  PolygonBuilder polygons_;
+  FaceGroupsBuilder groups_;
+  ColourColumns colours_;
   Referred vertices_{"vertex"};
   Referred textures_{"texture coordinate"};
   Referred normals_{"normal"};
-  std::vector<Real> coordinates_;          ///< three for each vertex
-  std::vector<Real> texture_coordinates_;  ///< two for each `vt`
-  std::vector<Promise> promises_;
-  std::vector<Index> sorted_corners_;  ///< scratch
-  bool has_texture_ = false;
-
-  std::string object_name_;
-  std::vector<std::string> group_names_;
-  std::vector<std::size_t> current_groups_;
-  bool is_group_current_ = false;  ///< current_groups_ is what the two names say
-  std::map<std::pair<FaceGroupKind, std::string>, std::size_t> group_index_;
+  std::uint64_t vertex_room_ = 0;
+  std::uint64_t texture_room_ = 0;
+  std::array<Real, 8> numbers_{};
 };
 
 }  // namespace
 
+Mesh read_obj(const ByteSource& source) {
+  return ObjReader(source).read();
+}
+
 Mesh read_obj(const std::filesystem::path& path) {
-  const std::string text = read_file(path);
-  const std::string name = path.string();
-  return ObjReader(text, name).read();
+  return read_obj(ByteSource(path));
+}
+
+Mesh parse_obj(std::string_view bytes, std::string_view name) {
+  return read_obj(ByteSource(bytes, name));
 }
 
 }  // namespace pliant

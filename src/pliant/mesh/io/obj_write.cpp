@@ -1,17 +1,13 @@
 #include <algorithm>
-#include <charconv>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "pliant/core/atomic_file.h"
-#include "pliant/core/error.h"
+#include "pliant/mesh/io/detail/colours.h"
+#include "pliant/mesh/io/detail/mesh_output.h"
 #include "pliant/mesh/io/obj.h"
-#include "pliant/mesh/topology.h"
 
 namespace pliant {
 
@@ -19,10 +15,9 @@ namespace {
 
 /// A name that reads back as one name: group names end at a blank, a word that starts with # is a comment, and a last
 /// backslash would join the next line.
-std::string readable_name(const FaceGroup& group) {
-  std::string name = group.name;
+std::string readable_name(std::string name, FaceGroupKind kind) {
   for (std::size_t i = 0; i < name.size(); ++i) {
-    const bool is_blank = name[i] == ' ' && group.kind == FaceGroupKind::group;
+    const bool is_blank = name[i] == ' ' && kind == FaceGroupKind::group;
     const bool is_control = static_cast<unsigned char>(name[i]) < ' ';
     const bool is_comment = name[i] == '#' && (i == 0 || name[i - 1] == ' ');
     const bool is_continuation = name[i] == '\\' && i + 1 == name.size();
@@ -33,74 +28,52 @@ std::string readable_name(const FaceGroup& group) {
 
 class ObjWriter {
  public:
-  ObjWriter(AtomicFile& file, const Mesh& mesh) : file_(file), mesh_(mesh) {}
+  ObjWriter(AtomicFile& file, const Mesh& mesh) : text_(file), mesh_(mesh) {}
 
   void write(const Positions& positions) {
-    text_ = "# Pliant\n";
-    for (Eigen::Index v = 0; v < positions.rows(); ++v) write_numbers("v", positions.row(v));
+    text_ << "# Pliant\n";
+    for (const std::string& library : mesh_.material_libraries) {
+      text_ << "mtllib " << readable_name(library, FaceGroupKind::material);
+      text_.end_line();
+    }
+    write_vertices(positions);
     for (Eigen::Index t = 0; t < mesh_.texture_coordinates.rows(); ++t) {
-      write_numbers("vt", mesh_.texture_coordinates.row(t));
+      text_ << "vt " << mesh_.texture_coordinates(t, 0) << " " << mesh_.texture_coordinates(t, 1);
+      text_.end_line();
     }
-    if (mesh_.faces.face_count() > 0) {
-      write_polygons();
-    } else {
-      const bool is_solid = mesh_.triangles.empty();
-      write_elements("f", is_solid ? boundary_triangles(mesh_.tetrahedra) : mesh_.triangles);
+    write_faces();
+    for (const auto& [a, b] : mesh_.edges) {
+      text_ << "l " << a + 1 << " " << b + 1;
+      text_.end_line();
     }
-    write_elements("l", mesh_.edges);
-    file_.write(text_);
+    text_.flush();
   }
 
  private:
-  template <typename Number>
-  void append(Number number) {
-    char digits[32];
-    text_.append(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
-  }
-
-  void end_line() {
-    constexpr std::size_t block = 1 << 20;
-    text_ += '\n';
-    if (text_.size() < block) return;
-    file_.write(text_);
-    text_.clear();
-  }
-
-  template <typename Row>
-  void write_numbers(std::string_view keyword, const Row& numbers) {
-    text_ += keyword;
-    for (Eigen::Index i = 0; i < numbers.size(); ++i) {
-      text_ += ' ';
-      append(numbers[i]);
-    }
-    end_line();
-  }
-
-  template <typename Element>
-  void write_elements(std::string_view keyword, const std::vector<Element>& elements) {
-    for (const Element& element : elements) {
-      text_ += keyword;
-      for (Index vertex : element) {
-        text_ += ' ';
-        append(vertex + 1);
+  /// OBJ counts colours from 0 to 1.
+  void write_vertices(const Positions& positions) {
+    const ColourMaps colours(mesh_);
+    const Real full = colours.are_bytes ? 255 : 1;
+    for (Eigen::Index v = 0; v < positions.rows(); ++v) {
+      text_ << "v " << positions(v, 0) << " " << positions(v, 1) << " " << positions(v, 2);
+      for (std::size_t k = 0; k < colours.count; ++k) {
+        text_ << " " << colours.channels[k]->values[static_cast<std::size_t>(v)] / full;
       }
-      end_line();
+      text_.end_line();
     }
   }
 
-  void write_polygons() {
+  void write_faces() {
+    const VisibleFaces faces(mesh_);
     const std::vector<std::pair<Index, std::size_t>> memberships = sorted_memberships();
     auto next = memberships.begin();
-    for (Index face = 0; face < mesh_.faces.face_count(); ++face) {
-      std::vector<std::size_t> objects;
+    for (std::size_t face = 0; face < faces.size(); ++face) {
       std::vector<std::size_t> groups;
-      for (; next != memberships.end() && next->first == face; ++next) {
-        const bool is_object = mesh_.groups[next->second].kind == FaceGroupKind::object;
-        (is_object ? objects : groups).push_back(next->second);
+      for (; next != memberships.end() && next->first == static_cast<Index>(face); ++next) {
+        groups.push_back(next->second);
       }
-      switch_groups("o", current_objects_, std::move(objects));
-      switch_groups("g", current_groups_, std::move(groups));
-      write_polygon(face);
+      if (groups != current_) switch_groups(std::move(groups));
+      write_face(faces, face);
     }
   }
 
@@ -114,51 +87,47 @@ class ObjWriter {
     return memberships;
   }
 
-  void switch_groups(std::string_view keyword, std::vector<std::size_t>& current, std::vector<std::size_t> wanted) {
-    if (current == wanted) return;
-    current = std::move(wanted);
-    text_ += keyword;
-    for (std::size_t group : current) text_ += ' ' + readable_name(mesh_.groups[group]);
-    end_line();
-  }
-
-  void write_polygon(Index face) {
-    const PolygonFaces& faces = mesh_.faces;
-    text_ += 'f';
-    const auto first = static_cast<std::size_t>(faces.offsets[static_cast<std::size_t>(face)]);
-    const auto last = static_cast<std::size_t>(faces.offsets[static_cast<std::size_t>(face) + 1]);
-    for (std::size_t corner = first; corner < last; ++corner) {
-      text_ += ' ';
-      append(faces.vertices[corner] + 1);
-      if (faces.texture_coordinates.empty() || faces.texture_coordinates[corner] < 0) continue;
-      text_ += '/';
-      append(faces.texture_coordinates[corner] + 1);
+  void switch_groups(std::vector<std::size_t> wanted) {
+    for (const auto& [kind, keyword] : {std::pair{FaceGroupKind::object, "o"}, std::pair{FaceGroupKind::group, "g"},
+                                        std::pair{FaceGroupKind::material, "usemtl"}}) {
+      const std::string names = names_of(wanted, kind);
+      if (names == names_of(current_, kind)) continue;
+      text_ << keyword << names;
+      text_.end_line();
     }
-    end_line();
+    current_ = std::move(wanted);
   }
 
-  AtomicFile& file_;
+  /// Each with a blank before it.
+  std::string names_of(const std::vector<std::size_t>& groups, FaceGroupKind kind) const {
+    std::string names;
+    for (const std::size_t g : groups) {
+      if (mesh_.groups[g].kind == kind) names += ' ' + readable_name(mesh_.groups[g].name, kind);
+    }
+    return names;
+  }
+
+  void write_face(const VisibleFaces& faces, std::size_t face) {
+    text_ << "f";
+    const auto corners = faces[face];
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      text_ << " " << corners[i] + 1;
+      if (!faces.has_texture()) continue;
+      const Index texture = mesh_.faces.texture_coordinates[faces.first_corner(face) + i];
+      if (texture >= 0) text_ << "/" << texture + 1;
+    }
+    text_.end_line();
+  }
+
+  TextOutput text_;
   const Mesh& mesh_;
-  std::string text_;
-  std::vector<std::size_t> current_objects_;
-  std::vector<std::size_t> current_groups_;
+  std::vector<std::size_t> current_;
 };
-
-void check_positions(const std::string& name, const Mesh& mesh, const Positions& positions) {
-  if (positions.rows() != mesh.vertices.rows()) {
-    fail_input(fmt::format("{}: {} positions for a mesh of {} vertices; give one for each", name, positions.rows(),
-                           mesh.vertices.rows()));
-  }
-  for (Index v = 0; v < mesh.vertex_count(); ++v) {
-    if (row(positions, v).allFinite()) continue;
-    fail_input(fmt::format("{}: the position of vertex {} is not finite; write a state before it diverged", name, v));
-  }
-}
 
 }  // namespace
 
 void write_obj(const std::filesystem::path& path, const Mesh& mesh, const Positions& positions) {
-  check_positions(path.string(), mesh, positions);
+  check_positions(path, mesh, positions);
   AtomicFile file(path);
   ObjWriter(file, mesh).write(positions);
   file.commit();

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <optional>
 
-#include "pliant/mesh/io/obj.h"
+#include "pliant/mesh/io/mesh_file.h"
 #include "pliant/mesh/join.h"
 #include "pliant/mesh/shapes/limits.h"
 #include "pliant/scene/detail/option_reader.h"
@@ -43,7 +43,8 @@ Mesh read_shape(const Node& node, const Keys& more_keys, std::tuple<Options...>*
 }
 
 Mesh read_mesh_file(const Node& node, const std::filesystem::path& folder, const Keys& more_keys) {
-  node.check_keys(joined({"file", "source"}, more_keys));
+  ImportOptions options;
+  read_options(node, options, joined({"file", "source"}, more_keys));
   const Node file = node.require("file");
   std::string name;
   read(file, name);
@@ -54,7 +55,7 @@ Mesh read_mesh_file(const Node& node, const std::filesystem::path& folder, const
   if (!source.empty() && !std::filesystem::exists(path, ignored)) {
     file.fail(fmt::format("{}: no such file; {}", printable(path.string()), printable(source)));
   }
-  return file.locate([&] { return read_obj(path); });
+  return file.locate([&] { return read_mesh(path, options); });
 }
 
 Mesh read_inline_mesh(const Node& node, const Keys& more_keys) {

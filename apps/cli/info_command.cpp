@@ -1,0 +1,262 @@
+// pliant info: what a mesh is, what is wrong with it, and what that means for a simulation.
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "import_options.h"
+#include "pliant/mesh/diagnosis.h"
+#include "pliant/mesh/io/mesh_file.h"
+
+namespace pliant_cli {
+namespace {
+
+using pliant::Defect;
+using pliant::DefectElement;
+using pliant::Diagnosis;
+using pliant::FaceGroupKind;
+using pliant::Index;
+using Json = nlohmann::ordered_json;
+
+struct InfoOptions {
+  std::string file;
+  pliant::ImportOptions import;
+  bool json = false;
+};
+
+/// Everything that is printed. The mesh itself is not kept: a diagnosis needs the memory.
+struct Info {
+  std::string file;
+  std::string format;
+  std::uintmax_t file_size = 0;
+  Index group_counts[3] = {0, 0, 0};  ///< by FaceGroupKind
+  Index texture_coordinate_count = 0;
+  std::vector<std::string> maps;
+  Diagnosis diagnosis;
+};
+
+/// Text from a file, as a terminal may see it.
+std::string printable(std::string text) {
+  constexpr std::size_t longest = 40;
+  if (text.size() > longest) text = text.substr(0, longest) + "...";
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';
+  }
+  return text;
+}
+
+Info examine(const InfoOptions& options) {
+  pliant::Mesh mesh = pliant::read_mesh(options.file, options.import);
+  Info info;
+  info.file = options.file;
+  info.format = choice_names(pliant::MeshFormat{})[static_cast<std::size_t>(*pliant::mesh_format(options.file))];
+  std::error_code ignored;
+  info.file_size = std::filesystem::file_size(options.file, ignored);
+  for (const pliant::FaceGroup& group : mesh.groups) ++info.group_counts[static_cast<std::size_t>(group.kind)];
+  info.texture_coordinate_count = static_cast<Index>(mesh.texture_coordinates.rows());
+  for (const pliant::VertexMap& map : mesh.maps) info.maps.push_back(printable(map.name));
+  mesh.maps = {};
+  info.diagnosis = pliant::diagnose(std::move(mesh));
+  return info;
+}
+
+// ---- as text
+
+void print_row(std::string_view name, const std::string& value) {
+  fmt::print("  {:<16} {}\n", name, value);
+}
+
+std::string plural(std::int64_t count, std::string_view one, std::string_view many) {
+  return fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
+std::string spread_text(const pliant::Spread& spread, std::string_view unit) {
+  return fmt::format("{:.4g} to {:.4g} {}, mean {:.4g}", spread.min, spread.max, unit, spread.mean);
+}
+
+void print_counts(const Info& info) {
+  const Diagnosis& d = info.diagnosis;
+  print_row("vertices", fmt::format("{}", d.vertex_count));
+  std::string edges = fmt::format("{}", d.edge_count);
+  if (d.edge_element_count > 0) edges += fmt::format(", {} of them elements of their own", d.edge_element_count);
+  print_row("edges", edges);
+  std::string triangles = fmt::format("{}", d.triangle_count);
+  if (d.largest_polygon > 3) {
+    triangles +=
+        fmt::format(", from {} of up to {} corners", plural(d.polygon_count, "polygon", "polygons"), d.largest_polygon);
+  }
+  print_row("triangles", triangles);
+  if (d.tetrahedron_count > 0) print_row("tetrahedra", fmt::format("{}", d.tetrahedron_count));
+  print_row("components", fmt::format("{}", d.component_count));
+  const auto& [groups, objects, materials] = info.group_counts;
+  if (groups + objects + materials > 0) {
+    print_row("parts", fmt::format("{}, {}, {}", plural(objects, "object", "objects"),
+                                   plural(groups, "group", "groups"), plural(materials, "material", "materials")));
+  }
+  if (info.texture_coordinate_count > 0) print_row("texture", plural(info.texture_coordinate_count, "point", "points"));
+  if (!info.maps.empty()) print_row("maps", fmt::format("{}", fmt::join(info.maps, ", ")));
+}
+
+void print_boundary(const Diagnosis& d) {
+  constexpr std::size_t listed = 5;
+  if (d.triangle_count == 0) return;
+  if (d.boundary_loops.empty()) return print_row("boundary", "none");
+  print_row("boundary", plural(static_cast<std::int64_t>(d.boundary_loops.size()), "loop", "loops"));
+  for (std::size_t i = 0; i < std::min(listed, d.boundary_loops.size()); ++i) {
+    const pliant::BoundaryLoop& loop = d.boundary_loops[i];
+    print_row("", fmt::format("{} from vertex {}, {:.4g} m", plural(loop.vertex_count, "vertex", "vertices"),
+                              loop.first_vertex, loop.length));
+  }
+  if (d.boundary_loops.size() > listed) print_row("", fmt::format("and {} more", d.boundary_loops.size() - listed));
+}
+
+void print_measures(const Diagnosis& d) {
+  if (!d.is_measured) return print_row("measures", "none, see far vertices below");
+  const pliant::Vec3 size = d.box.max - d.box.min;
+  print_row("size", fmt::format("{:.4g} x {:.4g} x {:.4g} m, from ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g})",
+                                size[0], size[1], size[2], d.box.min[0], d.box.min[1], d.box.min[2], d.box.max[0],
+                                d.box.max[1], d.box.max[2]));
+  if (d.edge_count > 0) print_row("edge length", spread_text(d.edge_length, "m"));
+  if (d.triangle_count > 0) print_row("triangle area", spread_text(d.triangle_area, "m^2"));
+  if (d.area > 0) print_row("area", fmt::format("{:.6g} m^2", d.area));
+  if (d.volume != 0) {
+    const bool points_inward = d.volume < 0 && d.tetrahedron_count == 0;
+    print_row("volume", fmt::format("{:.6g} m^3{}", d.volume, points_inward ? ", the normals point inward" : ""));
+  }
+}
+
+std::string element_name(DefectElement element, std::int64_t count) {
+  constexpr std::array<std::array<std::string_view, 2>, 6> names{{{"vertex", "vertices"},
+                                                                  {"edge", "edges"},
+                                                                  {"triangle", "triangles"},
+                                                                  {"tetrahedron", "tetrahedra"},
+                                                                  {"polygon", "polygons"},
+                                                                  {"facet", "facets"}}};
+  return std::string(names[static_cast<std::size_t>(element)][count == 1 ? 0 : 1]);
+}
+
+std::string indices_text(const Defect& defect) {
+  std::vector<std::string> texts;
+  for (const auto& [index, other] : defect.first) {
+    texts.push_back(other < 0 ? fmt::format("{}", index) : fmt::format("{}-{}", index, other));
+  }
+  const bool is_cut = defect.count > static_cast<std::int64_t>(texts.size());
+  return fmt::format("{}{}", fmt::join(texts, ", "), is_cut ? ", ..." : "");
+}
+
+void print_defects(const Diagnosis& d) {
+  if (d.defects.empty()) {
+    fmt::print("No defects.\n");
+    return;
+  }
+  fmt::print("Defects, indices from 0:\n");
+  for (const Defect& defect : d.defects) {
+    const pliant::DefectInfo& kind = info_of(defect.kind);
+    const auto effect = choice_names(kind.effect)[static_cast<std::size_t>(kind.effect)];
+    fmt::print("  {:<8} {} {}\n", effect, defect.count, kind.text);
+    if (!defect.first.empty()) {
+      fmt::print("           {} {}\n", element_name(kind.element, defect.count), indices_text(defect));
+    }
+    fmt::print("           {}\n           remedy: {}\n", kind.meaning, kind.remedy);
+  }
+}
+
+void print_text(const Info& info) {
+  fmt::print("{}: {}, {} bytes\n", info.file, info.format, info.file_size);
+  print_counts(info);
+  print_measures(info.diagnosis);
+  print_boundary(info.diagnosis);
+  print_defects(info.diagnosis);
+}
+
+// ---- as JSON
+
+Json spread_json(const pliant::Spread& spread) {
+  return {{"min", spread.min}, {"mean", spread.mean}, {"max", spread.max}};
+}
+
+Json defects_json(const Diagnosis& d) {
+  Json defects = Json::array();
+  for (const Defect& defect : d.defects) {
+    const pliant::DefectInfo& kind = info_of(defect.kind);
+    Json indices = Json::array();
+    for (const auto& [index, other] : defect.first) {
+      indices.push_back(other < 0 ? Json(index) : Json::array({index, other}));
+    }
+    defects.push_back({{"kind", kind.name},
+                       {"count", defect.count},
+                       {"effect", choice_names(kind.effect)[static_cast<std::size_t>(kind.effect)]},
+                       {"element", element_name(kind.element, 1)},
+                       {"first", indices},
+                       {"meaning", kind.meaning},
+                       {"remedy", kind.remedy}});
+  }
+  return defects;
+}
+
+Json boundary_json(const Diagnosis& d) {
+  constexpr std::size_t most = 1000;
+  Json loops = Json::array();
+  for (std::size_t i = 0; i < std::min(most, d.boundary_loops.size()); ++i) {
+    const pliant::BoundaryLoop& loop = d.boundary_loops[i];
+    loops.push_back({{"first_vertex", loop.first_vertex}, {"vertices", loop.vertex_count}, {"length", loop.length}});
+  }
+  return {{"count", d.boundary_loops.size()}, {"loops", loops}};
+}
+
+void print_json(const Info& info) {
+  const Diagnosis& d = info.diagnosis;
+  const auto& [groups, objects, materials] = info.group_counts;
+  const auto point = [](const pliant::Vec3& x) { return Json::array({x[0], x[1], x[2]}); };
+  const Json json = {
+      {"file", info.file},
+      {"format", info.format},
+      {"bytes", info.file_size},
+      {"vertices", d.vertex_count},
+      {"edges", d.edge_count},
+      {"edge_elements", d.edge_element_count},
+      {"triangles", d.triangle_count},
+      {"tetrahedra", d.tetrahedron_count},
+      {"polygons", d.polygon_count},
+      {"largest_polygon", d.largest_polygon},
+      {"components", d.component_count},
+      {"groups", groups},
+      {"objects", objects},
+      {"materials", materials},
+      {"texture_coordinates", info.texture_coordinate_count},
+      {"maps", info.maps},
+      {"measured", d.is_measured},
+      {"box", {{"min", point(d.box.min)}, {"max", point(d.box.max)}}},
+      {"edge_length", spread_json(d.edge_length)},
+      {"triangle_area", spread_json(d.triangle_area)},
+      {"area", d.area},
+      {"volume", d.volume},
+      {"closed", d.is_closed},
+      {"boundary", boundary_json(d)},
+      {"defects", defects_json(d)},
+  };
+  fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+}
+
+}  // namespace
+
+void add_info_command(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("info", "Describe a mesh file and what is wrong with it");
+  const auto options = std::make_shared<InfoOptions>();
+  command->add_option("file", options->file, "A mesh: .obj, .ply, .off or .stl")->required();
+  add_import_options(*command, options->import);
+  command->add_flag("--json", options->json, "Print JSON, in metres and square metres");
+  command->footer("Example:\n  pliant info shirt.obj --scale 0.01 --up y");
+  command->callback([options] {
+    const Info info = examine(*options);
+    options->json ? print_json(info) : print_text(info);
+  });
+}
+
+}  // namespace pliant_cli

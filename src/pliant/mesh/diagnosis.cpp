@@ -1,0 +1,350 @@
+#include "pliant/mesh/diagnosis.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <span>
+#include <utility>
+
+#include "pliant/mesh/detail/element_uses.h"
+#include "pliant/mesh/detail/sheets.h"
+#include "pliant/mesh/topology.h"
+
+namespace pliant {
+
+namespace {
+
+/// Distance of a corner from its polygon's plane, relative to the polygon's size, past which the polygon is bent.
+constexpr Real bend_limit = 0.05;
+
+std::size_t at(Index i) {
+  return static_cast<std::size_t>(i);
+}
+
+template <class List>
+Index count_of(const List& list) {
+  return static_cast<Index>(list.size());
+}
+
+class SpreadOf {
+ public:
+  void add(Real value) {
+    spread_.min = count_ == 0 ? value : std::min(spread_.min, value);
+    spread_.max = std::max(spread_.max, value);
+    sum_ += value;
+    ++count_;
+  }
+  Real sum() const { return sum_; }
+  Spread result() const {
+    Spread spread = spread_;
+    if (count_ > 0) spread.mean = sum_ / static_cast<Real>(count_);
+    return spread;
+  }
+
+ private:
+  Spread spread_;
+  Real sum_ = 0;
+  std::int64_t count_ = 0;
+};
+
+class Examination {
+ public:
+  explicit Examination(Mesh mesh) : mesh_(std::move(mesh)) {}
+
+  Diagnosis run() {
+    count();
+    find_far_vertices();
+    find_lonely_vertices();
+    find_duplicate_vertices();
+    examine_polygons();
+    mesh_.faces = {};  // what is left needs memory, but no polygons
+    mesh_.groups.clear();
+    examine_triangles();
+    examine_tetrahedra();
+    examine_edges();
+    find_pinched_vertices();
+    measure_volume();
+    note(DefectKind::collapsed_facets, mesh_.collapsed_face_count);
+    std::erase_if(defects_, [](const Defect& defect) { return defect.count == 0; });
+    std::ranges::sort(defects_, {}, &Defect::kind);
+    result_.defects = std::move(defects_);
+    return std::move(result_);
+  }
+
+ private:
+  // ---- defects
+
+  Defect& defect_of(DefectKind kind) {
+    const auto entry = std::ranges::find(defects_, kind, &Defect::kind);
+    if (entry != defects_.end()) return *entry;
+    defects_.push_back({kind, 0, {}});
+    return defects_.back();
+  }
+
+  /// Keeps the lowest ones.
+  void add(DefectKind kind, Index index, Index other = -1) {
+    Defect& defect = defect_of(kind);
+    ++defect.count;
+    const std::array<Index, 2> place = {index, other};
+    if (defect.first.size() == Defect::max_listed) {
+      if (defect.first.back() <= place) return;
+      defect.first.pop_back();
+    }
+    defect.first.insert(std::ranges::upper_bound(defect.first, place), place);
+  }
+
+  void note(DefectKind kind, std::int64_t count) { defect_of(kind).count += count; }
+  bool has(DefectKind kind) { return defect_of(kind).count > 0; }
+
+  // ---- vertices and polygons
+
+  void count() {
+    result_.vertex_count = mesh_.vertex_count();
+    result_.edge_element_count = count_of(mesh_.edges);
+    result_.triangle_count = count_of(mesh_.triangles);
+    result_.tetrahedron_count = count_of(mesh_.tetrahedra);
+    result_.polygon_count = mesh_.faces.face_count();
+  }
+
+  void find_far_vertices() {
+    for (Index v = 0; v < mesh_.vertex_count(); ++v) {
+      const Vec3 x = row(mesh_.vertices, v);
+      if (!(x.cwiseAbs().maxCoeff() <= coordinate_limit)) add(DefectKind::far_vertices, v);
+    }
+    result_.is_measured = !has(DefectKind::far_vertices);
+    if (result_.is_measured) result_.box = bounding_box(mesh_.vertices);
+  }
+
+  void find_lonely_vertices() {
+    std::vector<char> is_used(at(mesh_.vertex_count()), 0);
+    const auto use = [&](const auto& elements) {
+      for (const auto& element : elements) {
+        for (const Index vertex : element) is_used[at(vertex)] = 1;
+      }
+    };
+    use(mesh_.edges);
+    use(mesh_.triangles);
+    use(mesh_.tetrahedra);
+    for (Index v = 0; v < mesh_.vertex_count(); ++v) {
+      if (is_used[at(v)] == 0) add(DefectKind::isolated_vertices, v);
+    }
+    const std::vector<Index> component = components(mesh_);
+    const Index all = component.empty() ? 0 : 1 + *std::ranges::max_element(component);
+    result_.component_count = all - static_cast<Index>(defect_of(DefectKind::isolated_vertices).count);
+  }
+
+  void find_duplicate_vertices() {
+    std::vector<Index> order(at(mesh_.vertex_count()));
+    std::iota(order.begin(), order.end(), 0);
+    const auto place = [&](Index v) {
+      const Real* x = mesh_.vertices.data() + 3 * static_cast<std::ptrdiff_t>(v);
+      return std::tuple(x[0], x[1], x[2]);
+    };
+    std::ranges::sort(order, [&](Index a, Index b) {
+      const auto place_a = place(a);
+      const auto place_b = place(b);
+      return place_a != place_b ? place_a < place_b : a < b;
+    });
+    for (std::size_t i = 1; i < order.size(); ++i) {
+      if (place(order[i]) == place(order[i - 1])) add(DefectKind::duplicate_vertices, order[i]);
+    }
+  }
+
+  void examine_polygons() {
+    const PolygonFaces& faces = mesh_.faces;
+    for (Index f = 0; f < faces.face_count(); ++f) {
+      const auto first = at(faces.offsets[at(f)]);
+      const auto corners = std::span(faces.vertices).subspan(first, at(faces.offsets[at(f) + 1]) - first);
+      result_.largest_polygon = std::max(result_.largest_polygon, count_of(corners));
+      if (corners.size() > 3 && result_.is_measured && is_bent(corners)) add(DefectKind::bent_polygons, f);
+    }
+  }
+
+  /// The plane goes through the middle of the corners, along Newell's normal.
+  bool is_bent(std::span<const Index> corners) const {
+    Vec3 middle = Vec3::Zero();
+    for (const Index vertex : corners) middle += row(mesh_.vertices, vertex) / static_cast<Real>(corners.size());
+    Vec3 normal = Vec3::Zero();
+    Real size = 0;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const Vec3 from = row(mesh_.vertices, corners[i]) - middle;
+      const Vec3 to = row(mesh_.vertices, corners[(i + 1) % corners.size()]) - middle;
+      normal += from.cross(to);
+      size = std::max(size, from.stableNorm());
+    }
+    normal.stableNormalize();
+    return std::ranges::any_of(corners, [&](Index vertex) {
+      return std::abs(normal.dot(row(mesh_.vertices, vertex) - middle)) > bend_limit * size;
+    });
+  }
+
+  // ---- elements
+
+  void examine_triangles() {
+    visit_triangles(mesh_, [&](std::span<const TriangleUse> uses) {
+      for (const TriangleUse& use : uses.subspan(1)) add(DefectKind::duplicate_triangles, use.triangle);
+    });
+    if (!result_.is_measured) return;
+    SpreadOf areas;
+    for (Index t = 0; t < count_of(mesh_.triangles); ++t) {
+      const Triangle& triangle = mesh_.triangles[at(t)];
+      areas.add(area_of(triangle));
+      if (has_no_extent(mesh_.vertices, triangle)) add(DefectKind::zero_area_triangles, t);
+    }
+    result_.triangle_area = areas.result();
+    result_.area = areas.sum();
+    if (!mesh_.triangles.empty()) return;
+    for (const Triangle& triangle : boundary_triangles(mesh_.tetrahedra)) result_.area += area_of(triangle);
+  }
+
+  Real area_of(const Triangle& triangle) const {
+    const auto& [a, b, c] = triangle;
+    return triangle_area(row(mesh_.vertices, a), row(mesh_.vertices, b), row(mesh_.vertices, c));
+  }
+
+  void examine_tetrahedra() {
+    if (!result_.is_measured) return;
+    const std::vector<Real> volumes = tetrahedron_volumes(mesh_.vertices, mesh_.tetrahedra);
+    for (Index t = 0; t < count_of(volumes); ++t) {
+      result_.volume += volumes[at(t)];
+      if (has_no_extent(mesh_.vertices, mesh_.tetrahedra[at(t)])) {
+        add(DefectKind::zero_volume_tetrahedra, t);
+      } else if (volumes[at(t)] < 0) {
+        add(DefectKind::inverted_tetrahedra, t);
+      }
+    }
+  }
+
+  // ---- edges
+
+  void examine_edges() {
+    SpreadOf lengths;
+    std::vector<Edge> boundary;
+    TurnedSheets sheets(mesh_.triangles.size());
+    visit_edges(mesh_, [&](std::span<const EdgeUse> uses) {
+      const Edge edge = {uses[0].low, uses[0].high};
+      ++result_.edge_count;
+      if (result_.is_measured) {
+        lengths.add((row(mesh_.vertices, edge[1]) - row(mesh_.vertices, edge[0])).stableNorm());
+        if (has_no_extent(mesh_.vertices, edge)) add(DefectKind::zero_length_edges, edge[0], edge[1]);
+      }
+      const auto triangles = triangles_of(uses);
+      if (triangles.size() == 1) boundary.push_back(edge);
+      if (triangles.size() > 2) add(DefectKind::nonmanifold_edges, edge[0], edge[1]);
+      if (triangles.size() == 2) {
+        sheets.join(triangles[0].triangle(), triangles[1].triangle(),
+                    triangles[0].is_reversed() != triangles[1].is_reversed());
+      }
+    });
+    result_.edge_length = lengths.result();
+    result_.is_closed = !mesh_.triangles.empty() && boundary.empty() && !has(DefectKind::nonmanifold_edges);
+    find_flipped_triangles(sheets);
+    sheets = TurnedSheets(0);
+    trace_boundary(std::move(boundary));
+  }
+
+  /// Those of other elements come last.
+  static std::span<const EdgeUse> triangles_of(std::span<const EdgeUse> uses) {
+    const auto others = std::ranges::find_if(uses, [](const EdgeUse& use) { return !use.is_triangle(); });
+    return uses.first(static_cast<std::size_t>(others - uses.begin()));
+  }
+
+  /// The fewer of each sheet; of two halves, those that are not turned like its first triangle.
+  void find_flipped_triangles(TurnedSheets& sheets) {
+    std::vector<Index> balance(mesh_.triangles.size(), 0);
+    for (Index t = 0; t < count_of(mesh_.triangles); ++t) {
+      const auto [lowest, is_turned] = sheets.find(t);
+      balance[at(lowest)] += is_turned ? -1 : 1;
+      if (lowest == t && sheets.is_unorientable(t)) add(DefectKind::unorientable_sheets, t);
+    }
+    for (Index t = 0; t < count_of(mesh_.triangles); ++t) {
+      const auto [lowest, is_turned] = sheets.find(t);
+      const bool is_flipped = is_turned == (balance[at(lowest)] >= 0);
+      if (is_flipped && !sheets.is_unorientable(lowest)) add(DefectKind::flipped_triangles, t);
+    }
+  }
+
+  /// A vertex whose triangles form more than one fan. A fan ends at a boundary and at a non-manifold edge.
+  void find_pinched_vertices() {
+    CornerFans fans(mesh_.triangles.size());
+    std::vector<Index> fan_count(at(mesh_.vertex_count()), 0);
+    const auto corner = [&](const EdgeUse& use, Index vertex) {
+      const Triangle& triangle = mesh_.triangles[at(use.triangle())];
+      return 3 * at(use.triangle()) + static_cast<std::size_t>(std::ranges::find(triangle, vertex) - triangle.begin());
+    };
+    visit_edges(mesh_, [&](std::span<const EdgeUse> uses) {
+      const auto triangles = triangles_of(uses);
+      for (const Index vertex : {uses[0].low, uses[0].high}) {
+        if (triangles.size() == 2) fans.join(corner(triangles[0], vertex), corner(triangles[1], vertex));
+        if (triangles.size() > 2) fan_count[at(vertex)] += 2;
+      }
+    });
+    for (std::size_t c = 0; c < 3 * mesh_.triangles.size(); ++c) {
+      if (fans.is_first(c)) ++fan_count[at(mesh_.triangles[c / 3][c % 3])];
+    }
+    for (Index v = 0; v < mesh_.vertex_count(); ++v) {
+      if (fan_count[at(v)] > 1) add(DefectKind::nonmanifold_vertices, v);
+    }
+  }
+
+  /// Walks from each vertex along edges not yet walked, lowest first, until there is none to go on with.
+  void trace_boundary(std::vector<Edge> edges) {
+    const std::size_t count = edges.size();
+    edges.reserve(2 * count);
+    for (std::size_t e = 0; e < count; ++e) edges.push_back({edges[e][1], edges[e][0]});
+    std::ranges::sort(edges);
+    std::vector<char> is_walked(edges.size(), 0);
+    std::vector<std::size_t> next(edges.size());  // of the entries of a vertex, kept at its first: the first not walked
+    std::iota(next.begin(), next.end(), std::size_t{0});
+    const auto entry = [&](const Edge& edge) {
+      return static_cast<std::size_t>(std::ranges::lower_bound(edges, edge) - edges.begin());
+    };
+    for (std::size_t start = 0; start < edges.size(); ++start) {
+      if (is_walked[start] != 0) continue;
+      BoundaryLoop loop{edges[start][0], 0, 0};
+      for (Index vertex = loop.first_vertex;;) {
+        const std::size_t first = entry({vertex, 0});
+        std::size_t& step = next[first];
+        while (step < edges.size() && edges[step][0] == vertex && is_walked[step] != 0) ++step;
+        if (step == edges.size() || edges[step][0] != vertex) break;
+        const Edge edge = edges[step];
+        is_walked[step] = is_walked[entry({edge[1], edge[0]})] = 1;
+        ++loop.vertex_count;
+        if (result_.is_measured) {
+          loop.length += (row(mesh_.vertices, edge[1]) - row(mesh_.vertices, edge[0])).stableNorm();
+        }
+        vertex = edge[1];
+      }
+      result_.boundary_loops.push_back(loop);
+    }
+  }
+
+  /// Signed, from the middle of the box, so that a mesh far from the origin loses no digits.
+  void measure_volume() {
+    const bool is_solid = result_.is_closed && !has(DefectKind::flipped_triangles) &&
+                          !has(DefectKind::unorientable_sheets) && mesh_.tetrahedra.empty();
+    if (!is_solid || !result_.is_measured) return;
+    const Vec3 middle = (result_.box.min + result_.box.max) / 2;
+    for (const auto& [a, b, c] : mesh_.triangles) {
+      result_.volume +=
+          tetrahedron_volume(middle, row(mesh_.vertices, a), row(mesh_.vertices, b), row(mesh_.vertices, c));
+    }
+  }
+
+  Mesh mesh_;
+  Diagnosis result_;
+  std::vector<Defect> defects_;
+};
+
+}  // namespace
+
+const Defect* Diagnosis::find(DefectKind kind) const {
+  const auto entry = std::ranges::find(defects, kind, &Defect::kind);
+  return entry == defects.end() ? nullptr : &*entry;
+}
+
+Diagnosis diagnose(Mesh mesh) {
+  return Examination(std::move(mesh)).run();
+}
+
+}  // namespace pliant

@@ -1,0 +1,63 @@
+#pragma once
+// Meshes from files of every format and into them, chosen by the extension. docs/formats.md says what each one holds.
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+
+#include "pliant/core/options.h"
+#include "pliant/mesh/mesh.h"
+
+namespace pliant {
+
+/// A file format of meshes, named by its extension.
+enum class MeshFormat { obj, ply, off, stl };
+constexpr std::array<std::string_view, 4> choice_names(MeshFormat) {
+  return {"obj", "ply", "off", "stl"};
+}
+
+/// The format that the extension stands for, in capitals or not; none when it stands for no known one.
+std::optional<MeshFormat> mesh_format(const std::filesystem::path& path);
+
+/// Which axis of a file points up.
+enum class UpAxis { z, y, x };
+constexpr std::array<std::string_view, 3> choice_names(UpAxis) {
+  return {"z", "y", "x"};
+}
+
+/// How the coordinates of a file become metres with +z up.
+struct ImportOptions {
+  Real scale = 1;
+  UpAxis up = UpAxis::z;
+
+  template <class Self, class Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field(OptionInfo{"scale", "m", "metres per unit of the file: 0.001 where it counts in millimetres", positive},
+          self.scale);
+    field(OptionInfo{"up", "", "the file's axis that points up, turned to +z: `z` (as it is), `y` or `x`"}, self.up);
+  }
+};
+
+/// Reads the mesh of a file: its vertices in their order and number, polygons, edges, groups, texture coordinates and
+/// per-vertex numbers, as far as the format holds them. Then it is scaled and turned: `y` up takes (x, y, z) to
+/// (x, −z, y), `x` up to (−z, y, x), both without mirroring.
+///
+/// What comes out is sound as data (indices in range, coordinates finite, no vertex twice in an element), but may have
+/// elements without extent, which check_mesh in geometry.h refuses and diagnose in diagnosis.h lists.
+/// @throws Error (input), one line with the place in the file and the remedy: an extension that is not known, a file
+///   that cannot be read, a malformed or truncated one, options out of range. Reading takes less than ten times the
+///   memory of the file, whatever it claims to hold.
+Mesh read_mesh(const std::filesystem::path& path, const ImportOptions& options = {});
+
+/// The same from bytes in memory. `name` is what messages call them.
+Mesh parse_mesh(std::string_view bytes, std::string_view name, MeshFormat format, const ImportOptions& options = {});
+
+/// Writes the mesh with `positions` [m] (m × 3) in place of its rest positions, whole or not at all (atomic_file.h), in
+/// the format of the extension: polygons where the mesh came from polygons, else its triangles, else the surface of its
+/// tetrahedra, and with them what the format holds. Coordinates stay in metres with +z up.
+/// @throws Error (input): an extension that is not known, a count of positions other than the mesh's, a position that
+///   is not finite or that the format cannot hold.
+/// @throws Error (output): the file cannot be written.
+void write_mesh(const std::filesystem::path& path, const Mesh& mesh, const Positions& positions);
+
+}  // namespace pliant

@@ -1,0 +1,14 @@
+#pragma once
+// OFF out; read_mesh in mesh_file.h reads it.
+#include <filesystem>
+
+#include "pliant/mesh/mesh.h"
+
+namespace pliant {
+
+/// Writes the mesh as write_mesh does (mesh_file.h). Kept: polygons, edges (as faces of two corners), colours of
+/// vertices (COFF), texture coordinates where every corner has those of its vertex (STOFF). Lost: groups, materials and
+/// other maps.
+void write_off(const std::filesystem::path& path, const Mesh& mesh, const Positions& positions);
+
+}  // namespace pliant

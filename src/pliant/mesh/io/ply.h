@@ -1,0 +1,19 @@
+#pragma once
+// PLY out; read_mesh in mesh_file.h reads it.
+#include <filesystem>
+
+#include "pliant/mesh/mesh.h"
+
+namespace pliant {
+
+/// How the numbers of a PLY file are written: eight bytes each, the least significant first, or their shortest digits.
+/// Both read back to the same bits.
+enum class PlyNumbers { binary, ascii };
+
+/// Writes the mesh as write_mesh does (mesh_file.h). Kept: polygons, edges, per-vertex maps, texture coordinates (`s t`
+/// of vertices where every corner has those of its vertex, else `texcoord` of faces). Colours that are whole numbers up
+/// to 255 are written as bytes. Lost: groups and materials.
+void write_ply(const std::filesystem::path& path, const Mesh& mesh, const Positions& positions,
+               PlyNumbers numbers = PlyNumbers::binary);
+
+}  // namespace pliant
