@@ -157,6 +157,23 @@ TEST_CASE("parts of one name are one group; the groups of parts are kept") {
   CHECK(front->faces.size() == 36);
 }
 
+TEST_CASE("vertex maps go along, 0 where a part has none; a shared vertex has the later part's number") {
+  Mesh hot = chain({.links = 1, .length = 1, .direction = {1, 0, 0}});
+  hot.maps = {{"heat", {5, 6}}};
+  Mesh cold = moved(hot, {1, 0, 0});
+  cold.maps = {{"heat", {1, 2}}, {"age", {7, 8}}};
+  const Mesh whole = join(std::vector<MeshPart>{{"", hot}, {"", chain({.links = 1})}, {"", cold}}, 1e-9);
+  REQUIRE(whole.maps.size() == 2);
+  CHECK(whole.maps[0].name == "heat");
+  CHECK(whole.maps[0].values == std::vector<Real>{5, 1, 0, 2});  // the chain's head is welded to the first vertex
+  CHECK(whole.maps[1].values == std::vector<Real>{0, 7, 0, 8});
+
+  Mesh point = mesh_of({{0, 0, 0}});
+  for (int i = 0; i < 2000; ++i) point.maps.push_back({std::to_string(i), {1}});
+  const std::vector<MeshPart> greedy = {{"", point}, {"", grid({.columns = 100, .rows = 100})}};
+  CHECK(contains(error_of([&] { join(greedy); }), "the parts have 2000 vertex maps of different names, for 10001"));
+}
+
 TEST_CASE("what joining refuses") {
   constexpr Real nan = std::numeric_limits<Real>::quiet_NaN();
   const std::vector<MeshPart> ropes = {{"rope", chain({})}};

@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -126,6 +127,11 @@ class Joiner {
     const Index first_texture = static_cast<Index>(whole_.texture_coordinates.rows());
     append_texture_coordinates(part.mesh);
     append_faces(part.mesh, first_texture);
+    append_maps(part.mesh);
+    whole_.collapsed_face_count += part.mesh.collapsed_face_count;
+    for (const std::string& library : part.mesh.material_libraries) {
+      if (libraries_.insert(library).second) whole_.material_libraries.push_back(library);
+    }
     for (const FaceGroup& group : part.mesh.groups) {
       FaceGroup& ours = face_group(group.name, group.kind);
       for (const Index face : group.faces) ours.faces.push_back(first_face + face);
@@ -164,6 +170,16 @@ class Joiner {
     const Eigen::Index old_rows = ours.rows();
     ours.conservativeResize(old_rows + part.texture_coordinates.rows(), 2);
     ours.bottomRows(part.texture_coordinates.rows()) = part.texture_coordinates;
+  }
+
+  /// A vertex of several parts has the number of the last of them.
+  void append_maps(const Mesh& part) {
+    for (const VertexMap& map : part.maps) {
+      const auto [found, is_new] = maps_.emplace(map.name, whole_.maps.size());
+      if (is_new) whole_.maps.push_back({map.name, std::vector<Real>(static_cast<std::size_t>(whole_.vertex_count()))});
+      std::vector<Real>& ours = whole_.maps[found->second].values;
+      for (std::size_t i = 0; i < map.values.size(); ++i) ours[static_cast<std::size_t>(vertices_[i])] = map.values[i];
+    }
   }
 
   void append_faces(const Mesh& part, Index first_texture) {
@@ -215,6 +231,8 @@ class Joiner {
   std::span<const Index> vertices_;
   std::map<std::pair<std::string, FaceGroupKind>, std::size_t> face_groups_;
   std::map<std::string, std::size_t> vertex_groups_;
+  std::map<std::string, std::size_t> maps_;
+  std::set<std::string> libraries_;
 };
 
 /// Where each part's vertices end among all of them.
@@ -225,6 +243,24 @@ std::vector<Index> ends_of(std::span<const MeshPart> parts) {
   std::vector<Index> ends;
   for (const MeshPart& part : parts) ends.push_back((ends.empty() ? 0 : ends.back()) + part.mesh.vertex_count());
   return ends;
+}
+
+/// A map that few vertices have is stretched over all of them: refuses what would take far more memory than it came in.
+void check_maps(std::span<const MeshPart> parts, Index vertex_count) {
+  std::set<std::string_view> names;
+  Real given = 0;
+  for (const MeshPart& part : parts) {
+    for (const VertexMap& map : part.mesh.maps) {
+      names.insert(map.name);
+      given += static_cast<Real>(map.values.size());
+    }
+  }
+  const Real needed = static_cast<Real>(names.size()) * vertex_count;
+  if (needed > 1e7 + 4 * given) {
+    fail_input(
+        fmt::format("the parts have {} vertex maps of different names, for {} vertices; leave some out of the files",
+                    names.size(), vertex_count));
+  }
 }
 
 }  // namespace
@@ -238,6 +274,7 @@ Mesh join(std::span<const MeshPart> parts, std::optional<Real> weld) {
   }
   const std::vector<Index> ends = ends_of(parts);
   const Index count = ends.empty() ? 0 : ends.back();
+  check_maps(parts, count);
   Positions x(count, 3);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const Index rows = parts[i].mesh.vertex_count();

@@ -15,7 +15,7 @@ struct MeshPart {
 
 /// Vertices, elements, texture coordinates and groups of all parts, in turn. A name becomes a vertex group and, where
 /// the part has a surface, a face group. Mesh::faces of the whole are every part's: its polygons, or else its triangles
-/// and the surface of its tetrahedra.
+/// and the surface of its tetrahedra. A vertex map is 0 where a part has none of its name.
 ///
 /// With `weld` [m], ≥ 0, a vertex is merged with the nearest vertex of the parts before its own that is within that
 /// distance, and takes its index and place; of several vertices of one part only the nearest is, so that the vertices

@@ -28,16 +28,16 @@ struct FaceGroup {
   std::vector<Index> faces;
 };
 
-/// A named number for each vertex: a scalar vertex property of a PLY file, or `red`, `green`, `blue` of colours.
-struct VertexMap {
-  std::string name;
-  std::vector<Real> values;  ///< one for each vertex, finite
-};
-
 /// A named set of vertices, whatever elements they have.
 struct VertexGroup {
   std::string name;
   std::vector<Index> vertices;
+};
+
+/// A named number for each vertex: a scalar vertex property of a PLY file, or `red`, `green`, `blue` of colours.
+struct VertexMap {
+  std::string name;
+  std::vector<Real> values;  ///< one for each vertex, finite
 };
 
 /// A mesh keeps the order and the count of the user's vertices; vertices without an element are allowed.
@@ -49,10 +49,10 @@ struct Mesh {
   PolygonFaces faces;                   ///< as read, see PolygonFaces
   Eigen::Matrix<Real, Eigen::Dynamic, 2, Eigen::RowMajor> texture_coordinates;  ///< rows referred to by `faces`
   std::vector<FaceGroup> groups;
+  std::vector<VertexGroup> vertex_groups;       ///< names differ
   std::vector<std::string> material_libraries;  ///< files that define the materials (OBJ `mtllib`), kept unread
   std::vector<VertexMap> maps;                  ///< names differ
   Index collapsed_face_count = 0;  ///< facets of an STL file left out, two of their corners being one vertex
-  std::vector<VertexGroup> vertex_groups;
 
   Index vertex_count() const { return static_cast<Index>(vertices.rows()); }
 };

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "pliant/core/options.h"
 #include "pliant/mesh/mesh.h"
@@ -50,6 +51,10 @@ struct ImportOptions {
 ///   that cannot be read, a malformed or truncated one, options out of range. Reading takes less than ten times the
 ///   memory of the file, whatever it claims to hold.
 Mesh read_mesh(const std::filesystem::path& path, const ImportOptions& options = {});
+
+/// The files that read_mesh reads: that one, and of TetGen's pair the other, points first. @throws Error (input): as
+/// require_mesh_format
+std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& path);
 
 /// The same from bytes in memory, of TetGen the two files one after the other. `name` is what messages call them.
 Mesh parse_mesh(std::string_view bytes, std::string_view name, MeshFormat format, const ImportOptions& options = {});

@@ -54,11 +54,9 @@ Mesh read_mesh_file(const Node& node, const Keys& more_keys) {
   if (!source.empty() && !std::filesystem::exists(path, ignored)) {
     file.fail(fmt::format("{}: no such file; {}", printable_place(path.string()), printable(source)));
   }
-  const MeshFormat format = file.locate([&] { return require_mesh_format(path); });
-  const NamedFile named = read_named_file(file);
   return file.locate([&] {
-    check_options("file", import);
-    return parse_mesh(named.bytes, path.string(), format, import);
+    for (const std::filesystem::path& each : mesh_files(path)) note_file(file, each);
+    return read_mesh(path, import);
   });
 }
 

@@ -16,6 +16,15 @@ std::string SceneFiles::read(const std::filesystem::path& path) {
   return bytes;
 }
 
+namespace {
+
+SceneFiles& files_of(const Node& node) {
+  if (node.origin().files == nullptr) node.fail("no file can be read from here");
+  return *node.origin().files;
+}
+
+}  // namespace
+
 std::filesystem::path read_path(const Node& node) {
   std::string name;
   read(node, name);
@@ -27,9 +36,12 @@ std::filesystem::path read_path(const Node& node) {
 NamedFile read_named_file(const Node& node) {
   NamedFile file;
   file.path = read_path(node);
-  if (node.origin().files == nullptr) node.fail("no file can be read from here");
-  file.bytes = node.locate([&] { return node.origin().files->read(file.path); });
+  file.bytes = node.locate([&] { return files_of(node).read(file.path); });
   return file;
+}
+
+void note_file(const Node& node, const std::filesystem::path& path) {
+  files_of(node).read(path);
 }
 
 }  // namespace pliant

@@ -27,5 +27,7 @@ struct NamedFile {
   std::string bytes;
 };
 NamedFile read_named_file(const Node& node);
+/// Notes a file that a value names and another function reads.
+void note_file(const Node& node, const std::filesystem::path& path);
 
 }  // namespace pliant
