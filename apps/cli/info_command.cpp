@@ -41,9 +41,8 @@ struct Info {
   Diagnosis diagnosis;
 };
 
-/// Text from a file, as a terminal may see it.
-std::string printable(std::string text) {
-  constexpr std::size_t longest = 40;
+/// Text of the user's, as a terminal may see it.
+std::string printable(std::string text, std::size_t longest = 40) {
   if (text.size() > longest) text = text.substr(0, longest) + "...";
   for (char& c : text) {
     if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';
@@ -168,7 +167,7 @@ void print_defects(const Diagnosis& d) {
 }
 
 void print_text(const Info& info) {
-  fmt::print("{}: {}, {} bytes\n", info.file, info.format, info.file_size);
+  fmt::print("{}: {}, {} bytes\n", printable(info.file, 4096), info.format, info.file_size);
   print_counts(info);
   print_measures(info.diagnosis);
   print_boundary(info.diagnosis);
