@@ -1,7 +1,6 @@
 // Pressure against closed forms: Gauss, Boyle, Laplace.
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include <doctest/doctest.h>
 
@@ -16,8 +15,6 @@ using namespace pliant;
 using namespace pliant_tests;
 
 namespace {
-
-constexpr Real pi = std::numbers::pi;
 
 struct Held {
   Mesh mesh;

@@ -111,7 +111,9 @@ TEST_CASE("a net has the grid's vertices, and cords for elements") {
 
 TEST_CASE("a pillow is one closed surface, sewn at its border, with nothing double") {
   for (const Plane plane : {Plane::xy, Plane::xz, Plane::yz}) {
-    for (const auto& [columns, rows] : {std::array{3, 3}, {3, 4}, {4, 4}, {4, 7}, {6, 5}, {9, 8}, {17, 17}}) {
+    for (const auto& counts : {std::array{3, 3}, {3, 4}, {4, 4}, {4, 7}, {6, 5}, {9, 8}, {17, 17}}) {
+      const Index columns = counts[0];
+      const Index rows = counts[1];
       CAPTURE(columns);
       CAPTURE(rows);
       const Mesh cushion = pillow({.columns = columns, .rows = rows, .size = {0.6, 0.5}, .plane = plane, .gap = 1e-3});

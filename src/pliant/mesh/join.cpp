@@ -223,8 +223,7 @@ class Joiner {
 
   static void sort(std::vector<Index>& indices) {
     std::ranges::sort(indices);
-    const auto repeated = std::ranges::unique(indices);
-    indices.erase(repeated.begin(), repeated.end());
+    indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
   }
 
   Mesh& whole_;
