@@ -10,5 +10,7 @@ inline constexpr std::size_t message_limit = 2000;  // bytes of a message on the
 
 void add_run_command(CLI::App& program, int& exit_code);
 void add_scenes_command(CLI::App& program);
+void add_check_command(CLI::App& program);
+void add_schema_command(CLI::App& program);
 
 }  // namespace pliant_cli

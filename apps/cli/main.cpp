@@ -17,7 +17,8 @@ namespace {
 constexpr std::string_view help_footer = R"(Examples:
   pliant scenes                                  lists the built-in scenes
   pliant run curtain_wind --out out/curtain      simulates one of them
-  pliant run my_scene.json --format obj          simulates your own, one OBJ file a frame
+  pliant check my_scene.json                     says what is in your own, and what is wrong with it
+  pliant run my_scene.json --format obj          simulates it, one OBJ file a frame
 
 Exit codes: 0 done, 2 bad input, 3 diverged, 4 output could not be written, 130 interrupted.)";
 
@@ -50,7 +51,9 @@ int run_program(int argc, char** argv) {
   program.require_subcommand(1);
   int exit_code = 0;
   pliant_cli::add_run_command(program, exit_code);
+  pliant_cli::add_check_command(program);
   pliant_cli::add_scenes_command(program);
+  pliant_cli::add_schema_command(program);
   if (argc > 1) refuse_unknown_command(program, argv[1]);
   try {
     program.parse(argc, argv);

@@ -7,6 +7,7 @@
 #include "pliant/constraints/builtin.h"
 #include "pliant/forces/mouse_spring.h"
 #include "pliant/forces/wind.h"
+#include "pliant/mesh/io/mesh_file.h"
 #include "pliant/scene/scene.h"
 #include "tests/support/temporary_folder.h"
 
@@ -40,6 +41,15 @@ std::string default_text(const Values& values) {
 }
 std::string default_text(const Vec3& v) {
   return "[" + number_text(v[0]) + ", " + number_text(v[1]) + ", " + number_text(v[2]) + "]";
+}
+std::string default_text(const Colour& c) {
+  return "[" + number_text(c.red) + ", " + number_text(c.green) + ", " + number_text(c.blue) + "]";
+}
+std::string default_text(const bool& flag) {
+  return flag ? "true" : "false";
+}
+std::string default_text(const std::array<Index, 2>& pair) {
+  return "[" + number_text(pair[0]) + ", " + number_text(pair[1]) + "]";
 }
 std::string default_text(const Selection&) {
   return "\"all\"";
@@ -89,6 +99,9 @@ TEST_CASE("the example is a sound scene") {
 TEST_CASE("the tables list every option") {
   check_rows<SolverSettings>();
   check_rows<OutputSettings>();
+  check_rows<ViewSettings>();
+  check_rows<Camera>();
+  check_rows<ImportOptions>();
   check_rows<WindOptions>();
   check_rows<MouseSpringOptions>();
   check_constraints(static_cast<BuiltinConstraints*>(nullptr));

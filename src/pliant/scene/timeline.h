@@ -33,6 +33,9 @@ class Timeline {
   /// constraint takes over from where an earlier one has come; among those of one step the last one added counts.
   void apply(Simulation& simulation);
 
+  /// Moves that are still to begin.
+  std::size_t event_count() const { return pending_.size(); }
+
  private:
   struct Motion {
     Vec3 from;

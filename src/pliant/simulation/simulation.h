@@ -18,6 +18,7 @@
 #include "pliant/mesh/mass.h"
 #include "pliant/solver/settings.h"
 #include "pliant/solver/state.h"
+#include "pliant/solver/system_info.h"
 
 namespace pliant {
 
@@ -108,6 +109,9 @@ class Simulation {
   const State& state() const { return state_; }
   /// Replaces positions and velocities (m × 3 each).
   void set_state(const Positions& positions, const Positions& velocities);
+
+  /// Describes the system of equations as the next step has it; factorizes when something has changed.
+  SystemInfo system_info();
 
   /// The name of the back end in use.
   std::string_view backend() const;

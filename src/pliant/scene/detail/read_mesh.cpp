@@ -4,8 +4,10 @@
 #include <array>
 #include <numbers>
 
-#include "pliant/mesh/io/obj.h"
-#include "pliant/scene/detail/json_values.h"
+#include <fmt/ranges.h>
+
+#include "pliant/mesh/io/mesh_file.h"
+#include "pliant/scene/detail/option_reader.h"
 #include "pliant/scene/detail/scene_files.h"
 #include "pliant/scene/detail/shape_options.h"
 
@@ -37,10 +39,18 @@ Mesh read_shape(const Node& node, std::tuple<Shape...>) {
 }
 
 Mesh read_mesh_file(const Node& node) {
-  node.check_keys({"file"});
+  ImportOptions options;
+  read_options(node, options, {"file"});
   const Node file = node.require("file");
+  const std::filesystem::path path = read_path(file);
+  const std::optional<MeshFormat> format = mesh_format(path);
+  if (!format) {
+    constexpr auto known = choice_names(MeshFormat{});
+    file.fail(fmt::format("{}: not the extension of a mesh format; known: .{}", printable_place(path.string()),
+                          fmt::join(known, ", .")));
+  }
   const NamedFile named = read_named_file(file);
-  return file.locate([&] { return read_obj(named.path); });
+  return file.locate([&] { return parse_mesh(named.bytes, named.path.string(), *format, options); });
 }
 
 Mesh read_inline_mesh(const Node& node) {
@@ -106,14 +116,20 @@ void apply_transform(const Node& node, Positions& positions) {
   positions.rowwise() += translation.transpose();
 }
 
-Mass read_mass(const Node& node) {
+Mass read_mass(const Node& node, const Mesh& mesh) {
   std::vector<std::string_view> keys = {"each"};
   for (const auto& [key, make] : masses_of_one_number) keys.push_back(key);
   node.check_keys(keys);
   const std::string_view key = node.require_one_of(keys);
   if (key == "each") {
+    const Node each = node.require(key);
     std::vector<Real> masses;
-    read(node.require(key), masses);
+    if (each.is_object()) {
+      masses = read_mapped_values(each, mesh);
+    } else {
+      each.require_list(static_cast<std::size_t>(mesh.vertex_count()), "masses, one a vertex, or a map");
+      read(each, masses);
+    }
     return Mass::each(std::move(masses));
   }
   Real value = 0;

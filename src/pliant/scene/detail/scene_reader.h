@@ -15,6 +15,7 @@ struct SceneReader {
   Simulation& simulation;
   std::vector<Positions> untransformed = {};  ///< rest positions of each body before its transform; empty: it has none
   std::map<std::string, BodyId, std::less<>> bodies = {};
+  std::map<const Origin*, std::vector<BodyId>> bodies_of = {};  ///< by the text that they stand in
   std::map<std::string, GroupId, std::less<>> groups = {};
 
   SceneBody body(BodyId id) const {
@@ -27,7 +28,8 @@ struct SceneReader {
   void read_force(const Node& node);
   void read_move(const Node& node, Timeline& timeline);
 
-  /// The body that the object's key "body" names; without the key, the only one there is.
+  /// The body that the object's key "body" names; without the key, the only one that stands in the same text, or the
+  /// only one there is.
   BodyId read_body_name(const Node& node) const;
 
  private:
