@@ -13,5 +13,7 @@ void add_info_command(CLI::App& program);
 void add_resume_command(CLI::App& program, int& exit_code);
 void add_run_command(CLI::App& program, int& exit_code);
 void add_scenes_command(CLI::App& program);
+void add_check_command(CLI::App& program);
+void add_schema_command(CLI::App& program);
 
 }  // namespace pliant_cli

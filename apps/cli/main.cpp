@@ -17,8 +17,11 @@ namespace {
 constexpr std::string_view help_footer = R"(Examples:
   pliant scenes                                  lists the built-in scenes
   pliant run curtain_wind --out out/curtain      simulates one of them
-  pliant run my_scene.json --format obj          simulates your own, one OBJ file a frame
+  pliant check my_scene.json                     says what is in your own, and what is wrong with it
+  pliant run my_scene.json --format obj          simulates it, one OBJ file a frame
+  pliant resume out/curtain --steps 900          goes on with a run that ended or was stopped
   pliant convert out/curtain curtain.glb         exports a run as an animation
+  pliant info shirt.ply                          says what a mesh is like, and what is wrong with it
 
 Exit codes: 0 done, 2 bad input, 3 diverged, 4 output could not be written, 130 interrupted.)";
 
@@ -52,9 +55,11 @@ int run_program(int argc, char** argv) {
   int exit_code = 0;
   pliant_cli::add_run_command(program, exit_code);
   pliant_cli::add_resume_command(program, exit_code);
+  pliant_cli::add_check_command(program);
   pliant_cli::add_convert_command(program);
-  pliant_cli::add_scenes_command(program);
   pliant_cli::add_info_command(program);
+  pliant_cli::add_scenes_command(program);
+  pliant_cli::add_schema_command(program);
   if (argc > 1) refuse_unknown_command(program, argv[1]);
   try {
     program.parse(argc, argv);

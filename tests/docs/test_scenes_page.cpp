@@ -8,6 +8,7 @@
 #include "pliant/forces/mouse_spring.h"
 #include "pliant/forces/pressure.h"
 #include "pliant/forces/wind.h"
+#include "pliant/mesh/io/mesh_file.h"
 #include "pliant/mesh/shapes.h"
 #include "pliant/scene/event_options.h"
 #include "pliant/scene/scene.h"
@@ -49,6 +50,12 @@ std::string default_text(const std::array<Number, n>& numbers) {
   std::string text;
   for (const Number number : numbers) text += (text.empty() ? "[" : ", ") + number_text(static_cast<Real>(number));
   return text + "]";
+}
+std::string default_text(const Colour& c) {
+  return "[" + number_text(c.red) + ", " + number_text(c.green) + ", " + number_text(c.blue) + "]";
+}
+std::string default_text(const bool& flag) {
+  return flag ? "true" : "false";
 }
 std::string default_text(const Selection&) {
   return "\"all\"";
@@ -107,6 +114,9 @@ TEST_CASE("the example is a sound scene") {
 TEST_CASE("the tables list every option") {
   check_rows<SolverSettings>();
   check_rows<OutputSettings>();
+  check_rows<ViewSettings>();
+  check_rows<Camera>();
+  check_rows<ImportOptions>();
   check_rows<WindOptions>();
   check_rows<MouseSpringOptions>();
   check_rows<PressureOptions>("\n### `pressure`\n");

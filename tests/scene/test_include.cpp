@@ -124,6 +124,12 @@ TEST_CASE("paths of --set count through all lists") {
   CHECK(files.message_of(text, {.set = {"bodies[2].name=x"}}).find("entries 0 to 1") != std::string::npos);
 }
 
+TEST_CASE("a force that names no body is on the only one of its own text") {
+  const Files files;
+  const Scene scene = files.load(including("[\"chain\", \"bar\"]"));
+  CHECK(scene.simulation.bodies().size() == 2);
+}
+
 TEST_CASE("errors name the file where the value stands") {
   const Files files;
   files.folder.write("parts/slip.json", R"({"pliant": 1, "settings": {"iteratons": 3}})");

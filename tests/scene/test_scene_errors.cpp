@@ -135,7 +135,7 @@ TEST_CASE("what a lower layer refuses gets the place in front") {
       {"\"iterations\": 3", "\"threads\": -1", "s.json: settings.threads: -1 is out of range", "from 0"},
       {"\"columns\": 3", "\"columns\": 1", "s.json: bodies[0].mesh: ", "columns"},
       {"\"total\": 1", "\"total\": 0", "s.json: bodies[0].mass: ", "sheet"},
-      {"\"total\": 1", "\"each\": [1, 2]", "s.json: bodies[0].mass: ", "2"},
+      {"\"total\": 1", "\"each\": [1, 2]", "s.json: bodies[0].mass.each: the list has 2 entries; give 9"},
       {"{\"shape\": \"grid\", \"columns\": 3, \"rows\": 3}", "{\"file\": \"none.obj\"}",
        "s.json: bodies[0].mesh.file: none.obj: no such file"},
       {"{\"shape\": \"grid\", \"columns\": 3, \"rows\": 3}", "{\"file\": \"none.obj\\u0000.ply\"}",

@@ -57,9 +57,8 @@ ConstraintSet from_arrays(const BodyView& body, const Bending& options) {
   if (options.cotangents.size() != count || options.areas.empty()) {
     fail_input("bending: stencils need one list of cotangents each and areas; give both, or leave out the stencils");
   }
-  check_length(type, "areas", options.areas, count);
-  check_length(type, "stiffness", options.stiffness, count);
-  const StiffnessSplit stiffness(options.stiffness);
+  const Values areas = of_stencils(type, body, "areas", options.areas, options.stencils);
+  const StiffnessSplit stiffness(type, body, options.stiffness, options.stencils);
   CurvatureBatches<SignedFanCurvature> batches(body, options.orientation, stiffness.common());
   for (Index i = 0; i < count; ++i) {
     const std::span<const Index> stencil = options.stencils[i];
@@ -68,7 +67,7 @@ ConstraintSet from_arrays(const BodyView& body, const Bending& options) {
                  std::to_string(options.cotangents[i].size()) +
                  " cotangents; give the centre, its neighbours, and one cotangent for each neighbour");
     }
-    add_fan(batches, stencil, options.cotangents[i], options.areas[i], stiffness.of(i));
+    add_fan(batches, stencil, options.cotangents[i], areas[i], stiffness.of(i));
   }
   return batches.take();
 }
@@ -96,8 +95,7 @@ ConstraintSet build(const BodyView& body, const Bending& options) {
     candidates.add(stencil);
   }
   const Stencils chosen = choose_stencils(type, body, options.on, {}, candidates, 0);
-  check_length(type, "stiffness", options.stiffness, chosen.size());
-  const StiffnessSplit stiffness(options.stiffness);
+  const StiffnessSplit stiffness(type, body, options.stiffness, chosen);
   CurvatureBatches<SignedFanCurvature> batches(body, options.orientation, stiffness.common());
   for (Index i = 0; i < chosen.size(); ++i) {
     const Fan fan = fan_of(body.rest.vertices, chosen[i][0], chosen[i].subspan(1));

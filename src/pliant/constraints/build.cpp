@@ -83,20 +83,52 @@ void check_length(std::string_view type, std::string_view option, std::size_t le
              std::to_string(count) + " constraints; give one for all, or one each");
 }
 
+Values of_stencils(std::string_view type, const BodyView& body, std::string_view option, const Values& values,
+                   const Stencils& stencils) {
+  if (!values.of_vertices()) {
+    check_length(type, option, values, stencils.size());
+    return values;
+  }
+  if (values.list().size() != static_cast<std::size_t>(body.rest.vertex_count())) {
+    fail_input(fmt::format("{}: {} has {} values for {} vertices; give one for each vertex", place(type, body), option,
+                           values.list().size(), body.rest.vertex_count()));
+  }
+  std::vector<Real> means;
+  means.reserve(static_cast<std::size_t>(stencils.size()));
+  for (Index i = 0; i < stencils.size(); ++i) {
+    Real sum = 0;
+    for (const Index vertex : stencils[i]) sum += values[vertex];
+    means.push_back(sum / static_cast<Real>(stencils[i].size()));
+  }
+  return Values(std::move(means));
+}
+
+namespace {
+
+/// For an option that cannot do without.
 void check_given(std::string_view option, const Values& values) {
   if (values.each() || !values.empty()) return;
   fail_input(std::string(option) + ": there is none; give one for all constraints, or one each");
 }
 
-void check_limits(std::string_view type, const Values& min_stretch, const Values& max_stretch, Index count) {
-  check_given("min_stretch", min_stretch);
-  check_given("max_stretch", max_stretch);
-  check_length(type, "min_stretch", min_stretch, count);
-  check_length(type, "max_stretch", max_stretch, count);
-  for (Index i = 0; i < count; ++i) {
-    if (min_stretch[i] <= max_stretch[i]) continue;
-    fail_input(fmt::format("{}: min_stretch {} is above max_stretch {} at constraint {}; exchange them", type,
-                           min_stretch[i], max_stretch[i], i));
+}  // namespace
+
+StiffnessSplit::StiffnessSplit(std::string_view type, const BodyView& body, const Values& stiffness,
+                               const Stencils& stencils)
+    : values_(of_stencils(type, body, "stiffness", stiffness, stencils)) {
+  check_given("stiffness", values_);
+}
+
+StretchLimits::StretchLimits(std::string_view type, const BodyView& body, const Values& min, const Values& max,
+                             const Stencils& stencils)
+    : min_(of_stencils(type, body, "min_stretch", min, stencils)),
+      max_(of_stencils(type, body, "max_stretch", max, stencils)) {
+  check_given("min_stretch", min_);
+  check_given("max_stretch", max_);
+  for (Index i = 0; i < stencils.size(); ++i) {
+    if (min_[i] <= max_[i]) continue;
+    fail_input(fmt::format("{}: min_stretch {} is above max_stretch {} at constraint {}; exchange them", type, min_[i],
+                           max_[i], i));
   }
 }
 

@@ -24,21 +24,37 @@ Stencils every_vertex(const BodyView& body);
 /// Vertices of the body that are selected: one flag each. Throws on an index out of range.
 std::vector<char> selected_vertices(std::string_view type, const BodyView& body, const Selection& on);
 
-/// Throws unless 0 ≤ min ≤ max for each of `count` constraints.
-void check_limits(std::string_view type, const Values& min_stretch, const Values& max_stretch, Index count);
-
 /// Throws unless the area or volume of element i at rest is positive and finite; `remedy` begins with its name.
 void check_rest_measure(std::string_view type, const BodyView& body, Index i, Real measure, std::string_view remedy);
 
-/// Throws when there is no value at all, for an option that cannot do without.
-void check_given(std::string_view option, const Values& values);
+/// The values as the constraints on these stencils have them: means of what is given for each vertex. Throws unless one
+/// is for all, or there are as many as constraints, or as vertices.
+Values of_stencils(std::string_view type, const BodyView& body, std::string_view option, const Values& values,
+                   const Stencils& stencils);
 
 /// Stiffness as a group has it: the common factor, and the factor of constraint i that goes into its measure.
-struct StiffnessSplit {
-  explicit StiffnessSplit(const Values& stiffness) : values(stiffness) { check_given("stiffness", stiffness); }
-  Real common() const { return values.each() ? 1 : values[0]; }
-  Real of(Index i) const { return values.each() ? values[i] : 1; }
-  const Values& values;
+class StiffnessSplit {
+ public:
+  /// Throws as of_stencils, and when there is none.
+  StiffnessSplit(std::string_view type, const BodyView& body, const Values& stiffness, const Stencils& stencils);
+  Real common() const { return values_.each() ? 1 : values_[0]; }
+  Real of(Index i) const { return values_.each() ? values_[i] : 1; }
+
+ private:
+  Values values_;
+};
+
+/// The smallest and the largest stretch of each constraint.
+class StretchLimits {
+ public:
+  /// Throws as of_stencils, when there is none, and unless 0 ≤ min ≤ max for each constraint.
+  StretchLimits(std::string_view type, const BodyView& body, const Values& min, const Values& max,
+                const Stencils& stencils);
+  std::array<Real, 2> operator[](Index i) const { return {min_[i], max_[i]}; }
+
+ private:
+  Values min_;
+  Values max_;
 };
 
 /// The stencil moved from the body's own indices to those of the simulation.

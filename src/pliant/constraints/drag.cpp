@@ -36,9 +36,8 @@ ConstraintSet build(const BodyView& body, const Drag& options) {
   choose_stencils(type, body, {}, options.stencils, {}, 0);
   check_length(type, "weights", static_cast<std::size_t>(options.weights.size()), !options.weights.empty(), count);
   check_length(type, "targets", options.targets, count);
-  check_length(type, "stiffness", options.stiffness, count);
 
-  const StiffnessSplit stiffness(options.stiffness);
+  const StiffnessSplit stiffness(type, body, options.stiffness, options.stencils);
   ConstraintSet set;
   set.count = count;
   Batch<DragProjection>* batch = nullptr;

@@ -13,8 +13,8 @@ Stencils mesh_edges(const BodyView& body) {
 }
 
 std::vector<Real> rest_lengths(std::string_view type, const BodyView& body, const Stencils& edges,
-                               const Values& given) {
-  check_length(type, "rest_length", given, edges.size());
+                               const Values& option) {
+  const Values given = of_stencils(type, body, "rest_length", option, edges);
   std::vector<Real> lengths;
   lengths.reserve(static_cast<std::size_t>(edges.size()));
   for (Index i = 0; i < edges.size(); ++i) {

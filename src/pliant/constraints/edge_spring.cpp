@@ -8,10 +8,9 @@ namespace pliant {
 ConstraintSet build(const BodyView& body, const EdgeSpring& options) {
   constexpr std::string_view type = EdgeSpring::info.name;
   const Stencils chosen = choose_stencils(type, body, options.on, options.stencils, mesh_edges(body), 2);
-  check_length(type, "stiffness", options.stiffness, chosen.size());
   const std::vector<Real> rest_length = rest_lengths(type, body, chosen, options.rest_length);
 
-  const StiffnessSplit stiffness(options.stiffness);
+  const StiffnessSplit stiffness(type, body, options.stiffness, chosen);
   auto batch = std::make_unique<Batch<EdgeSpringProjection>>(stiffness.common());
   const std::array<Real, 2> difference = {-1, 1};
   for (Index i = 0; i < chosen.size(); ++i) {

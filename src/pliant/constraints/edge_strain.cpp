@@ -34,12 +34,11 @@ std::vector<Real> adjacent_areas(const BodyView& body, const Stencils& edges) {
 ConstraintSet build(const BodyView& body, const EdgeStrain& options) {
   constexpr std::string_view type = EdgeStrain::info.name;
   const Stencils chosen = choose_stencils(type, body, options.on, options.stencils, mesh_edges(body), 2);
-  check_length(type, "stiffness", options.stiffness, chosen.size());
-  check_limits(type, options.min_stretch, options.max_stretch, chosen.size());
+  const StretchLimits limits(type, body, options.min_stretch, options.max_stretch, chosen);
   const std::vector<Real> rest_length = rest_lengths(type, body, chosen, options.rest_length);
   const std::vector<Real> measure = options.measure == FibreMeasure::rope ? rest_length : adjacent_areas(body, chosen);
 
-  const StiffnessSplit stiffness(options.stiffness);
+  const StiffnessSplit stiffness(type, body, options.stiffness, chosen);
   auto batch = std::make_unique<Batch<EdgeStrainProjection>>(stiffness.common());
   for (Index i = 0; i < chosen.size(); ++i) {
     const auto c = static_cast<std::size_t>(i);
@@ -49,8 +48,7 @@ ConstraintSet build(const BodyView& body, const EdgeStrain& options) {
     }
     const Real inverse = 1 / rest_length[c];
     const std::array<Real, 2> difference = {-inverse, inverse};
-    const std::array<Real, 2> limits = {options.min_stretch[i], options.max_stretch[i]};
-    batch->add(global_stencil(body, chosen[i]), difference, stiffness.of(i) * measure[c], limits);
+    batch->add(global_stencil(body, chosen[i]), difference, stiffness.of(i) * measure[c], limits[i]);
   }
   return one_part(std::move(batch));
 }

@@ -31,8 +31,7 @@ ConstraintSet build(const BodyView& body, const HingeBending& options) {
   constexpr std::string_view type = HingeBending::info.name;
   const Hinges all = hinges(body.rest);
   const Stencils chosen = choose_stencils(type, body, options.on, options.stencils, to_stencils(all.stencils), 4);
-  check_length(type, "stiffness", options.stiffness, chosen.size());
-  const StiffnessSplit stiffness(options.stiffness);
+  const StiffnessSplit stiffness(type, body, options.stiffness, chosen);
   CurvatureBatches<SignedHingeCurvature> batches(body, options.orientation, stiffness.common());
   for (Index i = 0; i < chosen.size(); ++i) {
     const auto corner = [&](std::size_t j) { return row(body.rest.vertices, chosen[i][j]); };

@@ -8,12 +8,11 @@ namespace pliant {
 ConstraintSet build(const BodyView& body, const Line& options) {
   constexpr std::string_view type = Line::info.name;
   const Stencils chosen = choose_stencils(type, body, options.on, options.stencils, every_vertex(body), 1);
-  check_length(type, "stiffness", options.stiffness, chosen.size());
   check_length(type, "origin", options.origin, chosen.size());
   check_length(type, "direction", options.direction, chosen.size());
   if (options.direction.empty()) fail_input("line: direction is missing; give a vector such as [1, 0, 0]");
 
-  const StiffnessSplit stiffness(options.stiffness);
+  const StiffnessSplit stiffness(type, body, options.stiffness, chosen);
   auto batch = std::make_unique<Batch<LineProjection>>(stiffness.common());
   const Real one = 1;
   for (Index i = 0; i < chosen.size(); ++i) {

@@ -17,11 +17,11 @@ ConstraintSet build(const BodyView& body, const Position& options) {
   constexpr std::string_view type = Position::info.name;
   const Stencils chosen = choose_stencils(type, body, options.on, options.stencils, every_vertex(body), 1);
   check_length(type, "targets", options.targets, chosen.size());
-  check_length(type, "stiffness", options.stiffness, chosen.size());
   const auto target = [&](Index i) {
     return options.targets.empty() ? row(body.start, chosen[i][0]) : options.targets[i];
   };
   if (options.hold == Hold::hard) {
+    of_stencils(type, body, "stiffness", options.stiffness, chosen);  // of no use, but refused where a soft pin would
     auto pins = std::make_unique<HardPins>();
     for (Index i = 0; i < chosen.size(); ++i) pins->add(body.first_vertex + chosen[i][0], target(i));
     ConstraintSet set;
@@ -29,7 +29,7 @@ ConstraintSet build(const BodyView& body, const Position& options) {
     if (set.count > 0) set.parts.push_back(std::move(pins));
     return set;
   }
-  const StiffnessSplit stiffness(options.stiffness);
+  const StiffnessSplit stiffness(type, body, options.stiffness, chosen);
   auto batch = std::make_unique<Batch<PositionProjection>>(stiffness.common());
   const Real one = 1;
   for (Index i = 0; i < chosen.size(); ++i) {

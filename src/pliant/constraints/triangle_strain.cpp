@@ -19,17 +19,15 @@ ConstraintSet build(const BodyView& body, const TriangleStrain& options) {
   constexpr std::string_view type = TriangleStrain::info.name;
   const Stencils chosen =
       choose_stencils(type, body, options.on, options.stencils, to_stencils(body.rest.triangles), 3);
-  check_length(type, "stiffness", options.stiffness, chosen.size());
-  check_limits(type, options.min_stretch, options.max_stretch, chosen.size());
+  const StretchLimits limits(type, body, options.min_stretch, options.max_stretch, chosen);
 
-  const StiffnessSplit stiffness(options.stiffness);
+  const StiffnessSplit stiffness(type, body, options.stiffness, chosen);
   auto batch = std::make_unique<Batch<TriangleStrainProjection>>(stiffness.common());
   for (Index i = 0; i < chosen.size(); ++i) {
     const auto corner = [&](std::size_t j) { return row(body.rest.vertices, chosen[i][j]); };
     const RestElement<3> rest = rest_triangle(corner(0), corner(1), corner(2));
     check_rest_measure(type, body, i, rest.measure, "area; leave it out, or mend its vertices");
-    const std::array<Real, 2> limits = {options.min_stretch[i], options.max_stretch[i]};
-    batch->add(global_stencil(body, chosen[i]), rest.reduction, stiffness.of(i) * rest.measure, limits);
+    batch->add(global_stencil(body, chosen[i]), rest.reduction, stiffness.of(i) * rest.measure, limits[i]);
   }
   return one_part(std::move(batch));
 }

@@ -46,21 +46,30 @@ struct Ragged {
 using Stencils = Ragged<Index>;  ///< vertex indices of each constraint, within its body
 
 /// A number for all constraints of a group, or one for each, or (empty) the one that follows from the rest positions.
+/// Or one for each vertex of the body: then a constraint has the mean of its vertices'.
 class Values {
  public:
   Values() = default;
   Values(Real value) : values_{value} {}
   Values(std::vector<Real> values) : values_(std::move(values)), each_(true) {}
+  static Values of_vertices(std::vector<Real> values) {
+    Values result(std::move(values));
+    result.of_vertices_ = true;
+    return result;
+  }
 
   bool empty() const { return values_.empty(); }
-  /// True when there is one for each constraint.
+  /// True unless one is for all: there is one for each constraint, or for each vertex.
   bool each() const { return each_; }
+  /// True when there is one for each vertex.
+  bool of_vertices() const { return of_vertices_; }
   Real operator[](Index i) const { return values_[each_ ? static_cast<std::size_t>(i) : 0]; }
   const std::vector<Real>& list() const { return values_; }
 
  private:
   std::vector<Real> values_;
   bool each_ = false;
+  bool of_vertices_ = false;
 };
 
 /// A point or a direction for all constraints of a group, or one for each, or none.

@@ -119,6 +119,11 @@ Evaluation Simulation::evaluate() {
   return solver_->evaluate(state_);
 }
 
+SystemInfo Simulation::system_info() {
+  update_problem();
+  return solver_->system_info(state_);
+}
+
 Real Simulation::elastic_energy(GroupId id) const {
   Real energy = 0;
   for (const auto& part : group(id).set.parts) energy += solver_->elastic_energy(*part);

@@ -19,6 +19,7 @@
 #include "pliant/simulation/parts.h"
 #include "pliant/solver/settings.h"
 #include "pliant/solver/state.h"
+#include "pliant/solver/system_info.h"
 
 namespace pliant {
 
@@ -119,6 +120,9 @@ class Simulation {
   /// Goes on from a state of this simulation, or of one with the same bodies: positions, velocities, step and time.
   /// Refuses other masses.
   void restore(const State& state);
+
+  /// Describes the system of equations as the next step has it; factorizes when something has changed.
+  SystemInfo system_info();
 
   /// The name of the back end in use.
   std::string_view backend() const;

@@ -5,6 +5,7 @@
 #include "pliant/solver/factorization/factorization.h"
 #include "pliant/solver/local_step.h"
 #include "pliant/solver/state.h"
+#include "pliant/solver/system_info.h"
 
 namespace pliant {
 
@@ -35,6 +36,9 @@ class Solver {
   /// E(q) before each solve of the last step, of the first `history_limit` solves.
   std::span<const Real> objective_history() const { return history_; }
   static constexpr std::size_t history_limit = 4096;
+
+  /// Describes the system as the next step has it; factorizes when something has changed.
+  SystemInfo system_info(const State& state);
 
   std::string_view backend() const { return factorization_->name(); }
   int thread_count() const { return threads_->thread_count(); }

@@ -1,6 +1,7 @@
 #pragma once
 // Options from JSON, written once over the list that every type makes of its options (core/options.h).
 #include "pliant/scene/detail/json_values.h"
+#include "pliant/scene/detail/read_map.h"
 #include "pliant/scene/detail/selection.h"
 
 namespace pliant {
@@ -36,9 +37,18 @@ struct OptionReader {
     } else if constexpr (std::is_same_v<Option, Stencils>) {
       option = read_stencils(value, body->mesh.vertex_count());
     } else {
+      if constexpr (std::is_same_v<Option, Values>) {
+        if (value.is_object() && body != nullptr) return read_map_option(info, value, option);
+      }
       read(value, option);
       check_range(value, info);
     }
+  }
+
+  void read_map_option(const OptionInfo& info, const Node& value, Values& option) const {
+    std::vector<Real> values = read_mapped_values(value, body->mesh);
+    check_mapped_range(value, values, info);
+    option = Values::of_vertices(std::move(values));
   }
 };
 

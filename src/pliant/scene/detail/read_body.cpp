@@ -45,7 +45,7 @@ void SceneReader::read_body(const Node& node) {
     transform->locate([&] { check_mesh(mesh, printable(options.name)); });
   }
   const Node mass_node = node.require("mass");
-  const Mass mass = read_mass(mass_node);
+  const Mass mass = read_mass(mass_node, mesh);
   mass_node.locate([&] { vertex_masses(mesh, mass, printable(options.name)); });
   const Index vertex_count = mesh.vertex_count();
   check_rows(node, "start_positions", vertex_count);
@@ -56,6 +56,7 @@ void SceneReader::read_body(const Node& node) {
   const std::string name = options.name;
   const BodyId id = node.locate([&] { return simulation.add_body(std::move(mesh), mass, std::move(options)); });
   bodies.emplace(name, id);
+  bodies_of[&node.origin()].push_back(id);
   const auto constraints = node.find("constraints");
   if (!constraints) return;
   constraints->require_list();
@@ -122,7 +123,11 @@ GroupEntry& SceneReader::group(const Node& node) {
 
 BodyId SceneReader::read_body_name(const Node& node) const {
   const auto given = node.find("body");
-  if (!given && bodies.size() == 1) return bodies.begin()->second;
+  if (!given) {
+    if (bodies.size() == 1) return bodies.begin()->second;
+    const auto own = bodies_of.find(&node.origin());
+    if (own != bodies_of.end() && own->second.size() == 1) return own->second.front();
+  }
   if (!given) node.fail("there are several bodies; name one with the key 'body'");
   std::string name;
   read(*given, name);

@@ -159,10 +159,16 @@ constexpr std::array masses_of_one_number = {
     MassOfOneNumber{"line_density", Mass::line_density},
 };
 
-Mass read_mass(const Node& node, std::string_view key) {
+/// One number for all, or of `each` vertex one.
+Mass read_mass(const Node& node, std::string_view key, const Mesh& mesh) {
   if (key == "each") {
     std::vector<Real> masses;
-    read(node, masses);
+    if (node.is_object()) {
+      masses = read_mapped_values(node, mesh);
+    } else {
+      node.require_list(static_cast<std::size_t>(mesh.vertex_count()), "masses, one a vertex, or a map");
+      read(node, masses);
+    }
     return Mass::each(std::move(masses));
   }
   Real value = 0;
@@ -185,7 +191,7 @@ void apply_transform(const Node& node, Positions& positions) {
   positions.rowwise() += translation.transpose();
 }
 
-Mass read_mass(const Node& node) {
+Mass read_mass(const Node& node, const Mesh& mesh) {
   Keys keys = {"each"};
   Keys given;
   for (const auto& [key, make] : masses_of_one_number) {
@@ -199,7 +205,7 @@ Mass read_mass(const Node& node) {
   if (!is_sum) given = {node.require_one_of(keys)};
   std::optional<Mass> sum;
   for (const std::string_view key : given) {
-    Mass mass = read_mass(node.require(key), key);
+    Mass mass = read_mass(node.require(key), key, mesh);
     sum = sum ? *std::move(sum) + mass : std::move(mass);
   }
   return *std::move(sum);

@@ -11,7 +11,7 @@ Mesh read_mesh(const Node& node);
 /// Scales, then turns, then moves.
 void apply_transform(const Node& node, Positions& positions);
 
-/// One of the ways to say a mass; the keys are the names of class Mass.
-Mass read_mass(const Node& node);
+/// One of the ways to say a mass; the keys are the names of class Mass. `mesh` is what maps refer to.
+Mass read_mass(const Node& node, const Mesh& mesh);
 
 }  // namespace pliant

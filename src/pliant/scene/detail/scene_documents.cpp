@@ -1,6 +1,7 @@
 #include "pliant/scene/detail/scene_documents.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -142,7 +143,11 @@ void SceneDocuments::apply_overrides() {
     set(std::move(name), path, std::move(document));
   };
   const auto set_number = [&](std::string_view path, const auto& value) {
-    if (value) set_typed(path, fmt::format("{}", *value));
+    if (!value) return;
+    if (!std::isfinite(static_cast<Real>(*value))) {
+      fail_at(fmt::format("{}={}", path, *value), "", "not a finite number; give one");
+    }
+    set_typed(path, fmt::format("{}", *value));
   };
   set_number("steps", overrides.steps);
   set_number("settings.time_step", overrides.time_step);

@@ -23,6 +23,7 @@ struct SceneReader {
   Simulation& simulation;
   std::vector<Positions> untransformed = {};  ///< rest positions of each body before its transform; empty: it has none
   std::map<std::string, BodyId, std::less<>> bodies = {};
+  std::map<const Origin*, std::vector<BodyId>> bodies_of = {};  ///< by the text that they stand in
   std::map<std::string, GroupEntry, std::less<>> groups = {};
   std::map<std::string, ForceOptions, std::less<>> forces = {};
   std::vector<std::string> later_groups = {};  ///< names of groups that events add
@@ -41,7 +42,8 @@ struct SceneReader {
   /// and tried out; the simulation is as before then. `roots`: the scenes that have such lists.
   void read_events(std::span<const Node> roots, Timeline& timeline);
 
-  /// The body that the object's key "body" names; without the key, the only one there is.
+  /// The body that the object's key "body" names; without the key, the only one that stands in the same text, or the
+  /// only one there is.
   BodyId read_body_name(const Node& node) const;
 
   /// The group of a name; refuses a name that there is not.

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
+#include <limits>
 
 #include <fmt/format.h>
 
 #include "pliant/mesh/geometry.h"
 #include "pliant/mesh/topology.h"
 #include "pliant/scene/detail/json_values.h"
+#include "pliant/scene/detail/read_map.h"
 #include "pliant/scene/nearest_names.h"
 
 namespace pliant {
@@ -21,6 +22,14 @@ std::vector<Index> vertices_where(const Positions& x, auto&& predicate) {
   std::vector<Index> chosen;
   for (Index i = 0; i < x.rows(); ++i) {
     if (predicate(row(x, i))) chosen.push_back(i);
+  }
+  return chosen;
+}
+
+std::vector<Index> flagged(const std::vector<char>& flags) {
+  std::vector<Index> chosen;
+  for (std::size_t i = 0; i < flags.size(); ++i) {
+    if (flags[i] != 0) chosen.push_back(static_cast<Index>(i));
   }
   return chosen;
 }
@@ -70,6 +79,84 @@ std::vector<Index> nearest(const Node& node, const SceneBody& body) {
   return chosen;
 }
 
+/// The corners of the faces in every group, object or material of that name.
+std::vector<Index> in_group(const Node& node, const SceneBody& body) {
+  std::string name;
+  read(node, name);
+  const Mesh& mesh = body.mesh;
+  std::vector<std::string_view> names;
+  std::vector<char> flags(static_cast<std::size_t>(mesh.vertex_count()), 0);
+  bool found = false;
+  for (const FaceGroup& group : mesh.groups) {
+    if (std::ranges::find(names, group.name) == names.end()) names.push_back(group.name);
+    if (group.name != name) continue;
+    found = true;
+    for (const Index face : group.faces) {
+      const auto f = static_cast<std::size_t>(face);
+      for (Index c = mesh.faces.offsets[f]; c < mesh.faces.offsets[f + 1]; ++c) {
+        flags[static_cast<std::size_t>(mesh.faces.vertices[static_cast<std::size_t>(c)])] = 1;
+      }
+    }
+  }
+  if (names.empty()) node.fail("the mesh has no groups; select by place, or take a mesh from OBJ that has some");
+  if (!found) {
+    node.fail(fmt::format("the mesh has no group, object or material '{}'; known, the nearest first: {}",
+                          printable(name), nearest_names_text(name, names)));
+  }
+  return flagged(flags);
+}
+
+std::vector<Index> in_map(const Node& node, const SceneBody& body) {
+  node.check_keys({"map", "above", "below"});
+  if (!node.has("above") && !node.has("below")) node.fail("give 'above' or 'below', or both");
+  Real above = -std::numeric_limits<Real>::infinity();
+  Real below = std::numeric_limits<Real>::infinity();
+  read_optional(node, "above", above);
+  read_optional(node, "below", below);
+  const std::vector<Real> values = read_map(node.require("map"), body.mesh);
+  std::vector<char> flags;
+  for (const Real value : values) flags.push_back(value > above && value < below);
+  return flagged(flags);
+}
+
+std::vector<Index> choose(const Node& node, const SceneBody& body);
+
+/// How many of the selections of a list have each vertex.
+std::vector<std::size_t> counts(const Node& list, const SceneBody& body) {
+  list.require_list();
+  if (list.empty()) list.fail("the list is empty; give selections");
+  std::vector<std::size_t> counts(static_cast<std::size_t>(body.mesh.vertex_count()), 0);
+  std::vector<std::size_t> last(counts.size(), 0);  // the selection that counted it last, from 1: none counts twice
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    for (const Index vertex : choose(list[i], body)) {
+      const auto v = static_cast<std::size_t>(vertex);
+      counts[v] += last[v] == i + 1 ? 0 : 1;
+      last[v] = i + 1;
+    }
+  }
+  return counts;
+}
+
+std::vector<Index> counted(const std::vector<std::size_t>& counts, std::size_t wanted) {
+  std::vector<char> flags;
+  for (const std::size_t count : counts) flags.push_back(count >= wanted);
+  return flagged(flags);
+}
+
+std::vector<Index> any_of(const Node& node, const SceneBody& body) {
+  return counted(counts(node, body), 1);
+}
+
+std::vector<Index> all_of(const Node& node, const SceneBody& body) {
+  return counted(counts(node, body), node.size());
+}
+
+std::vector<Index> none_of(const Node& node, const SceneBody& body) {
+  std::vector<char> flags(static_cast<std::size_t>(body.mesh.vertex_count()), 1);
+  for (const Index vertex : choose(node, body)) flags[static_cast<std::size_t>(vertex)] = 0;
+  return flagged(flags);
+}
+
 struct ByName {
   std::string_view name;
   std::vector<Index> (*choose)(const SceneBody&);
@@ -83,8 +170,12 @@ struct ByPlace {
   std::string_view key;
   std::vector<Index> (*choose)(const Node&, const SceneBody&);
 };
-constexpr std::array by_place = {ByPlace{"box", in_box}, ByPlace{"half_space", in_half_space},
-                                 ByPlace{"nearest", nearest}};
+constexpr std::array by_place = {
+    ByPlace{"box", in_box},      ByPlace{"half_space", in_half_space},
+    ByPlace{"nearest", nearest}, ByPlace{"group", in_group},
+    ByPlace{"any_of", any_of},   ByPlace{"all_of", all_of},
+    ByPlace{"not", none_of},
+};
 
 std::vector<Index> named(const Node& node, const SceneBody& body) {
   std::string name;
@@ -98,20 +189,29 @@ std::vector<Index> named(const Node& node, const SceneBody& body) {
 }
 
 std::vector<Index> placed(const Node& node, const SceneBody& body) {
+  if (node.has("map")) return in_map(node, body);
   std::vector<std::string_view> keys;
   for (const ByPlace& entry : by_place) keys.push_back(entry.key);
+  keys.push_back("map");
   node.check_keys(keys);
   const std::string_view key = node.require_one_of(keys);
   return std::ranges::find(by_place, key, &ByPlace::key)->choose(node.require(key), body);
+}
+
+/// The vertices meant, of which there may be none.
+std::vector<Index> choose(const Node& node, const SceneBody& body) {
+  if (node.is_list()) return read_vertices(node, body.mesh.vertex_count());
+  if (node.is_object()) return placed(node, body);
+  if (!node.is_text()) node.fail_type("\"all\", a list of vertices, or {\"box\": ...}");
+  if (node.text() == "all") return flagged(std::vector<char>(static_cast<std::size_t>(body.mesh.vertex_count()), 1));
+  return named(node, body);
 }
 
 }  // namespace
 
 Selection read_selection(const Node& node, const SceneBody& body) {
   if (node.is_text() && node.text() == "all") return {};
-  if (node.is_list()) return read_vertices(node, body.mesh.vertex_count());
-  if (!node.is_text() && !node.is_object()) node.fail_type("\"all\", a list of vertices, or {\"box\": ...}");
-  std::vector<Index> vertices = node.is_text() ? named(node, body) : placed(node, body);
+  std::vector<Index> vertices = choose(node, body);
   if (vertices.empty()) {
     const BoundingBox box = bounding_box(body.mesh.vertices);
     node.fail(fmt::format("no vertex is selected; the body spans ({:g}, {:g}, {:g}) to ({:g}, {:g}, {:g})", box.min[0],

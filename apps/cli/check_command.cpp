@@ -1,0 +1,223 @@
+// pliant check: reads a scene as a run would, and says what is in it.
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <numeric>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <sys/resource.h>
+
+#include "commands.h"
+#include "pliant/core/printable.h"
+#include "pliant/mesh/geometry.h"
+#include "scene_options.h"
+
+namespace pliant_cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using pliant::Body;
+using pliant::Index;
+using pliant::Real;
+using pliant::Scene;
+using pliant::Simulation;
+using pliant::SystemInfo;
+
+struct CheckOptions : SceneArguments {
+  bool as_json = false;
+};
+
+/// The most memory that this process has held so far [bytes].
+std::int64_t peak_memory() {
+  struct rusage usage = {};
+  getrusage(RUSAGE_SELF, &usage);
+  return std::int64_t{1024} * usage.ru_maxrss;
+}
+
+Real mass_of(const Body& body, const Simulation& simulation) {
+  const auto masses = simulation.state().masses.begin() + body.first_vertex;
+  return std::accumulate(masses, masses + body.mesh.vertex_count(), Real(0));
+}
+
+/// The share of its swing that a vibration of this frequency [rad/s] loses in a step of implicit Euler.
+Real loss_per_step(Real frequency, Real time_step) {
+  return 1 - 1 / std::hypot(1, frequency * time_step);
+}
+
+/// The frequency [Hz] at which half of the swing is gone after a second: ½ ln(1 + h²ω²)/h = ln 2.
+Real half_life_frequency(Real time_step) {
+  const Real exponent = std::min(2 * std::numbers::ln2 * time_step, Real(700));
+  return std::sqrt(std::expm1(exponent)) / time_step / (2 * std::numbers::pi);
+}
+
+std::string frequency_text(const SystemInfo& info, Real time_step) {
+  const Real product = info.fastest_frequency * time_step;
+  std::string text =
+      fmt::format("{:.3g} rad/s = {:.3g} Hz; times the time step of {:.3g} s: {:.3g}\n", info.fastest_frequency,
+                  info.fastest_frequency / (2 * std::numbers::pi), time_step, product);
+  if (!(info.fastest_frequency > 0)) return text + "  nothing vibrates: no constraint moves a free vertex";
+  text += fmt::format("  the fastest vibration loses {:.0f} % of its swing in each step",
+                      100 * loss_per_step(info.fastest_frequency, time_step));
+  text += product > 1 ? ", so it is not seen; it is stable all the same\n" : "\n";
+  text += fmt::format(
+      "  what swings faster than {:.2g} Hz loses half of it in a second; a quarter of the time step doubles that",
+      half_life_frequency(time_step));
+  return text;
+}
+
+/// What a run would not refuse, but is seldom meant.
+std::vector<std::string> warnings_of(const Simulation& simulation, const SystemInfo& info) {
+  std::vector<std::string> warnings = simulation.warnings();
+  for (const pliant::FreePart& part : info.free_parts) {
+    const Body* owner = &simulation.bodies().front();
+    for (const Body& body : simulation.bodies()) {
+      if (body.first_vertex <= part.first_vertex) owner = &body;
+    }
+    constexpr std::size_t shown = 20;
+    if (warnings.size() >= simulation.warnings().size() + shown) {
+      warnings.push_back(fmt::format("and {} more parts that nothing holds", info.free_parts.size() - shown));
+      break;
+    }
+    warnings.push_back(fmt::format("nothing holds the {} vertices from vertex {} of '{}' on: they will move freely",
+                                   part.vertex_count, part.first_vertex - owner->first_vertex, owner->name));
+  }
+  return warnings;
+}
+
+Json describe_bodies(const Simulation& simulation) {
+  Json bodies = Json::array();
+  for (const Body& body : simulation.bodies()) {
+    const pliant::BoundingBox box = pliant::bounding_box(body.mesh.vertices);
+    const pliant::Vec3 size = box.max - box.min;
+    bodies.push_back({{"name", body.name},
+                      {"vertices", body.mesh.vertex_count()},
+                      {"edges", body.mesh.edges.size()},
+                      {"triangles", body.mesh.triangles.size()},
+                      {"tetrahedra", body.mesh.tetrahedra.size()},
+                      {"mass", mass_of(body, simulation)},
+                      {"size", {size[0], size[1], size[2]}}});
+  }
+  return bodies;
+}
+
+Json describe_groups(const Simulation& simulation) {
+  Json groups = Json::array();
+  for (const auto& [id, group] : simulation.groups()) {
+    groups.push_back({{"name", group.name},
+                      {"type", group.type},
+                      {"body", simulation.body(group.body).name},
+                      {"constraints", group.set.count},
+                      {"skipped", group.set.skipped}});
+  }
+  return groups;
+}
+
+Json describe(Scene& scene) {
+  Simulation& simulation = scene.simulation;
+  const SystemInfo info = simulation.system_info();
+  const Real time_step = simulation.settings().time_step;
+  std::map<std::string, std::int64_t> counts;
+  for (const auto& [id, group] : simulation.groups()) counts[group.type] += group.set.count;
+  Json forces = Json::array();
+  for (const auto& [id, force] : simulation.forces()) forces.push_back(force->type());
+  Json files = Json::array();
+  for (const pliant::SceneFile& file : scene.files) files.push_back({{"path", file.path}, {"bytes", file.size}});
+  const Index vertices = simulation.state().vertex_count();
+  return {{"scene", scene.name},
+          {"description", scene.description},
+          {"steps", scene.steps},
+          {"seconds", static_cast<Real>(scene.steps) * time_step},
+          {"time_step", time_step},
+          {"iterations", simulation.settings().iterations},
+          {"backend", simulation.backend()},
+          {"bodies", describe_bodies(simulation)},
+          {"constraints", counts},
+          {"groups", describe_groups(simulation)},
+          {"forces", std::move(forces)},
+          {"events", scene.timeline.event_count()},
+          {"files", std::move(files)},
+          {"vertices", {{"all", vertices}, {"held", info.held_vertices}, {"free", vertices - info.held_vertices}}},
+          {"free_parts", info.free_parts.size()},
+          {"system",
+           {{"matrix_entries", info.matrix_entries},
+            {"factor_entries", info.factor_entries},
+            {"bytes", info.bytes},
+            {"peak_memory", peak_memory()}}},
+          {"fastest_frequency",
+           {{"rad_per_s", info.fastest_frequency},
+            {"hz", info.fastest_frequency / (2 * std::numbers::pi)},
+            {"times_time_step", info.fastest_frequency * time_step},
+            {"loss_per_step", loss_per_step(info.fastest_frequency, time_step)},
+            {"half_life_hz", half_life_frequency(time_step)},
+            {"text", frequency_text(info, time_step)}}},
+          {"warnings", warnings_of(simulation, info)}};
+}
+
+/// A value of the description, for the terminal.
+std::string text_of(const Json& value) {
+  return pliant::printable(value.get<std::string>(), 1000);
+}
+
+void print_bodies(const Json& json) {
+  for (const Json& body : json["bodies"]) {
+    fmt::print("body {}: {} vertices", text_of(body["name"]), body["vertices"].get<Index>());
+    for (const char* elements : {"edges", "triangles", "tetrahedra"}) {
+      if (body[elements] != 0) fmt::print(", {} {}", body[elements].get<std::size_t>(), elements);
+    }
+    const Json& size = body["size"];
+    fmt::print("; {:.4g} kg; {:.3g} x {:.3g} x {:.3g} m\n", body["mass"].get<Real>(), size[0].get<Real>(),
+               size[1].get<Real>(), size[2].get<Real>());
+    for (const Json& group : json["groups"]) {
+      if (group["body"] != body["name"]) continue;
+      fmt::print("  {}: {} {}", text_of(group["name"]), group["constraints"].get<Index>(), text_of(group["type"]));
+      if (group["skipped"] != 0) fmt::print(", {} left out", group["skipped"].get<Index>());
+      fmt::print("\n");
+    }
+  }
+}
+
+void print_text(const Json& json) {
+  const auto megabytes = [](const Json& bytes) { return bytes.get<Real>() * 1e-6; };
+  fmt::print("{}: {}\n", text_of(json["scene"]), text_of(json["description"]));
+  fmt::print("{} steps of {:.4g} s = {:.4g} s, {} iterations each\n", json["steps"].get<std::int64_t>(),
+             json["time_step"].get<Real>(), json["seconds"].get<Real>(), json["iterations"].get<Index>());
+  print_bodies(json);
+  fmt::print("forces:");
+  for (const Json& force : json["forces"]) fmt::print(" {}", text_of(force));
+  fmt::print("{}; events: {}\n", json["forces"].empty() ? " none" : "", json["events"].get<std::size_t>());
+  const Json& vertices = json["vertices"];
+  fmt::print("vertices: {}, of which {} free and {} held\n", vertices["all"].get<Index>(),
+             vertices["free"].get<Index>(), vertices["held"].get<Index>());
+  const Json& system = json["system"];
+  fmt::print("system: {} non-zeros in the matrix, {} in the factor ({}), {:.1f} MB; {:.0f} MB in all\n",
+             system["matrix_entries"].get<std::int64_t>(), system["factor_entries"].get<std::int64_t>(),
+             text_of(json["backend"]), megabytes(system["bytes"]), megabytes(system["peak_memory"]));
+  fmt::print("fastest vibration: {}\n", json["fastest_frequency"]["text"].get<std::string>());
+  for (const Json& warning : json["warnings"]) fmt::print("warning: {}\n", text_of(warning));
+  fmt::print("The scene is sound.\n");
+}
+
+void check_scene(const CheckOptions& options) {
+  Scene scene = open_scene(options);
+  const Json json = describe(scene);
+  if (options.as_json) {
+    fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+  } else {
+    print_text(json);
+  }
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("check", "Say what is in a scene, and what is wrong with it");
+  const auto options = std::make_shared<CheckOptions>();
+  add_scene_arguments(*command, *options);
+  add_setting_options(*command, *options);
+  command->add_flag("--json", options->as_json, "As JSON, for programs");
+  command->footer("Example:\n  pliant check my_scene.json --set settings.time_step=0.002");
+  command->callback([options] { check_scene(*options); });
+}
+
+}  // namespace pliant_cli

@@ -1,0 +1,15 @@
+#pragma once
+// The parts of the schema that are lists of types, each where its reader is known.
+#include "pliant/scene/detail/schema_options.h"
+
+namespace pliant {
+
+SchemaJson mesh_schema();
+SchemaJson mass_schema();
+SchemaJson constraint_schema();
+SchemaJson force_schema();
+/// Entries of "moves" and of "events".
+SchemaJson move_schema();
+SchemaJson event_schema();
+
+}  // namespace pliant

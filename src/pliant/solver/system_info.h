@@ -1,0 +1,24 @@
+#pragma once
+// What the system of equations of a simulation is like, for people.
+#include "pliant/core/types.h"
+
+namespace pliant {
+
+/// A part of a simulation that nothing holds: no pin, drag or line, not even a soft one.
+struct FreePart {
+  Index first_vertex = 0;  ///< the lowest of its vertices
+  Index vertex_count = 0;
+};
+
+struct SystemInfo {
+  std::int64_t matrix_entries = 0;  ///< non-zeros of the lower triangle with the diagonal
+  std::int64_t factor_entries = 0;  ///< of L, the zeros that panels carry along included
+  std::int64_t bytes = 0;           ///< that matrix and factor take
+  Index held_vertices = 0;          ///< by hard pins; the others are free
+  std::vector<FreePart> free_parts;
+  /// √λ_max(M⁻¹K) [rad/s], K the sum of the constraints' matrices on the free vertices: no vibration is faster. From
+  /// below, to about a part in a thousand.
+  Real fastest_frequency = 0;
+};
+
+}  // namespace pliant

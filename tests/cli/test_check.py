@@ -1,0 +1,94 @@
+"""pliant check and pliant run --set, as their users meet them."""
+import json
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+PLIANT = os.environ["PLIANT"]
+
+
+class Check(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = pathlib.Path(temporary.name)
+
+    def pliant(self, *arguments, expect=0):
+        done = subprocess.run([PLIANT, *map(str, arguments)], capture_output=True, text=True, timeout=120,
+                              cwd=self.folder)
+        self.assertEqual(done.returncode, expect, done.stderr)
+        if expect == 2:
+            self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+            self.assertTrue(done.stderr.startswith("pliant: error: "), done.stderr)
+        return done
+
+    def test_every_built_in_scene_is_described(self):
+        for line in self.pliant("scenes").stdout.splitlines():
+            name = line.split()[0]
+            with self.subTest(name):
+                text = self.pliant("check", name).stdout
+                self.assertIn("The scene is sound.", text)
+                info = json.loads(self.pliant("check", name, "--json").stdout)
+                self.assertEqual(info["scene"], name)
+                self.assertEqual(sum(group["constraints"] for group in info["groups"]),
+                                 sum(info["constraints"].values()))
+                self.assertEqual(info["vertices"]["all"], sum(body["vertices"] for body in info["bodies"]))
+                self.assertGreaterEqual(info["system"]["factor_entries"], info["system"]["matrix_entries"])
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+    def test_numbers_of_a_small_scene(self):
+        scene = self.folder / "s.json"
+        scene.write_text(json.dumps({
+            "pliant": 1, "steps": 10, "settings": {"time_step": 0.5},
+            "bodies": [{"name": "rod", "mesh": {"vertices": [[0, 0, 0], [2, 0, 0]], "edges": [[0, 1]]},
+                        "mass": {"each": [1, 3]}, "constraints": [{"type": "edge_spring", "stiffness": 12}]}]}))
+        info = json.loads(self.pliant("check", scene, "--json").stdout)
+        self.assertEqual(info["bodies"], [{"name": "rod", "vertices": 2, "edges": 1, "triangles": 0, "tetrahedra": 0,
+                                           "mass": 4.0, "size": [2.0, 0.0, 0.0]}])
+        self.assertAlmostEqual(info["fastest_frequency"]["rad_per_s"], 4)  # sqrt(12 (1 + 1/3))
+        self.assertAlmostEqual(info["fastest_frequency"]["times_time_step"], 2)
+        self.assertAlmostEqual(info["fastest_frequency"]["loss_per_step"], 1 - 5 ** -0.5)
+        self.assertEqual(info["constraints"], {"edge_spring": 1})
+        self.assertEqual(info["system"]["matrix_entries"], 3)
+        self.assertEqual(info["seconds"], 5)
+        self.assertEqual(info["free_parts"], 1)
+        self.assertIn("nothing holds the 2 vertices", info["warnings"][0])
+
+    def test_values_are_set(self):
+        info = json.loads(self.pliant("check", "curtain", "--json", "--set", "steps=7", "--set",
+                                      "bodies[curtain].mesh.columns=5").stdout)
+        self.assertEqual(info["steps"], 7)
+        self.assertEqual(info["bodies"][0]["vertices"], 5 * 41)
+        done = self.pliant("run", "chain", "--set", "steps=2", "--set", "name=two words", "--out", "out")
+        self.assertIn("two words: 2 of 2 steps", done.stdout)
+
+    def test_slips_name_the_option(self):
+        for arguments, wanted in [
+            (["check", "curtain", "--set", "steps=x"], "--set steps=x: a whole number is wanted here"),
+            (["check", "curtain", "--set", "steps"], "there is no '='"),
+            (["check", "curtain", "--set"], "--set"),
+            (["run", "curtain", "--steps", "99999999999999999999"], "--steps: '99999999999999999999' is out of range"),
+            (["run", "curtain", "--steps", "x"], "give a whole number"),
+            (["run", "curtain", "--steps", "1e18"], "without point and exponent"),
+            (["run", "curtain", "--time-step", "0,1"], "--time-step: '0,1'"),
+            (["run", "curtain", "--time-step", "nan"], "not a finite number"),
+            (["run", "curtain", "--time-step", "1e999"], "out of range"),
+            (["chek", "curtain"], "'chek' is no command; known, the nearest first: check"),
+            (["run", "x" * 5000], "neither a file nor a built-in scene"),
+            (["x" * 5000], "is no command"),
+            (["run", "a\x1b[31m\nb"], "neither a file nor a built-in scene"),
+        ]:
+            with self.subTest(arguments=arguments):
+                error = self.pliant(*arguments, expect=2).stderr
+                self.assertIn(wanted, error)
+                self.assertLess(len(error), 1500)
+                self.assertNotIn("\x1b", error)
+
+    def test_the_schema_is_json(self):
+        self.assertIn("$defs", json.loads(self.pliant("schema").stdout))
+
+
+if __name__ == "__main__":
+    unittest.main()
