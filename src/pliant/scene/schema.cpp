@@ -68,17 +68,24 @@ SchemaJson transform_schema() {
        {"translate", schema_reference("vector")}});
 }
 
+SchemaJson all_definitions() {
+  SchemaJson all = definitions();
+  all["transform"] = described(transform_schema(), "of the rest positions: scaled, then turned, then moved");
+  all["mesh"] = mesh_schema();
+  all["mesh_part"] = mesh_part_schema();
+  return all;
+}
+
 SchemaJson body_schema() {
-  return object_schema(
-      {{"name", text("what others refer to it by; default \"body 0\", ...")},
-       {"mesh", mesh_schema()},
-       {"transform", described(transform_schema(), "of the rest positions: scaled, then turned, then moved")},
-       {"mass", mass_schema()},
-       {"start_positions", list_schema(schema_reference("vector"))},
-       {"velocity", schema_reference("vector")},
-       {"velocities", list_schema(schema_reference("vector"))},
-       {"constraints", list_schema(constraint_schema())}},
-      {"mesh", "mass"});
+  return object_schema({{"name", text("what others refer to it by; default \"body 0\", ...")},
+                        {"mesh", schema_reference("mesh")},
+                        {"transform", schema_reference("transform")},
+                        {"mass", mass_schema()},
+                        {"start_positions", list_schema(schema_reference("vector"))},
+                        {"velocity", schema_reference("vector")},
+                        {"velocities", list_schema(schema_reference("vector"))},
+                        {"constraints", list_schema(constraint_schema())}},
+                       {"mesh", "mass"});
 }
 
 SchemaJson include_schema() {
@@ -119,7 +126,7 @@ std::string scene_schema() {
                        {"description", "What to simulate with Pliant; docs/scenes.md says what it means."}};
   schema.update(object_schema(root_properties(), {"pliant"}));
   schema["anyOf"] = {{{"required", {"bodies"}}}, {{"required", {"include"}}}};
-  schema["$defs"] = definitions();
+  schema["$defs"] = all_definitions();
   return schema.dump(1, '\t') + '\n';
 }
 

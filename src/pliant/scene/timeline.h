@@ -28,9 +28,6 @@ class When {
   std::int64_t step() const { return step_.value_or(0); }
   Real time() const { return time_; }
 
-  /// Moves that are still to begin.
-  std::size_t event_count() const { return pending_.size(); }
-
  private:
   When(std::optional<std::int64_t> step, Real time) : step_(step), time_(time) {}
   std::optional<std::int64_t> step_;

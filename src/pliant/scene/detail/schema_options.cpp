@@ -36,4 +36,9 @@ SchemaJson value_schema(const OptionInfo& info, const Values&) {
   return {{"anyOf", {number_schema("number", info.range), std::move(list), schema_reference("mapped_values")}}};
 }
 
+SchemaJson value_schema(const OptionInfo&, const std::vector<Index>&) {
+  const SchemaJson number = {{"type", "integer"}, {"minimum", 0}};
+  return {{"anyOf", {number, list_schema(number)}}};
+}
+
 }  // namespace pliant

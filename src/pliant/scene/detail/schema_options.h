@@ -63,9 +63,13 @@ inline SchemaJson value_schema(const OptionInfo& info, const Ragged<Real>&) {
   return list_schema(list_schema(number_schema("number", info.range)));
 }
 SchemaJson value_schema(const OptionInfo& info, const Values&);
+/// Numbers from 0 up: one, or a list.
+SchemaJson value_schema(const OptionInfo& info, const std::vector<Index>&);
 
 template <class Value>
 SchemaJson value_schema(const OptionInfo& info, const std::optional<Value>&);
+template <class Value>
+SchemaJson value_schema(const OptionInfo& info, const std::vector<Value>&);
 template <class Number, std::size_t n>
 SchemaJson value_schema(const OptionInfo& info, const std::array<Number, n>&);
 template <class Value>
@@ -115,10 +119,6 @@ struct SchemaVisitor {
   void operator()(const OptionInfo& info, const Value& value) const {
     properties[std::string(info.name)] = option_schema(info, value);
   }
-  template <class Value>
-  void operator()(std::string_view key, const Value& value) const {
-    (*this)(OptionInfo{key, "", ""}, value);
-  }
 };
 
 /// The properties of a type that lists its options.
@@ -132,6 +132,11 @@ SchemaJson options_properties(const Options& options = {}) {
 template <class Value>
 SchemaJson value_schema(const OptionInfo& info, const std::optional<Value>&) {
   return value_schema(info, Value{});
+}
+
+template <class Value>
+SchemaJson value_schema(const OptionInfo& info, const std::vector<Value>&) {
+  return list_schema(value_schema(info, Value{}));
 }
 
 template <class Number, std::size_t n>

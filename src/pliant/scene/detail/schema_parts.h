@@ -5,6 +5,7 @@
 namespace pliant {
 
 SchemaJson mesh_schema();
+SchemaJson mesh_part_schema();
 SchemaJson mass_schema();
 SchemaJson constraint_schema();
 SchemaJson force_schema();
