@@ -181,6 +181,11 @@ TEST_CASE("what joining refuses") {
   CHECK(contains(error_of([&] { join(ropes, nan); }), "weld: nan is out of range"));
   std::vector<MeshPart> bad = {{"", chain({})}, {"bad", mesh_of({{0, 0, 0}, {1, 0, 0}}, {{0, 1, 7}})}};
   CHECK(contains(error_of([&] { join(bad, 0); }), "part 'bad': triangle 0"));
+  // Every vertex of the one is as far from every vertex of the other: nearest is a matter of rounding, and of hours.
+  const std::vector<MeshPart> nested = {{"", sphere({.subdivisions = 6, .radius = 1})},
+                                        {"", sphere({.subdivisions = 6, .radius = 1e-9})}};
+  CHECK(contains(error_of([&] { join(nested, 2); }), "weld: 2 m reaches too many vertices; give a smaller one"));
+  CHECK(join(nested, 1e-12).vertex_count() == 2 * 40962);
   bad[1] = {"", mesh_of({{0, nan, 0}})};
   CHECK(contains(error_of([&] { join(bad, 0); }), "part 1: "));
 }

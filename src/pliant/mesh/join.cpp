@@ -30,12 +30,13 @@ class NearestBefore {
   struct Found {
     Index vertex = -1;
     Real distance_squared = 0;
+    std::int64_t looked_at = 0;  ///< vertices on the way
   };
 
   /// The nearest to x that is none of those left out, with an index under `end`, within the distance; of several, the
   /// first by index.
   Found find(const Vec3& x, Index end, Real distance, const std::vector<char>& left_out) const {
-    Query query{x, end, left_out, {-1, distance * distance}};
+    Query query{x, end, left_out, {-1, distance * distance, 0}};
     search(query, 0, order_.size(), 0);
     return query.best;
   }
@@ -74,12 +75,14 @@ class NearestBefore {
   }
 
   void consider(Query& query, Index vertex) const {
+    ++query.best.looked_at;
     if (vertex >= query.end || query.left_out[static_cast<std::size_t>(vertex)] != 0) return;
     const Real distance_squared = (row(x_, vertex) - query.x).squaredNorm();
     const bool is_first = query.best.vertex < 0 || vertex < query.best.vertex;
     if (distance_squared < query.best.distance_squared ||
         (distance_squared == query.best.distance_squared && is_first)) {
-      query.best = {vertex, distance_squared};
+      query.best.vertex = vertex;
+      query.best.distance_squared = distance_squared;
     }
   }
 
@@ -94,11 +97,15 @@ std::vector<Index> merged_vertices(const Positions& x, std::span<const Index> pa
   std::iota(target.begin(), target.end(), 0);
   const NearestBefore tree(x);
   std::vector<char> is_merged(target.size(), 0);
+  // About 50 a vertex, but all of them for a vertex as far from every other: in the middle of a sphere, say.
+  std::int64_t may_look_at = 1'000'000 + 300 * static_cast<std::int64_t>(target.size());
   for (std::size_t part = 1; part < part_ends.size(); ++part) {
     const Index begin = part_ends[part - 1];
     std::map<Index, std::pair<Real, Index>> nearest_of;  // by target: distance squared, vertex
     for (Index v = begin; v < part_ends[part]; ++v) {
       const auto found = tree.find(row(x, v), begin, weld, is_merged);
+      may_look_at -= found.looked_at;
+      if (may_look_at < 0) fail_input(fmt::format("weld: {} m reaches too many vertices; give a smaller one", weld));
       if (found.vertex < 0) continue;
       const std::pair candidate{found.distance_squared, v};
       const auto [entry, is_new] = nearest_of.emplace(found.vertex, candidate);
