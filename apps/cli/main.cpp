@@ -1,7 +1,10 @@
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <filesystem>
 #include <new>
 #include <string>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -33,6 +36,7 @@ int print_error(std::string_view message, pliant::ErrorKind kind) {
 /// What went to standard output may still be lost, to a full disk for one.
 void flush_output() {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
+  if (errno == EPIPE) throw std::system_error(EPIPE, std::generic_category());
   throw pliant::Error(pliant::ErrorKind::output,
                       "the standard output cannot be written; make room, or send it elsewhere");
 }
@@ -83,6 +87,11 @@ int main(int argc, char** argv) {
     return run_program(argc, argv);
   } catch (const pliant::Error& error) {
     return print_error(error.what(), error.kind());
+  } catch (const std::filesystem::filesystem_error& error) {
+    return print_error(error.what(), pliant::ErrorKind::input);
+  } catch (const std::system_error& error) {                                                // of the standard output
+    if (error.code().value() == EPIPE) return static_cast<int>(pliant::ErrorKind::output);  // its reader had enough
+    return print_error(error.what(), pliant::ErrorKind::output);
   } catch (const std::bad_alloc&) {
     return print_error("out of memory; use a smaller mesh or a machine with more", pliant::ErrorKind::input);
   } catch (const std::exception& error) {

@@ -135,8 +135,7 @@ TEST_CASE("groups that come and go have columns from the start, and 0 where they
   const BodyId body = simulation.add_body(grid({.columns = 3, .rows = 3}), Mass::total(1));
   const GroupId springs = simulation.add(body, EdgeSpring{.stiffness = 50}, "springs");
   simulation.add_force(std::make_unique<Gravity>());
-  const std::vector<std::string> later = {"skin", "springs"};
-  Recorder recorder(folder.path(), nullptr, 1, simulation, later);
+  Recorder recorder(folder.path(), nullptr, 1, {"springs", "skin"});
   const auto step = [&] { recorder.record(simulation, simulation.step()); };
   recorder.record(simulation, {});
   simulation.add(body, Position{.on = {6}, .hold = Hold::soft, .stiffness = 70}, "unannounced");

@@ -37,7 +37,7 @@ Json bytes_of(const Vec3& vector) {
 
 /// Paths that hold in whatever folder the run is taken up.
 Json absolute_path(const std::filesystem::path& path) {
-  return bytes_of(std::filesystem::absolute(path).string());
+  return bytes_of((std::filesystem::current_path() / path).string());
 }
 
 Json write_source(const SceneSource& source) {

@@ -1,0 +1,180 @@
+// A run taken up from a checkpoint has the bits of the run without a stop; a checkpoint that was changed is refused.
+#include <algorithm>
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include "pliant/core/error.h"
+#include "pliant/scene/builtin_scenes.h"
+#include "pliant/scene/checkpoint.h"
+#include "tests/support/temporary_folder.h"
+
+using namespace pliant;
+using pliant_tests::TemporaryFolder;
+
+namespace {
+
+/// Everything that may happen to a run: ramps, keyframes, motions under way, groups added, changed, released and
+/// removed, forces changed, another time step.
+constexpr std::string_view busy_scene = R"({
+  "pliant": 1,
+  "steps": 60,
+  "settings": {"iterations": 4, "threads": 1},
+  "bodies": [
+    {"name": "sheet", "mesh": {"shape": "grid", "columns": 9, "rows": 9, "diagonals": "alternating"},
+     "mass": {"area_density": 0.3},
+     "constraints": [
+       {"type": "position", "name": "pins", "on": "corners"},
+       {"type": "triangle_strain", "name": "stretch", "stiffness": 800},
+       {"type": "bending", "name": "bend", "stiffness": 0.001, "orientation": "signed"}]},
+    {"name": "rope", "mesh": {"shape": "chain", "links": 6}, "mass": {"per_vertex": 0.1},
+     "transform": {"translate": [2, 0, 1]},
+     "constraints": [{"type": "position", "name": "hook", "on": [0]}, {"type": "edge_spring", "name": "links"}]}],
+  "forces": [{"type": "wind", "name": "breeze", "velocity": [0, 2, 0], "gust_strength": 0.5}],
+  "moves": [{"group": "hook", "step": 3, "offset": [0.2, 0, 0.1], "over": 0.4}],
+  "events": [
+    {"step": 5, "change": "stretch", "stiffness": 3000, "over": 0.5},
+    {"step": 8, "move": "pins", "rotate": {"axis": [0, 0, 1], "degrees": 40}, "over": 0.5, "ease": "smooth"},
+    {"step": 12, "add": {"body": "sheet", "type": "line", "name": "rail", "on": [40], "direction": [1, 1, 0]}},
+    {"time": 0.31, "add": {"body": "rope", "type": "drag", "name": "hand", "stencils": [[6]], "stiffness": 50}},
+    {"step": 22, "follow": "hand", "body": "sheet", "vertices": 44},
+    {"time": 0.42, "settings": {"time_step": 0.01, "iterations": 6}},
+    {"step": 29, "release": "pins", "vertices": [0]},
+    {"step": 33, "change": "bend", "stiffness": 0.01, "orientation": "absolute"},
+    {"step": 37, "change": "breeze", "velocity": [0, -3, 1]},
+    {"step": 41, "gravity": [0, 0, -3]},
+    {"step": 44, "remove": "rail"},
+    {"time": 0.5, "move": "pins", "keyframes": [{"time": 0.2, "translate": [0, 0.1, 0]}]},
+    {"step": 52, "stop": "hand"}]
+})";
+
+/// Runs to the end, with a checkpoint at every tenth step, and takes each of them up.
+void check_resume(Scene scene) {
+  const TemporaryFolder folder;
+  std::vector<State> states = {scene.simulation.state()};
+  std::vector<std::int64_t> checkpoints;
+  const auto path = [&](std::int64_t step) { return folder.path() / fmt::format("{}.pliant", step); };
+  for (std::int64_t step = 0; step < scene.steps; ++step) {
+    if (step % 10 == 0) {
+      write_checkpoint(path(step), scene);
+      checkpoints.push_back(step);
+    }
+    scene.step();
+    states.push_back(scene.simulation.state());
+  }
+  REQUIRE(checkpoints.size() >= 6);
+  for (const std::int64_t step : checkpoints) {
+    CAPTURE(step);
+    Scene resumed = read_checkpoint(path(step));
+    CHECK(resumed.steps == scene.steps);
+    for (std::int64_t i = step;; ++i) {
+      const State& state = resumed.simulation.state();
+      const State& expected = states[static_cast<std::size_t>(i)];
+      REQUIRE(state.positions == expected.positions);
+      REQUIRE(state.velocities == expected.velocities);
+      REQUIRE(state.step == expected.step);
+      REQUIRE(state.time == expected.time);
+      if (i == scene.steps) break;
+      resumed.step();
+    }
+    // Nothing of the stop is left: the two runs write the same checkpoint.
+    write_checkpoint(folder.path() / "again.pliant", resumed);
+    write_checkpoint(path(scene.steps), scene);
+    CHECK(TemporaryFolder::read(folder.path() / "again.pliant") == TemporaryFolder::read(path(scene.steps)));
+  }
+}
+
+Scene builtin(std::string_view name, const SceneOverrides& overrides) {
+  const auto found = std::ranges::find(builtin_scenes(), name, &BuiltinScene::name);
+  REQUIRE(found != builtin_scenes().end());
+  return parse_scene(found->text, {}, name, overrides);
+}
+
+Scene small_chain() {
+  return parse_scene(R"({"pliant": 1, "bodies": [{"mesh": {"shape": "chain", "links": 2}, "mass": {"total": 1},
+    "constraints": [{"type": "position", "name": "hook", "on": [0]}, {"type": "edge_spring", "name": "links"}]}],
+    "moves": [{"group": "hook", "time": 0, "offset": [1, 0, 0], "over": 1}]})",
+                     {}, "chain.json", {.steps = 9, .threads = 1});
+}
+
+std::string refusal(std::string_view bytes, const ResumeOptions& options = {}) {
+  try {
+    parse_checkpoint(bytes, "run.pliant", options);
+  } catch (const Error& error) {
+    CHECK(error.kind() == ErrorKind::input);
+    return error.what();
+  }
+  return "(taken)";
+}
+
+}  // namespace
+
+TEST_CASE("resume at every tenth step: the same bits") {
+  SUBCASE("a busy scene") {
+    check_resume(parse_scene(busy_scene, {}, "busy.json"));
+  }
+  SUBCASE("the torus, its jumping pins and signed bending") {
+    check_resume(builtin("torus", {.steps = 60}));
+  }
+  SUBCASE("the pillow, with a gas in it") {
+    check_resume(builtin("pillow", {.steps = 60}));
+  }
+}
+
+TEST_CASE("a checkpoint says how far to go, and can be asked to go further") {
+  const TemporaryFolder folder;
+  Scene scene = small_chain();
+  while (scene.simulation.state().step < 9) scene.step();
+  write_checkpoint(folder.path() / "c.pliant", scene);
+  CHECK(read_checkpoint(folder.path() / "c.pliant", {.steps = 12}).steps == 12);
+  CHECK(read_checkpoint(folder.path() / "c.pliant", {.threads = 2}).simulation.settings().threads == 2);
+  const std::string message = refusal(TemporaryFolder::read(folder.path() / "c.pliant"), {.steps = 8});
+  CHECK(message == "run.pliant: 8 steps are asked for, and 9 are taken; ask for more");
+}
+
+TEST_CASE("a checkpoint cut at any length is refused by name") {
+  const TemporaryFolder folder;
+  Scene scene = small_chain();
+  scene.step();
+  write_checkpoint(folder.path() / "c.pliant", scene);
+  const std::string whole = TemporaryFolder::read(folder.path() / "c.pliant");
+  CHECK(refusal(whole) == "(taken)");
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    CAPTURE(size);
+    const std::string message = refusal(std::string_view(whole).substr(0, size));
+    CHECK(message.starts_with("run.pliant: "));
+    CHECK(message.find("checkpoint") != message.npos);
+  }
+  CHECK(refusal(whole + "x").find("damaged") != std::string::npos);
+}
+
+TEST_CASE("a checkpoint with any byte changed is refused by name") {
+  const TemporaryFolder folder;
+  Scene scene = small_chain();
+  scene.step();
+  write_checkpoint(folder.path() / "c.pliant", scene);
+  const std::string whole = TemporaryFolder::read(folder.path() / "c.pliant");
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    for (const int flip : {0x01, 0x80, 0xff}) {
+      CAPTURE(i);
+      std::string changed = whole;
+      changed[i] = static_cast<char>(changed[i] ^ flip);
+      CHECK(refusal(changed).starts_with("run.pliant: "));
+    }
+  }
+}
+
+TEST_CASE("a mesh that was changed since is named") {
+  const TemporaryFolder folder;
+  const auto mesh = folder.path() / "sail.obj";
+  folder.write("sail.obj", "v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n");
+  const Scene scene = parse_scene(R"({"pliant": 1, "bodies": [{"mesh": {"file": "sail.obj"}, "mass": {"total": 1}}]})",
+                                  folder.path(), "s.json");
+  const auto checkpoint = folder.path() / "c.pliant";
+  write_checkpoint(checkpoint, scene);
+  CHECK(refusal(TemporaryFolder::read(checkpoint)) == "(taken)");
+  folder.write("sail.obj", "v 0 0 0\nv 1 0 0\nv 0 0 2\nf 1 2 3\n");
+  CHECK(refusal(TemporaryFolder::read(checkpoint)).find("sail.obj is not as it was") != std::string::npos);
+  std::filesystem::remove(mesh);
+  CHECK(refusal(TemporaryFolder::read(checkpoint)).find("sail.obj: no such file") != std::string::npos);
+}
