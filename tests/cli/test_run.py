@@ -89,7 +89,7 @@ class Run(unittest.TestCase):
         info = self.run_info()
         settings = {"time_step": 0.01, "iterations": 3, "tolerance": 0.5, "threads": 2, "backend": "eigen"}
         self.assertEqual(info["settings"], info["settings"] | settings)
-        files = ["frames.npy", "mesh.obj", "run.json", "measurements.csv"]
+        files = ["frames.npy", "mesh.obj", "run.json", "measurements.csv", "checkpoint.pliant"]
         self.assertEqual(info["output"], {"format": "npy", "every": 3, "files": files})
         self.assertEqual(info["used"]["backend"], "eigen")
 
@@ -102,9 +102,9 @@ class Run(unittest.TestCase):
         self.pliant("run", scene, "--out", self.out, "--format", "obj", "--steps", 2)
         names = sorted(path.name for path in self.out.iterdir())
         frames = [f"frame_0000{i}.obj" for i in range(3)]
-        self.assertEqual(names, frames + ["measurements.csv", "mesh.obj", "run.json"])
+        self.assertEqual(names, ["checkpoint.pliant", *frames, "measurements.csv", "mesh.obj", "run.json"])
         self.pliant("run", scene, "--out", self.out, "--format", "none")
-        self.assertEqual(sorted(path.name for path in self.out.iterdir()), ["measurements.csv", "run.json"])
+        self.assertEqual(sorted(path.name for path in self.out.iterdir()), ["checkpoint.pliant", "measurements.csv", "run.json"])
 
     def test_built_in_scenes(self):
         listing = self.pliant("scenes").stdout
@@ -157,7 +157,7 @@ class Run(unittest.TestCase):
         frames = numpy.load(self.out / "frames.npy")
         self.pliant("run", self.write_scene(), "--out", self.out, "--format", "pc2")
         self.assertEqual(sorted(path.name for path in self.out.iterdir()),
-                         ["frames.pc2", "measurements.csv", "mesh.obj", "run.json"])
+                         ["checkpoint.pliant", "frames.pc2", "measurements.csv", "mesh.obj", "run.json"])
         data = (self.out / "frames.pc2").read_bytes()
         self.assertEqual(struct.unpack("<12siiffi", data[:32]), (b"POINTCACHE2\0", 1, 10, 0.0, 1.0, 21))
         points = numpy.frombuffer(data[32:], dtype="<f4").reshape(21, 10, 3)

@@ -78,7 +78,7 @@ TEST_CASE("without frames there is no mesh") {
   const TemporaryFolder folder;
   begin(folder, "none");
   CHECK(names_in(folder.path()) == Names{"run.json"});
-  CHECK(run_files("none") == Names{"run.json", "measurements.csv"});
+  CHECK(run_files("none") == Names{"run.json", "measurements.csv", "checkpoint.pliant"});
   CHECK(frames_name("none").empty());
 }
 

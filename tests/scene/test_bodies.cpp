@@ -69,9 +69,9 @@ TEST_CASE("what parts refuse") {
   starts(refusal(R"({"parts": [{"shape": "chain"}], "weld": -1})"), "s.json: bodies[0].mesh: weld: -1 is out of range");
   starts(refusal(R"({"shape": "chain", "name": "rope"})"), "s.json: bodies[0].mesh.name: unknown key");
   starts(refusal(R"({"parts": [{"shape": "chain", "copies": {"count": 0}}]})"),
-         "s.json: bodies[0].mesh.parts[0].copies: copies: count: 0 is out of range");
+         "s.json: bodies[0].mesh.parts[0].copies.count: 0 is out of range");
   starts(refusal(R"({"parts": [{"shape": "chain", "copies": {"count": 10001}}]})"),
-         "s.json: bodies[0].mesh.parts[0].copies: copies: count: 10001 is out of range; give a finite number from 1");
+         "s.json: bodies[0].mesh.parts[0].copies.count: 10001 is out of range; give a finite number from 1");
   starts(refusal(R"({"parts": [{"shape": "grid", "columns": 200, "rows": 200, "copies": {"count": 9999}}]})"),
          "s.json: bodies[0].mesh.parts[0].copies: copies ask for 4e+08 vertices; stay under 100000000");
   starts(refusal(R"({"parts": [{"shape": "chain", "name": 5}]})"), "s.json: bodies[0].mesh.parts[0].name: a text");
@@ -86,9 +86,9 @@ TEST_CASE("densities add up, other masses stand alone") {
                                          {"shape": "grid", "columns": 2, "rows": 2}]})";
   const Scene scene = scene_of(mesh, R"({"line_density": 3, "area_density": 6})");
   CHECK(scene.simulation.state().masses == std::vector<Real>{3, 3, 2, 1, 1, 2});
-  starts(refusal(mesh, R"({"line_density": 3})"), "s.json: bodies[0]: body 0: vertex 2 has mass 0");
+  starts(refusal(mesh, R"({"line_density": 3})"), "s.json: bodies[0].mass: body 0: vertex 2 has mass 0");
   starts(refusal(mesh, R"({"line_density": 3, "density": 1})"),
-         "s.json: bodies[0]: body 0: the mass is given as a density");
+         "s.json: bodies[0].mass: body 0: the mass is given as a density");
   starts(refusal(mesh, R"({"line_density": 3, "total": 1})"), "s.json: bodies[0].mass: has both");
   starts(refusal(mesh, R"({"line_density": 3, "area_density": 6, "total": 1})"), "s.json: bodies[0].mass: has both");
 }

@@ -90,7 +90,7 @@ TEST_CASE("a wrong value names the option that it comes from") {
   CHECK(message_of("forces[0].velocity=[1,2").starts_with("--set forces[0].velocity=[1,2:1:5: "));
   CHECK(message_of("forces[0].velocity=[1,2]").starts_with("--set forces[0].velocity=[1,2]: the list has 2 entries"));
   CHECK(message_of("forces[0].velocity[1]=x").starts_with("--set forces[0].velocity[1]=x: a number is wanted here"));
-  CHECK(message_of("bodies[0].mesh.columns=1").starts_with("s.json: bodies[0].mesh: "));
+  CHECK(message_of("bodies[0].mesh.columns=1").starts_with("--set bodies[0].mesh.columns=1: 1 is out of range"));
   CHECK(message_of("name=" + std::string(100000, 'x') + "\x1b[31m").find("(no error)") != std::string::npos);
   CHECK(message_of("steps=" + std::string(100000, 'x') + "\x1b[31m").size() < 400);
   CHECK(message_of("steps=\x1b[31m").find('\x1b') == std::string::npos);

@@ -1,11 +1,11 @@
 """The scene of docs/scenes.md with one thing in it changed: a value of another type or size, a key misspelt or left out."""
 import ast
-import copy
 import json
 import re
 
 import hostile
-from hostile import DONE, INPUT, SOURCE, HostileTest, run_scene_case
+from changes import paths_of, renamed, replaced, text_of, value_at, without
+from hostile import DONE, INPUT, SOURCE, Case, HostileTest, is_sanitized, run_scene_case
 
 # What the scene on the page refers to, as the test of the page writes it.
 PAGE_TEST = (SOURCE / "tests" / "docs" / "test_scenes_page.cpp").read_text()
@@ -21,52 +21,10 @@ def page_scene():
     page = (SOURCE / "docs" / "scenes.md").read_text()
     text = re.search(r"```jsonc\n(.*?)```", page, re.DOTALL)[1]
     scene = json.loads(re.sub(r"//.*", "", text))
-    scene["steps"] = 2
-    scene["settings"]["threads"] = 1
+    scene["steps"] = 4
+    scene["settings"] |= {"threads": 1, "time_step": 0.5}  # long ones, so that events come in so few steps
     scene["bodies"][0]["mesh"] |= {"columns": 5, "rows": 5}
     return scene
-
-
-def paths_of(value, path=()):
-    """Every place in a JSON value but the root."""
-    entries = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
-    for key, entry in entries:
-        yield (*path, key)
-        yield from paths_of(entry, (*path, key))
-
-
-def text_of(path):
-    return "".join(f"[{key}]" if isinstance(key, int) else f".{key}" for key in path).lstrip(".")
-
-
-def changed(scene, path, change):
-    """A copy in which `change` was called with the container and the key that the path leads to."""
-    result = copy.deepcopy(scene)
-    container = result
-    for key in path[:-1]:
-        container = container[key]
-    change(container, path[-1])
-    return result
-
-
-def replaced(scene, path, value):
-    def change(container, key):
-        container[key] = value
-    return changed(scene, path, change)
-
-
-def without(scene, path):
-    def change(container, key):
-        del container[key]
-    return changed(scene, path, change)
-
-
-def renamed(scene, path, name):
-    def change(container, key):
-        entries = [(name if k == key else k, value) for k, value in container.items()]
-        container.clear()
-        container.update(entries)
-    return changed(scene, path, change)
 
 
 def misspellings(key):
@@ -98,6 +56,18 @@ class SceneValues(HostileTest):
         self.attack_scenes((f"{text_of(path)} = {value}", replaced(self.scene, path, value))
                            for path in self.paths for value in VALUES)
 
+    def test_check_and_run_agree(self):
+        """What `pliant check` accepts has no mistake that a run finds before its first step, and the other way round."""
+        changes = [(path, value) for path in self.paths for value in VALUES]
+        disagreements = []
+        for path, value in changes[::17 if not is_sanitized() else 170]:
+            files = FILES | {"scene.json": replaced(self.scene, path, value)}
+            run, _ = self.run_case(Case("run", ["run", "scene.json", "--out", "out"], files))
+            check, _ = self.run_case(Case("check", ["check", "scene.json"], files))
+            if (check.code == INPUT) != (run.code == INPUT):
+                disagreements.append(f"{text_of(path)} = {value}: check: {check.code} {check.stderr} run: {run.code} {run.stderr}")
+        self.assertEqual(disagreements, [])
+
     def test_keys_left_out(self):
         self.attack_scenes((f"without {text_of(path)}", without(self.scene, path)) for path in self.paths)
 
@@ -116,9 +86,7 @@ class SceneValues(HostileTest):
     def test_lists_shorter_longer_and_turned_round(self):
         def lists():
             for path in self.paths:
-                value = self.scene
-                for key in path:
-                    value = value[key]
+                value = value_at(self.scene, path)
                 if isinstance(value, list):
                     yield f"{text_of(path)} doubled", replaced(self.scene, path, value * 2)
                     yield f"{text_of(path)} reversed", replaced(self.scene, path, value[::-1])

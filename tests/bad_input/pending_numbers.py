@@ -6,6 +6,7 @@ import json
 import re
 
 import hostile
+from changes import paths_of, replaced, text_of, value_at
 from hostile import DONE, INPUT, INTERRUPTED, SOURCE, HostileTest, run_scene_case, scene_of
 
 REALS = [0, -0.0, -1, 1e-320, 1e-300, 1e-100, 1e100, 1e154, 1e300, -1e300, 1.7976931348623157e308]
@@ -19,6 +20,7 @@ NEEDED = {"test_force": {"vertex": 1, "force": [0, 0, 1]}, "line": {"direction":
 SOLIDS = ("tetrahedron_strain", "volume")
 
 GRID = {"shape": "grid", "columns": 4, "rows": 4}
+BALL = {"shape": "sphere", "subdivisions": 0}
 BAR = {"shape": "bar", "cells": [1, 1, 1]}
 
 
@@ -28,9 +30,10 @@ def page():
 
 
 def sections(heading):
-    """(name, text) of the sections of the third level under a heading of the second."""
-    match = re.search(rf"^## {heading}\n(.*?)(?=^## |\Z)", page(), re.DOTALL | re.MULTILINE)
-    parts = re.split(r"^### `(\w+)`\n", match[1], flags=re.MULTILINE)
+    """(name, text) of what has a heading of its own, one level below the one given."""
+    level, title = re.search(rf"^(#+) {heading}\n", page(), re.MULTILINE).group(1, 0)
+    text = re.split(rf"^#{{1,{len(level)}}} ", page().split(title)[1], flags=re.MULTILINE)[0]
+    parts = re.split(rf"^#{level} `(\w+)`\n", text, flags=re.MULTILINE)
     return list(zip(parts[1::2], parts[2::2]))
 
 
@@ -42,10 +45,8 @@ def numeric_options(text):
 
 
 def shapes():
-    """(name, key, default) of every number in the table of shapes."""
-    for name, options in re.findall(r"^\| `(\w+)` \| (`.*) \|$", page(), re.MULTILINE):
-        for key, default in re.findall(r"`(\w+)` (-?[\d.]+|\[[^\]]*\])", options):
-            yield name, key, json.loads(default)
+    """(name, key, default) of every number of a shape."""
+    return [(name, key, json.loads(default)) for name, text in sections("Shapes") for key, default in numeric_options(text)]
 
 
 def variants(default, numbers):
@@ -119,10 +120,9 @@ class Numbers(HostileTest):
                      for each in lists))
 
     def test_shapes(self):
-        found = list(shapes())
-        self.assertGreater(len(found), 15)
+        self.assertIn(("grid", "columns", 11), shapes())
         self.attack(case(scene_of({"shape": name, key: value}), name, key, value)
-                    for name, key, default in found for value in variants(default, REALS + WHOLE))
+                    for name, key, default in shapes() for value in variants(default, REALS + WHOLE))
 
     def test_the_body(self):
         def scenes(value, vector):
@@ -149,7 +149,8 @@ class Numbers(HostileTest):
 
     def test_forces(self):
         def scene(name, **more):
-            return scene_of(GRID, {"type": "edge_spring"}, forces=[{"type": name} | NEEDED.get(name, {}) | more])
+            return scene_of(BALL if name == "pressure" else GRID, {"type": "edge_spring"},
+                            forces=[{"type": name} | NEEDED.get(name, {}) | more])
         self.attack((case(scene(name, **{key: value}), name, key, value) for name, text in sections("Forces")
                      for key, default in numeric_options(text) for value in variants(json.loads(default), REALS)),
                     (case(scene("test_force", force=[value, 0, 0]), "force", value) for value in REALS),
@@ -167,6 +168,29 @@ class Numbers(HostileTest):
                      for key, value in [("target", [value, 0, 0]), ("offset", [0, value, 0])]),
                     (moved("over", value) for value in REALS), (moved("time", value, "step") for value in REALS),
                     (moved("step", value) for value in WHOLE), (moved("index", value) for value in WHOLE))
+
+    def test_events(self):
+        pin = {"type": "position", "name": "pin", "on": [0]}
+        events = {"move": [{"move": "pin", "over": 0.1, "offset": [0, 0, 1]}, {"move": "pin", "over": 0.1, "target": [0, 0, 1]},
+                           {"move": "pin", "over": 0.1, "rotate": {"axis": [0, 0, 1], "degrees": 90}}],
+                  "change": [{"change": "springs", "stiffness": 5, "over": 0.1}, {"change": "wind", "velocity": [1, 0, 0],
+                                                                                   "over": 0.1}],
+                  "settings": [{"settings": {"time_step": 0.01, "iterations": 3}}], "gravity": [{"gravity": [0, 0, 1]}],
+                  "release": [{"release": "pin", "index": 0}],
+                  "add": [{"add": {"body": "thing", "type": "position", "on": [3]}}, {"add": {"type": "wind", "drag": 1}}]}
+        def scenes():
+            for event in itertools.chain(*events.values()):
+                timed = {"step": 1} | event
+                for path in paths_of(timed):
+                    if not isinstance(value_at(timed, path), (int, float)):
+                        continue
+                    for value in REALS + WHOLE:
+                        if path[-1] != "iterations" or value in LOW:
+                            yield f"{event} {text_of(path)} = {value}", replaced(timed, path, value)
+                for value in REALS:
+                    yield f"{event} at {value}", {"time": value} | event
+        self.attack(case(scene_of(GRID, pin, {"type": "edge_spring", "name": "springs"}, forces=[{"type": "wind"}], steps=3,
+                                  events=[event]), name) for name, event in scenes())
 
     def test_steps_and_every(self):
         few = [value for value in WHOLE if not isinstance(value, int) or value < 1 or value >= 2**63]
