@@ -153,8 +153,9 @@ std::shared_ptr<Path> rigid_path(std::vector<Keyframe> keys, std::optional<Vec3>
           "keyframes[{}]: the time {} s does not come after the one before; let times rise from 0 up", i, time));
     }
     check_points(Points(keys[i].translate));
+    const Vec3 turn = keys[i].rotate.vector();
     Pose pose;
-    pose << keys[i].translate, keys[i].rotate.vector();
+    pose << keys[i].translate, turn;
     poses.push_back({time, pose});
   }
   return std::make_shared<RigidPath>(std::move(poses), center, ease);
