@@ -44,11 +44,13 @@ class SourcePositions {
 /// as eight characters.
 class BlankSkipper {
  public:
+  // NOLINTBEGIN(readability-identifier-naming): names of the standard library
   using iterator_category = std::input_iterator_tag;
   using value_type = char;
   using difference_type = std::ptrdiff_t;
   using pointer = const char*;
   using reference = char;
+  // NOLINTEND(readability-identifier-naming)
 
   BlankSkipper(std::string_view text, std::size_t position, SourcePositions& positions)
       : text_(text), position_(position), positions_(&positions) {}
