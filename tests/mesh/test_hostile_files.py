@@ -127,6 +127,10 @@ def run(path):
 
 def main():
     failures = []
+    with open(os.environ["PLIANT"], "rb") as program:
+        if b"__asan_init" in program.read():
+            print("skipped: the memory of a program with a sanitizer is not its own")
+            return 77
     with tempfile.TemporaryDirectory() as folder:
         with open(os.path.join(folder, "elements.node"), "wb") as file:
             file.write(b"4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n")
