@@ -47,20 +47,17 @@ bool has_text(const Node& entry, std::string_view key, std::string_view text) {
   return value && value->is_text() && value->text() == text;
 }
 
-/// The index of the entry that a step means; entries of several lists count on.
-std::size_t entry_of(const std::vector<Node>& entries, std::string_view step, const Node& value) {
+/// The index of the entry that a step means, out of `count` entries; entry(i) is one of them.
+std::size_t entry_of(std::size_t count, auto&& entry, std::string_view step, const Node& value) {
   if (const auto index = to_index(step)) {
-    if (*index < entries.size()) return *index;
-    value.fail(entries.empty()
-                   ? "the list has no entries"
-                   : fmt::format("[{}] is out of range; the list has entries 0 to {}", *index, entries.size() - 1));
+    if (*index < count) return *index;
+    value.fail(count == 0 ? "the list has no entries"
+                          : fmt::format("[{}] is out of range; the list has entries 0 to {}", *index, count - 1));
   }
-  std::vector<std::string_view> names;
   for (const std::string_view key : {"name", "type"}) {
     std::optional<std::size_t> found;
-    for (std::size_t i = 0; i < entries.size(); ++i) {
-      if (const auto name = entries[i].find(key); name && name->is_text()) names.push_back(name->text());
-      if (!has_text(entries[i], key, step)) continue;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!has_text(entry(i), key, step)) continue;
       if (found) {
         value.fail(fmt::format("[{}] and [{}] both have the {} '{}'; give an index", *found, i, key, printable(step)));
       }
@@ -68,12 +65,14 @@ std::size_t entry_of(const std::vector<Node>& entries, std::string_view step, co
     }
     if (found) return *found;
   }
+  std::vector<std::string_view> names;
+  for (std::size_t i = 0; i < count; ++i) {
+    for (const std::string_view key : {"name", "type"}) {
+      if (const auto name = entry(i).find(key); name && name->is_text()) names.push_back(name->text());
+    }
+  }
   value.fail(fmt::format("no entry is called '{}'; known, the nearest first: {}", printable(step),
                          nearest_names_text(step, names)));
-}
-
-void append_entries(std::vector<Node>& entries, const std::optional<Node>& list) {
-  for (std::size_t i = 0; list && list->is_list() && i < list->size(); ++i) entries.push_back((*list)[i]);
 }
 
 Node empty_value(const Document& document, const Node& made_by) {
@@ -94,9 +93,8 @@ const Document& empty_list() {
 Node step_down(const Node& node, Overlay*& overlay, const PathStep& step, std::string_view place, const Node& value) {
   if (!step.is_key) {
     if (!node.is_list()) value.fail(fmt::format("{} is no list, so [{}] leads nowhere", place, printable(step.text)));
-    std::vector<Node> entries;
-    append_entries(entries, node);
-    const std::size_t index = entry_of(entries, step.text, value);
+    const auto entry = [&](std::size_t i) { return node[i]; };
+    const std::size_t index = entry_of(node.size(), entry, step.text, value);
     overlay = &overlay->entries[index];
     return node[index];
   }
@@ -123,17 +121,25 @@ void put(SceneLayer& layer, std::span<const PathStep> steps, const Node& value) 
 
 /// An entry of a list that goes on from layer to layer.
 void put_entry(std::span<SceneLayer* const> layers, std::span<PathStep> steps, const Node& value) {
-  std::vector<Node> entries;
+  std::vector<std::optional<Node>> lists;
   std::vector<std::size_t> ends;
   for (const SceneLayer* layer : layers) {
-    append_entries(entries, layer->root().find(steps[0].text));
-    ends.push_back(entries.size());
+    lists.push_back(layer->root().find(steps[0].text));
+    const bool is_list = lists.back() && lists.back()->is_list();
+    ends.push_back((ends.empty() ? 0 : ends.back()) + (is_list ? lists.back()->size() : 0));
   }
-  const std::size_t index = entry_of(entries, steps[1].text, value);
-  const auto found = static_cast<std::size_t>(std::ranges::upper_bound(ends, index) - ends.begin());
-  const std::string local_index = std::to_string(index - (found == 0 ? 0 : ends[found - 1]));
+  const auto place_of = [&](std::size_t index) {
+    const auto layer = static_cast<std::size_t>(std::ranges::upper_bound(ends, index) - ends.begin());
+    return std::pair(layer, index - (layer == 0 ? 0 : ends[layer - 1]));
+  };
+  const auto entry = [&](std::size_t index) {
+    const auto place = place_of(index);
+    return (*lists[place.first])[place.second];
+  };
+  const auto found = place_of(entry_of(ends.back(), entry, steps[1].text, value));
+  const std::string local_index = std::to_string(found.second);
   steps[1].text = local_index;
-  put(*layers[found], steps, value);
+  put(*layers[found.first], steps, value);
 }
 
 /// The last layer that has the list which the path goes into, if it goes into one; else the last.

@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::size_t max_depth = 16;
 constexpr std::size_t max_includes = 256;
+constexpr std::size_t max_set = 1000;
 
 std::string normal_name(const std::string& name) {
   return std::filesystem::path(name).lexically_normal().string();
@@ -83,6 +84,7 @@ void SceneDocuments::include(const Node& node, Chain& chain) {
   const auto set = node.find("set");
   if (!set) return;
   set->require_object();
+  if (set->size() > max_set) set->fail(fmt::format("more than {} values are set; write a scene of your own", max_set));
   for (const std::string_view path : set->keys()) set_over(first_layer, path, set->require(path));
 }
 
@@ -129,6 +131,9 @@ void SceneDocuments::set(std::string name, std::string_view path, Document value
 
 void SceneDocuments::apply_overrides() {
   const SceneOverrides& overrides = source_.overrides;
+  if (overrides.set.size() > max_set) {
+    fail_at("--set", "", fmt::format("more than {} values are set; write a scene of your own", max_set));
+  }
   for (const std::string& assignment : overrides.set) {
     const std::string name = "--set " + printable(assignment, 100);
     const std::size_t equals = assignment.find('=');
