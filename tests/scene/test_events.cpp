@@ -375,3 +375,11 @@ TEST_CASE("pins follow a file of frames") {
   for (int i = 0; i < 9; ++i) scene.step();
   CHECK(scene.simulation.target(id(scene, "pins"), 1) == Vec3(0.5, 2, 1));
 }
+
+TEST_CASE("times beyond all steps are read, and never come") {
+  Scene scene = scene_with(R"({"time": 1.7e308, "remove": "skin"}, {"time": 1e308, "settings": {"time_step": 1e-300}},
+    {"step": 9223372036854775807, "remove": "hand"}, {"time": 1e18, "stop": "pins"})");
+  for (int i = 0; i < 3; ++i) scene.step();
+  CHECK(scene.simulation.find_group("skin").has_value());
+  CHECK(!scene.timeline.is_over());
+}

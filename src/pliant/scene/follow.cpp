@@ -8,65 +8,70 @@
 namespace pliant {
 namespace {
 
-/// Finds nearest vertices by a tree of halves, each cut across the longest side of its box.
+/// Finds nearest vertices by a tree of boxes around their vertices, each cut in halves across its longest side.
 class NearestVertex {
  public:
-  explicit NearestVertex(const Positions& x) : x_(x), cuts_(static_cast<std::size_t>(x.rows())) {
+  explicit NearestVertex(const Positions& x) : x_(x) {
     for (Index i = 0; i < x.rows(); ++i) order_.push_back(i);
-    build(order_);
+    build(0, order_.size());
   }
 
   /// Of several at the same distance the first.
   Index operator()(const Vec3& place) const {
     Best best;
-    search(order_, place, best);
+    search(0, place, best);
     return best.vertex;
   }
 
  private:
+  static constexpr std::size_t largest_leaf = 8;
+
   struct Best {
     Real squared = std::numeric_limits<Real>::infinity();
     Index vertex = 0;
   };
+  struct Box {
+    Eigen::AlignedBox<Real, 3> bounds{};
+    std::size_t begin;  // of its vertices in order_
+    std::size_t end;
+    std::size_t second = 0;  // its halves are the box that follows and this one; 0: a leaf
+  };
 
-  std::size_t place_of(const Index& entry) const { return static_cast<std::size_t>(&entry - order_.data()); }
-
-  /// Sorts a part into those below its middle, the middle, where the axis is noted, and those above.
-  void build(std::span<Index> part) {
-    if (part.size() < 2) return;
-    Vec3 min = row(x_, part[0]);
-    Vec3 max = min;
-    for (const Index i : part) {
-      min = min.cwiseMin(row(x_, i));
-      max = max.cwiseMax(row(x_, i));
-    }
+  void build(std::size_t begin, std::size_t end) {
+    const std::size_t here = boxes_.size();
+    boxes_.push_back({.begin = begin, .end = end});
+    for (std::size_t i = begin; i < end; ++i) boxes_[here].bounds.extend(row(x_, order_[i]));
+    if (end - begin <= largest_leaf) return;
     Index axis = 0;
-    (max - min).maxCoeff(&axis);
-    const std::size_t middle = part.size() / 2;
-    std::ranges::nth_element(part, part.begin() + static_cast<std::ptrdiff_t>(middle), {},
-                             [&](Index i) { return x_(i, axis); });
-    cuts_[place_of(part[middle])] = axis;
-    build(part.first(middle));
-    build(part.subspan(middle + 1));
+    boxes_[here].bounds.sizes().maxCoeff(&axis);
+    const std::size_t middle = begin + (end - begin) / 2;
+    const auto at = [this](std::size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
+    std::ranges::nth_element(at(begin), at(middle), at(end), {}, [&](Index i) { return x_(i, axis); });
+    build(begin, middle);
+    boxes_[here].second = boxes_.size();
+    build(middle, end);
   }
 
-  void search(std::span<const Index> part, const Vec3& place, Best& best) const {
-    if (part.empty()) return;
-    const std::size_t middle = part.size() / 2;
-    const Index vertex = part[middle];
-    const Real squared = (row(x_, vertex) - place).squaredNorm();
-    if (squared < best.squared || (squared == best.squared && vertex < best.vertex)) best = {squared, vertex};
-    const Index axis = cuts_[place_of(part[middle])];
-    const Real above = place[axis] - x_(vertex, axis);
-    const std::span<const Index> low = part.first(middle);
-    const std::span<const Index> high = part.subspan(middle + 1);
-    search(above < 0 ? low : high, place, best);
-    if (above * above <= best.squared) search(above < 0 ? high : low, place, best);
+  void search(std::size_t box, const Vec3& place, Best& best) const {
+    const Box& here = boxes_[box];
+    if (here.bounds.squaredExteriorDistance(place) > best.squared) return;
+    if (here.second > 0) {
+      const bool first_is_nearer = boxes_[box + 1].bounds.squaredExteriorDistance(place) <=
+                                   boxes_[here.second].bounds.squaredExteriorDistance(place);
+      search(first_is_nearer ? box + 1 : here.second, place, best);
+      search(first_is_nearer ? here.second : box + 1, place, best);
+      return;
+    }
+    for (std::size_t i = here.begin; i < here.end; ++i) {
+      const Index vertex = order_[i];
+      const Real squared = (row(x_, vertex) - place).squaredNorm();
+      if (squared < best.squared || (squared == best.squared && vertex < best.vertex)) best = {squared, vertex};
+    }
   }
 
   const Positions& x_;
   std::vector<Index> order_;
-  std::vector<Index> cuts_;  // the axis of the cut at each place of order_
+  std::vector<Box> boxes_;
 };
 
 /// Gives each point its vertex, and the distance that it keeps. `x`: where the followed vertices are now.

@@ -389,6 +389,7 @@ class DueOrder {
     step_ = step;
     while (!by_step_.empty() && static_cast<Real>(by_step_.begin()->first) <= step_) take(by_step_, due);
     while (!by_time_.empty() && is_due(by_time_.begin()->first, time_step)) take(by_time_, due);
+    if (due.empty()) take(by_time_, due);  // never for want of digits
     std::ranges::sort(due);
     return due;
   }
