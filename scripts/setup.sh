@@ -8,7 +8,7 @@ set -euo pipefail
 packages=(
   g++ cmake ninja-build
   libeigen3-dev libfmt-dev zlib1g-dev nlohmann-json3-dev libcli11-dev doctest-dev
-  libsuitesparse-dev libopenblas-dev
+  libsuitesparse-dev libopenblas-serial-dev
   python3 python3-numpy python3-jsonschema assimp-utils
 )
 dev_packages=(ccache clang clang-format clang-tidy git libclang-rt-14-dev libtinyobjloader-dev)

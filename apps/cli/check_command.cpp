@@ -115,7 +115,7 @@ Json describe_groups(const Simulation& simulation) {
 
 Json describe(Scene& scene) {
   Simulation& simulation = scene.simulation;
-  const SystemInfo info = simulation.system_info();
+  const SystemInfo info = pliant::at_place(scene.place(), [&] { return simulation.system_info(); });
   const Real time_step = simulation.settings().time_step;
   std::map<std::string, std::int64_t> counts;
   for (const auto& [id, group] : simulation.groups()) counts[group.type] += group.set.count;

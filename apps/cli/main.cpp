@@ -29,7 +29,7 @@ constexpr std::string_view help_footer = R"(Examples:
 Exit codes: 0 done, 2 bad input, 3 diverged, 4 output could not be written, 130 interrupted.)";
 
 int print_error(std::string_view message, pliant::ErrorKind kind) {
-  pliant_cli::print_to_stderr("pliant: error: " + pliant::printable(message, pliant_cli::message_limit) + "\n");
+  pliant_cli::print_to_stderr("pliant: error: " + pliant::printable_place(message, pliant_cli::message_limit) + "\n");
   return static_cast<int>(kind);
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -44,7 +45,7 @@ class Warnings {
   void print(const pliant::Simulation& simulation, Progress& progress) {
     for (; printed_ < simulation.warnings().size(); ++printed_) {
       progress.clear();
-      print_to_stderr("warning: " + pliant::printable(simulation.warnings()[printed_], message_limit) + "\n");
+      print_to_stderr("warning: " + pliant::printable_place(simulation.warnings()[printed_], message_limit) + "\n");
     }
   }
 
@@ -52,15 +53,27 @@ class Warnings {
   std::size_t printed_ = 0;
 };
 
+/// None when the step took too long after an interrupt.
+std::optional<pliant::StepReport> step_unless_given_up(Scene& scene) {
+  try {
+    return scene.step();
+  } catch (const pliant::Error& error) {
+    if (error.kind() != pliant::ErrorKind::interrupted) throw;
+    return std::nullopt;
+  }
+}
+
 void simulate(Scene& scene, pliant::Recorder& recorder, const fs::path& checkpoint, const RecordingOptions& options) {
   std::int64_t step = scene.simulation.state().step;
   Progress progress(step, scene.steps, options.quiet ? Progress::Show::never : Progress::Show::on_terminal);
   Warnings warnings;
   warnings.print(scene.simulation, progress);
   const std::int64_t every = options.checkpoint_every;
+  scene.simulation.set_stop(waits_no_longer);
   while (step < scene.steps && !was_interrupted()) {
-    const pliant::StepReport report = scene.step();
-    recorder.record(scene.simulation, report);
+    const std::optional<pliant::StepReport> report = step_unless_given_up(scene);
+    if (!report) break;
+    recorder.record(scene.simulation, *report);
     ++step;
     if (every > 0 && step % every == 0 && step < scene.steps) pliant::write_checkpoint(checkpoint, scene);
     warnings.print(scene.simulation, progress);

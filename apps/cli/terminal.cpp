@@ -14,9 +14,15 @@ namespace pliant_cli {
 namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
+volatile std::sig_atomic_t patience_ended = 0;
+
+extern "C" void on_alarm(int) {
+  patience_ended = 1;
+}
 
 extern "C" void on_interrupt(int) {
   interrupted = 1;
+  alarm(patience);
 }
 
 }  // namespace
@@ -74,12 +80,22 @@ void catch_interrupts() {
   struct sigaction action = {};
   action.sa_handler = on_interrupt;
   action.sa_flags = static_cast<int>(SA_RESTART | SA_RESETHAND);
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
+    if (number == SIGXCPU) action.sa_flags = SA_RESTART;  // it comes every second
+    struct sigaction inherited = {};
+    sigaction(number, nullptr, &inherited);
+    if (inherited.sa_handler != SIG_IGN) sigaction(number, &action, nullptr);  // as nohup has it
+  }
+  action.sa_handler = on_alarm;
+  sigaction(SIGALRM, &action, nullptr);
 }
 
 bool was_interrupted() {
   return interrupted != 0;
+}
+
+bool waits_no_longer() {
+  return patience_ended != 0;
 }
 
 bool has_error_terminal() {

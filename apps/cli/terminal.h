@@ -14,9 +14,12 @@ void limit_memory();
 /// Writes to the standard error. What cannot be written there has nowhere else to go: it is dropped.
 void print_to_stderr(std::string_view text);
 
-/// From now on the first SIGINT or SIGTERM only raises a flag; a second one ends the program.
+/// From now on the first SIGINT, SIGTERM, SIGHUP or SIGXCPU only raises a flag; a second one ends the program.
 void catch_interrupts();
 bool was_interrupted();
+/// Whether that was longer ago than a step may take that is to be finished.
+bool waits_no_longer();
+inline constexpr unsigned patience = 2;  // [s]
 
 /// True when people read the standard error on a terminal.
 bool has_error_terminal();

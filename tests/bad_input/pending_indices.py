@@ -102,7 +102,7 @@ class Indices(HostileTest):
                     (run_scene_case(f"vertex {value}", body_scene(WHOLE, forces=[
                         {"type": "mouse_spring", "vertex": value, "anchor": [0, 0, 0]}]), expect=(INPUT,)) for value in BAD),
                     (run_scene_case(f"index {value}", body_scene(WHOLE, pin, moves=[move | {"index": value}]),
-                                    expect=(INPUT,)) for value in [2, *BAD]))
+                                    expect=(INPUT,)) for value in [2, [2], *bad]))
 
     def test_what_is_pinned_twice(self):
         pins = [{"type": "position", "on": [0]}, {"type": "position", "on": "all"}, {"type": "position", "stencils": [0, 0]},

@@ -64,7 +64,7 @@ TEST_CASE("parts make one body: placed, copied, welded, named") {
 
 TEST_CASE("what parts refuse") {
   starts(refusal(R"({"parts": []})"), "s.json: bodies[0].mesh.parts: there is no part; add one");
-  starts(refusal(R"({"parts": {}})"), "s.json: bodies[0].mesh.parts: a list [...] is wanted here");
+  starts(refusal(R"({"parts": {}})"), "s.json: bodies[0].mesh.parts: found an object; give a list [...]");
   starts(refusal(R"({"parts": [{"shape": "chain", "welt": 1}]})"), "s.json: bodies[0].mesh.parts[0].welt: unknown key");
   starts(refusal(R"({"parts": [{"shape": "chain"}], "weld": -1})"), "s.json: bodies[0].mesh: weld: -1 is out of range");
   starts(refusal(R"({"shape": "chain", "name": "rope"})"), "s.json: bodies[0].mesh.name: unknown key");
@@ -74,7 +74,8 @@ TEST_CASE("what parts refuse") {
          "s.json: bodies[0].mesh.parts[0].copies.count: 10001 is out of range; give a finite number from 1");
   starts(refusal(R"({"parts": [{"shape": "grid", "columns": 200, "rows": 200, "copies": {"count": 9999}}]})"),
          "s.json: bodies[0].mesh.parts[0].copies: copies ask for 4e+08 vertices; stay under 100000000");
-  starts(refusal(R"({"parts": [{"shape": "chain", "name": 5}]})"), "s.json: bodies[0].mesh.parts[0].name: a text");
+  starts(refusal(R"({"parts": [{"shape": "chain", "name": 5}]})"),
+         "s.json: bodies[0].mesh.parts[0].name: found a number; give a text");
   starts(refusal(R"({"parts": [{"vertices": [[0, 0, 0], [0, 0, 0]], "edges": [[0, 1]], "name": "knot"}]})"),
          "s.json: bodies[0].mesh: part 'knot': edge 0");
   starts(refusal(R"({"parts": [{"shape": "chain", "file": "a.obj"}]})"),

@@ -241,14 +241,16 @@ TEST_CASE("names are followed through the events in the order in which they act,
 }
 
 TEST_CASE("what is wrong with an event is said with its place") {
-  check_refused(R"({"step": 1})", "events[0]: give one of the keys change, settings, gravity, add,");
-  check_refused(R"({"change": "skin", "stiffness": 1})", "events[0]: give one of the keys step, time");
+  check_refused(R"({"step": 1})",
+                "events[0]: no key says which it is; give one of the keys change, settings, gravity, add,");
+  check_refused(R"({"change": "skin", "stiffness": 1})",
+                "events[0]: no key says which it is; give one of the keys step, time");
   check_refused(R"({"step": 1, "time": 2, "remove": "skin"})", "events[0]: has both 'step' and 'time'");
   check_refused(R"({"step": -1, "remove": "skin"})", "events[0].step: -1 is out of range");
   check_refused(R"({"time": -0.1, "remove": "skin"})", "events[0].time: -0.1 is out of range");
-  check_refused(R"({"time": "now", "remove": "skin"})", "events[0].time: a number is wanted");
+  check_refused(R"({"time": "now", "remove": "skin"})", "events[0].time: found a string; give a number");
   check_refused(R"({"step": 1, "remove": "skin", "move": "pins"})", "events[0]: has both");
-  check_refused(R"(7)", "events[0]: an object {...} is wanted");
+  check_refused(R"(7)", "events[0]: found a number; give an object");
   check_refused(R"({"step": 1, "change": "skn", "stiffness": 1})",
                 "events[0].change: there is no group and no force 'skn'", "first: skin,");
   check_refused(R"({"step": 1, "change": "skin", "stifness": 1})", "events[0].stifness: unknown key",
@@ -276,7 +278,7 @@ TEST_CASE("what is wrong with an event is said with its place") {
   check_refused(R"({"step": 1, "settings": {"time_step": 0}})", "events[0].settings.time_step: 0 is out of range");
   check_refused(R"({"step": 1, "settings": {"timestep": 1}})", "events[0].settings.timestep: unknown key");
   check_refused(R"({"step": 1, "settings": {}})", "events[0].settings: no setting is given");
-  check_refused(R"({"step": 1, "gravity": 9.81})", "events[0].gravity: a list");
+  check_refused(R"({"step": 1, "gravity": 9.81})", "events[0].gravity: found a number; give a list");
   check_refused(R"({"step": 1, "gravity": null, "over": 1})", "events[0].over: unknown key");
   check_refused(R"({"step": 1, "add": {"type": "hinge"}})", "events[0].add: there are several bodies");
   check_refused(R"({"step": 1, "add": {"body": "sheet"}})", "events[0].add: the key 'type' is missing");
@@ -295,10 +297,12 @@ TEST_CASE("what is wrong with an event is said with its place") {
   check_refused(R"({"step": 1, "release": "pins", "vertices": {"nearest": [0, 0, 0]}})",
                 "events[0].vertices: the group holds none");
   check_refused(R"({"step": 1, "release": "pins", "index": 3})", "events[0].index: the group has no constraint 3");
-  check_refused(R"({"step": 1, "release": "pins"})", "events[0]: give one of the keys vertices, index");
+  check_refused(R"({"step": 1, "release": "pins"})",
+                "events[0]: no key says which it is; give one of the keys vertices, index");
   check_refused(R"({"step": 1, "move": "skin", "offset": [0, 0, 1]})", "events[0]: the group 'skin' has no targets");
   check_refused(R"({"step": 1, "move": "wind", "offset": [0, 0, 1]})", "events[0].move: there is no group 'wind'");
-  check_refused(R"({"step": 1, "move": "pins"})", "events[0]: give one of the keys target, offset, rotate, keyframes");
+  check_refused(R"({"step": 1, "move": "pins"})",
+                "events[0]: no key says which it is; give one of the keys target, offset, rotate, keyframes");
   check_refused(R"({"step": 1, "move": "pins", "index": 3, "offset": [0, 0, 1]})",
                 "events[0]: index 3 is out of range");
   check_refused(R"({"step": 1, "move": "pins", "index": [], "offset": [0, 0, 1]})",
@@ -325,7 +329,8 @@ TEST_CASE("what is wrong with an event is said with its place") {
                 "events[0]: keyframes[1]: the time 0.5 s");
   check_refused(R"({"step": 1, "move": "pins", "keyframes": [{"time": 1, "turn": 2}]})",
                 "events[0].keyframes[0].turn: unknown key");
-  check_refused(R"({"step": 1, "follow": "pins"})", "events[0]: give one of the keys body, file");
+  check_refused(R"({"step": 1, "follow": "pins"})",
+                "events[0]: no key says which it is; give one of the keys body, file");
   check_refused(R"({"step": 1, "follow": "pins", "body": "ropes"})", "events[0].body: there is no body 'ropes'",
                 "first: rope");
   check_refused(R"({"step": 1, "follow": "pins", "body": "sheet"})",

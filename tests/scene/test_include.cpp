@@ -146,10 +146,10 @@ TEST_CASE("errors name the file where the value stands") {
       files.message_of(including("\"parts/none.json\"")).starts_with("scene.json: include: parts/none.json: no such"));
   CHECK(files.message_of(including("\"curtan\"")).find("nearest first: curtain") != std::string::npos);
   CHECK(files.message_of(including("\"parts\"")).find("is a directory") != std::string::npos);
-  CHECK(files.message_of(including("7")).starts_with("scene.json: include: the path of a scene"));
+  CHECK(files.message_of(including("7")).starts_with("scene.json: include: found a number; give the path of a scene"));
   CHECK(files.message_of(including(R"({"fil": "x"})")).starts_with("scene.json: include.fil: unknown key"));
   CHECK(files.message_of(including(R"({"file": "parts/base.json", "set": 3})"))
-            .starts_with("scene.json: include.set: an object"));
+            .starts_with("scene.json: include.set: found a number; give an object"));
   CHECK(files.message_of(including("[]")).starts_with("scene.json: the key 'bodies' is missing"));
   files.folder.write("parts/base.json", std::string(base).replace(std::string(base).find("tent.obj"), 8, "no.obj"));
   CHECK(files.message_of(including("\"parts/base.json\""))

@@ -106,7 +106,7 @@ TEST_CASE("selections that the mesh does not have") {
             .find("no map 'wight'; known, the nearest first: weight") != std::string::npos);
   CHECK(files.selection_error("strip.obj", R"({"map": {"name": "x"}, "above": 0})").find("has no maps") !=
         std::string::npos);
-  CHECK(files.selection_error("strip.ply", R"({"map": {"name": "weight"}})").find("'above' or 'below'") !=
+  CHECK(files.selection_error("strip.ply", R"({"map": {"name": "weight"}})").find("neither 'above' nor 'below'") !=
         std::string::npos);
   CHECK(files.selection_error("strip.obj", R"({"map": {"file": "short.txt"}, "above": 0})")
             .find("2 numbers for 6 vertices") != std::string::npos);
@@ -156,7 +156,7 @@ TEST_CASE("maps that do not fit an option") {
   CHECK(error(R"({"map": {"name": "weight"}, "from": 1})").starts_with(place + ": the key 'to' is missing"));
   CHECK(error(R"({"map": {"name": "weight"}, "form": 1})").starts_with(place + ".form: unknown key"));
   CHECK(error(R"({"mpa": 1})").starts_with(place + ".mpa: unknown key"));
-  CHECK(error(R"({"map": 3})").starts_with(place + ".map: an object"));
+  CHECK(error(R"({"map": 3})").starts_with(place + ".map: found a number; give an object"));
   CHECK(files.message_of("strip.ply", "", R"({"each": {"map": {"name": "weight"}}})")
             .starts_with("s.json: bodies[0].mass"));
 }

@@ -84,12 +84,12 @@ TEST_CASE("a wrong value names the option that it comes from") {
   CHECK(message_of("setings.iterations=5").starts_with("--set setings.iterations=5: unknown key"));
   CHECK(message_of("bodies[0].mass={\"totl\":1}").starts_with("--set bodies[0].mass={\"totl\":1}: totl: unknown key"));
   CHECK(message_of("bodies[0].mass.density=1").starts_with("s.json: bodies[0].mass: has both"));
-  CHECK(message_of("steps=many") == "--set steps=many: a whole number is wanted here, not a string");
+  CHECK(message_of("steps=many") == "--set steps=many: found a string; give a whole number");
   CHECK(message_of("steps=1e999").find("beyond the range") != std::string::npos);
   CHECK(message_of("settings.time_step=1e999").find("beyond the range") != std::string::npos);
   CHECK(message_of("forces[0].velocity=[1,2").starts_with("--set forces[0].velocity=[1,2:1:5: "));
   CHECK(message_of("forces[0].velocity=[1,2]").starts_with("--set forces[0].velocity=[1,2]: the list has 2 entries"));
-  CHECK(message_of("forces[0].velocity[1]=x").starts_with("--set forces[0].velocity[1]=x: a number is wanted here"));
+  CHECK(message_of("forces[0].velocity[1]=x").starts_with("--set forces[0].velocity[1]=x: found "));
   CHECK(message_of("bodies[0].mesh.columns=1").starts_with("--set bodies[0].mesh.columns=1: 1 is out of range"));
   CHECK(message_of("name=" + std::string(100000, 'x') + "\x1b[31m").find("(no error)") != std::string::npos);
   CHECK(message_of("steps=" + std::string(100000, 'x') + "\x1b[31m").size() < 400);

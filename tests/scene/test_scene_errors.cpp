@@ -81,31 +81,31 @@ TEST_CASE("unknown keys name the known ones, the nearest first") {
 
 TEST_CASE("a wrong type says what is wanted and what was found") {
   constexpr Slip slips[] = {
-      {"\"steps\": 5", "\"steps\": \"5\"", "s.json: steps: a whole number is wanted here, not a string"},
-      {"\"steps\": 5", "\"steps\": 5.5", "s.json: steps: a whole number is wanted here, not 5.5"},
-      {"\"steps\": 5", "\"steps\": 99999999999999999999", "s.json: steps: a whole number is wanted here"},
-      {"\"steps\": 5", "\"steps\": 18446744073709551615", "s.json: steps: a whole number is wanted here"},
+      {"\"steps\": 5", "\"steps\": \"5\"", "s.json: steps: found a string; give a whole number"},
+      {"\"steps\": 5", "\"steps\": 5.5", "s.json: steps: found 5.5; give a whole number, without"},
+      {"\"steps\": 5", "\"steps\": 99999999999999999999", "s.json: steps: found "},
+      {"\"steps\": 5", "\"steps\": 18446744073709551615", "s.json: steps: found "},
       {"\"steps\": 5", "\"steps\": -5", "s.json: steps: -5 is negative"},
-      {"{\"iterations\": 3}", "[3]", "s.json: settings: an object {...} is wanted here, not a list"},
-      {"\"iterations\": 3", "\"iterations\": null", "s.json: settings.iterations: a whole number is wanted here"},
+      {"{\"iterations\": 3}", "[3]", "s.json: settings: found a list; give an object {...}"},
+      {"\"iterations\": 3", "\"iterations\": null", "s.json: settings.iterations: found "},
       {"\"iterations\": 3", "\"iterations\": 3000000000", "s.json: settings.iterations: 3000000000 is out of range"},
       {"\"iterations\": 3", "\"start\": \"postions\"", "s.json: settings.start: 'postions' is none of the choices",
        "positions, prediction"},
-      {"\"iterations\": 3", "\"time_step\": true",
-       "s.json: settings.time_step: a number is wanted here, not a boolean"},
+      {"\"iterations\": 3", "\"time_step\": true", "s.json: settings.time_step: found a boolean; give a number"},
       {"\"stiffness\": 10", "\"stiffness\": [1, \"2\"]",
-       "s.json: bodies[0].constraints[1].stiffness[1]: a number is wanted here, not a string"},
+       "s.json: bodies[0].constraints[1].stiffness[1]: found a string; give a number"},
       {"\"stiffness\": 10", "\"stiffness\": []", "s.json: bodies[0].constraints[1].stiffness: the list is empty"},
       {"\"stiffness\": 10", "\"stencils\": []", "s.json: bodies[0].constraints[1].stencils: the list is empty"},
       {"[1, 2, 3]", "[1, 2]", "s.json: forces[0].velocity: the list has 2 entries; give 3 numbers"},
-      {"[1, 2, 3]", "[1, [2], 3]", "s.json: forces[0].velocity[1]: a number is wanted here, not a list"},
-      {"[1, 2, 3]", "{\"x\": 1}", "s.json: forces[0].velocity: a list [...] is wanted here, not an object"},
-      {"\"on\": [0, 2]", "\"on\": 0", "s.json: bodies[0].constraints[0].on: \"all\", a list of vertices"},
+      {"[1, 2, 3]", "[1, [2], 3]", "s.json: forces[0].velocity[1]: found a list; give a number"},
+      {"[1, 2, 3]", "{\"x\": 1}", "s.json: forces[0].velocity: found an object; give a list [...]"},
+      {"\"on\": [0, 2]", "\"on\": 0",
+       "s.json: bodies[0].constraints[0].on: found a number; give \"all\", a list of vertices"},
       {"\"on\": [0, 2]", "\"on\": \"edges\"", "s.json: bodies[0].constraints[0].on: 'edges' is no selection"},
-      {"\"on\": [0, 2]", "\"on\": {\"box\": 1}", "s.json: bodies[0].constraints[0].on.box: an object {...} is wanted"},
-      {"\"name\": \"sheet\"", "\"name\": 7", "s.json: bodies[0].name: a text is wanted here, not a number"},
-      {"\"bodies\": [", "\"gravity\": 9.81, \"bodies\": [",
-       "s.json: gravity: a list [...] is wanted here, not a number"},
+      {"\"on\": [0, 2]", "\"on\": {\"box\": 1}",
+       "s.json: bodies[0].constraints[0].on.box: found a number; give an object {...}"},
+      {"\"name\": \"sheet\"", "\"name\": 7", "s.json: bodies[0].name: found a number; give a text"},
+      {"\"bodies\": [", "\"gravity\": 9.81, \"bodies\": [", "s.json: gravity: found a number; give a list [...]"},
       {"\"bodies\": [", "\"bodies\": 3, \"body\": [", "s.json: body: unknown key", "bodies"},
   };
   check(slips);
@@ -188,10 +188,12 @@ TEST_CASE("what must be there, and what excludes each other") {
       {"\"pliant\": 1,", "", "s.json: the key 'pliant' is missing"},
       {"\"pliant\": 1,", "\"pliant\": 2,", "s.json: pliant: this program reads scenes of version 1 alone"},
       {"\"mass\": {\"total\": 1},", "", "s.json: bodies[0]: the key 'mass' is missing"},
-      {"\"mass\": {\"total\": 1}", "\"mass\": {}", "s.json: bodies[0].mass: give one of the keys each, per_vertex"},
+      {"\"mass\": {\"total\": 1}", "\"mass\": {}",
+       "s.json: bodies[0].mass: no key says which it is; give one of the keys each, per_vertex"},
       {"\"mass\": {\"total\": 1}", "\"mass\": {\"total\": 1, \"density\": 2}", "s.json: bodies[0].mass: has both"},
       {"\"type\": \"position\",", "", "s.json: bodies[0].constraints[0]: the key 'type' is missing"},
-      {"\"shape\": \"grid\", \"columns\": 3, \"rows\": 3", "", "s.json: bodies[0].mesh: give one of the keys shape"},
+      {"\"shape\": \"grid\", \"columns\": 3, \"rows\": 3", "",
+       "s.json: bodies[0].mesh: no key says which it is; give one of the keys shape"},
       {", \"force\": [0, 0, 1]", "", "s.json: forces[1]: the key 'force' is missing"},
       {"\"step\": 2", "\"step\": 2, \"time\": 1", "s.json: moves[0]: has both 'step' and 'time'"},
       {"\"on\": [0, 2]", "\"on\": [0, 2], \"stencils\": [1]", "s.json: bodies[0].constraints[0].on: 'stencils' says"},
@@ -202,7 +204,7 @@ TEST_CASE("what must be there, and what excludes each other") {
   };
   check(slips);
   CHECK(message_of(R"({"pliant": 1, "bodies": []})").starts_with("s.json: bodies: there is no body"));
-  CHECK(message_of(R"([1])").starts_with("s.json: an object {...} is wanted here, not a list"));
+  CHECK(message_of(R"([1])").starts_with("s.json: found a list; give an object {...}"));
 }
 
 TEST_CASE("a slip of syntax names line and column") {

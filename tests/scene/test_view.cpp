@@ -59,9 +59,9 @@ TEST_CASE("a view that cannot be drawn") {
   };
   check(R"({"color": "stretch"})", ".color: unknown key; known here, the nearest first: colour");
   check(R"({"colour": "red"})", ".colour: 'red' is none of the choices");
-  check(R"({"background": "red"})", ".background: a colour is wanted here");
-  check(R"({"background": "#12345g"})", ".background: a colour is wanted here");
-  check(R"({"background": [0, 0, 2]})", ".background[2]: a colour is wanted here");
+  check(R"({"background": "red"})", ".background: is no colour");
+  check(R"({"background": "#12345g"})", ".background: is no colour");
+  check(R"({"background": [0, 0, 2]})", ".background[2]: is no colour");
   check(R"({"background": [0, 0]})", ".background: the list has 2 entries");
   check(R"({"camera": {"up": [0, 0, 0]}})", ".camera.up: a direction of length 0");
   check(R"({"light": [0, 0, 0]})", ".light: a direction of length 0");
@@ -69,10 +69,10 @@ TEST_CASE("a view that cannot be drawn") {
   check(R"({"camera": {"position": [1, 1, 1], "target": [1, 1, 1]}})", ".camera: the camera stands at its target");
   check(R"({"camera": {"position": [0, 0, 9], "target": [0, 0, 1]}})", ".camera: the camera looks along its up");
   check(R"({"camera": {"positon": [0, 0, 9]}})", ".camera.positon: unknown key");
-  check(R"({"colour_range": [2, 1]})", ".colour_range: the first value must be below the second");
-  check(R"({"wireframe": 1})", ".wireframe: true or false is wanted here, not a number");
+  check(R"({"colour_range": [2, 1]})", ".colour_range: the first value is not below the second");
+  check(R"({"wireframe": 1})", ".wireframe: found a number; give true or false");
   check(R"({"size": [10, 480]})", ".size[0]: 10 is out of range");
-  check("[]", ": an object {...} is wanted here");
+  check("[]", ": found ");
 }
 
 }  // namespace

@@ -31,7 +31,8 @@ template <class Type>
 class Batch final : public ConstraintGroup {
  public:
   explicit Batch(Real stiffness, int vertices = Type::vertices) : ConstraintGroup(stiffness), vertices_(vertices) {
-    if (vertices < 1) fail_input(std::string(Type::name) + ": a batch needs stencils of at least one vertex");
+    if (vertices < 1)
+      fail_input(std::string(Type::name) + ": a batch needs stencils of at least one vertex; give them");
   }
 
   /// One more constraint: n vertices, k × n coefficients, its measure, and the fields of its type. Throws Error(input)

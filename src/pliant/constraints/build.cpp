@@ -61,7 +61,7 @@ std::vector<char> selected_vertices(std::string_view type, const BodyView& body,
 Stencils choose_stencils(std::string_view type, const BodyView& body, const Selection& on, const Stencils& given,
                          const Stencils& candidates, int vertices) {
   if (!given.empty()) {
-    if (!on.everything) fail_input(place(type, body) + ": give either `on` or `stencils`, not both");
+    if (!on.everything) fail_input(place(type, body) + ": has both `on` and `stencils`; keep one");
     for (Index i = 0; i < given.size(); ++i) check_stencil(type, body, given[i], i, vertices);
     return given;
   }

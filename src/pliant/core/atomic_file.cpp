@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "pliant/core/error.h"
+#include "pliant/core/printable.h"
 
 namespace pliant {
 
@@ -72,8 +73,9 @@ void AtomicFile::commit() {
 }
 
 void AtomicFile::fail(int error_number) const {
-  throw Error(ErrorKind::output, fmt::format("{}: cannot be written: {}; choose another place or make room",
-                                             path_.string(), std::generic_category().message(error_number)));
+  throw Error(ErrorKind::output,
+              fmt::format("{}: cannot be written: {}; choose another place or make room",
+                          printable_place(path_.string()), std::generic_category().message(error_number)));
 }
 
 void write_file_atomically(const fs::path& path, std::string_view contents) {

@@ -54,14 +54,13 @@ std::string printable(std::string_view text, std::size_t limit) {
   return result;
 }
 
-std::string printable_place(std::string_view path) {
-  constexpr std::size_t limit = 400;
-  constexpr std::size_t start = 150;
-  if (path.size() <= limit) return printable(path, limit);
-  std::string_view end = path.substr(path.size() - (limit - start));
+std::string printable_place(std::string_view text, std::size_t limit) {
+  const std::size_t start = limit * 3 / 8;
+  if (text.size() <= limit) return printable(text, limit);
+  std::string_view end = text.substr(text.size() - (limit - start));
   const auto is_inside_character = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; };
   while (!end.empty() && is_inside_character(end.front())) end.remove_prefix(1);
-  return printable(path, start) + printable(end, limit);
+  return printable(text, start) + printable(end, limit);
 }
 
 }  // namespace pliant

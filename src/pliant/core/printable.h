@@ -10,7 +10,7 @@ namespace pliant {
 /// no UTF-8 become spaces or '?'; what is longer than `limit` bytes is cut and ends with "...".
 std::string printable(std::string_view text, std::size_t limit = 160);
 
-/// The same for a path in the file system or in a scene: a long one loses its middle.
-std::string printable_place(std::string_view path);
+/// The same for what matters at both ends, such as a path or a whole message: a long one loses its middle.
+std::string printable_place(std::string_view text, std::size_t limit = 400);
 
 }  // namespace pliant

@@ -9,11 +9,13 @@ Wind::Wind(std::vector<Triangle> triangles, std::vector<Real> rest_areas, const 
     : triangles_(std::move(triangles)), rest_areas_(std::move(rest_areas)), options_(options) {
   check_options("wind", options_);
   if (triangles_.empty()) fail_input("wind: there are no triangles for it to blow on; give it a body that has some");
-  if (rest_areas_.size() != triangles_.size()) fail_input("wind: give one rest area for each triangle");
+  if (rest_areas_.size() != triangles_.size())
+    fail_input("wind: the rest areas are not as many as the triangles; give one for each");
   Index vertices = 0;
   for (const Triangle& triangle : triangles_) {
     const auto [first, last] = std::ranges::minmax(triangle);
-    if (first < 0 || last == std::numeric_limits<Index>::max()) fail_input("wind: a triangle has no such vertex");
+    if (first < 0 || last == std::numeric_limits<Index>::max())
+      fail_input("wind: a triangle has a vertex that is not there; mend the triangles");
     vertices = std::max(vertices, last + 1);
   }
   share_.resize(vertices, 3);

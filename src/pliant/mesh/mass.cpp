@@ -65,7 +65,8 @@ void require_elements(bool has_elements, std::string_view what, std::string_view
 void check_values(const Mesh& mesh, const Mass::Part& mass, std::string_view name) {
   if (mass.kind != Mass::Kind::each) {
     const Real value = mass.values.front();
-    if (!is_positive(value)) fail_input(fmt::format("{}: the mass is {}, but must be finite and > 0", name, value));
+    if (!is_positive(value))
+      fail_input(fmt::format("{}: the mass is {}; give one that is finite and above 0", name, value));
     return;
   }
   if (mass.values.size() != static_cast<std::size_t>(mesh.vertex_count())) {
@@ -111,7 +112,7 @@ std::vector<Real> vertex_masses(const Mesh& mesh, const Mass& mass, std::string_
     if (is_positive(masses[v])) continue;
     fail_input(fmt::format("{}: vertex {} has mass {}; {}", name, v, masses[v],
                            is_given || masses[v] != 0
-                               ? "every mass must be finite and > 0"
+                               ? "give every vertex one that is finite and above 0"
                                : "no element gives it any: remove the vertex, or give one mass per vertex"));
   }
   return masses;

@@ -41,7 +41,7 @@ class ArrayWriter final : public FrameWriter {
                              positions.rows(), vertex_count_));
     }
     bytes_.clear();
-    format_.append(bytes_, positions);
+    at_place(path_.string(), [&] { format_.append(bytes_, positions); });
     file_.write(bytes_);
     file_.flush();  // the frame must be there before the header counts it
     ++frame_count_;

@@ -65,6 +65,31 @@ Digits digits_of(const std::string& name) {
   return {first, last - first + 1};
 }
 
+void write(const fs::path& path, AnimationFormat format, const Animation& animation,
+           const std::vector<std::size_t>& keyframes, const ExportOptions& options) {
+  switch (format) {
+    case AnimationFormat::gltf:
+    case AnimationFormat::glb:
+      check_bodies(path, animation);
+      write_gltf(path, animation, keyframes,
+                 format == AnimationFormat::glb ? GltfContainer::binary : GltfContainer::text, options.normals);
+      break;
+    case AnimationFormat::usda:
+      check_bodies(path, animation);
+      write_usda(path, animation, keyframes);
+      break;
+    case AnimationFormat::pc2:
+      write_array(path, animation, pc2_format);
+      break;
+    case AnimationFormat::npy:
+      write_array(path, animation, npy_format);
+      break;
+    case AnimationFormat::mdd:
+      write_mdd(path, animation);
+      break;
+  }
+}
+
 }  // namespace
 
 std::optional<AnimationFormat> animation_format(const fs::path& path) {
@@ -85,27 +110,7 @@ ExportReport export_animation(const fs::path& path, const Animation& animation, 
                            fmt::join(choice_names(AnimationFormat{}), ", ")));
   }
   const Keyframes keyframes = keyframes_for(*format, animation, options);
-  switch (*format) {
-    case AnimationFormat::gltf:
-    case AnimationFormat::glb:
-      check_bodies(path, animation);
-      write_gltf(path, animation, keyframes.frames,
-                 *format == AnimationFormat::glb ? GltfContainer::binary : GltfContainer::text, options.normals);
-      break;
-    case AnimationFormat::usda:
-      check_bodies(path, animation);
-      write_usda(path, animation, keyframes.frames);
-      break;
-    case AnimationFormat::pc2:
-      write_array(path, animation, pc2_format);
-      break;
-    case AnimationFormat::npy:
-      write_array(path, animation, npy_format);
-      break;
-    case AnimationFormat::mdd:
-      write_mdd(path, animation);
-      break;
-  }
+  at_place(path.string(), [&] { write(path, *format, animation, keyframes.frames, options); });
   return {std::ssize(animation.times), std::ssize(keyframes.frames), keyframes.largest_error};
 }
 

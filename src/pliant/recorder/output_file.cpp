@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "pliant/core/error.h"
+#include "pliant/core/printable.h"
 
 namespace pliant {
 
@@ -44,8 +45,9 @@ void OutputFile::flush() {
 }
 
 void OutputFile::fail(int error_number) const {
-  throw Error(ErrorKind::output, fmt::format("{}: cannot be written: {}; choose another place or make room",
-                                             path_.string(), std::generic_category().message(error_number)));
+  throw Error(ErrorKind::output,
+              fmt::format("{}: cannot be written: {}; choose another place or make room",
+                          printable_place(path_.string()), std::generic_category().message(error_number)));
 }
 
 }  // namespace pliant

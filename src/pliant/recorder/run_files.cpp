@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "pliant/core/error.h"
+#include "pliant/core/printable.h"
 #include "pliant/recorder/detail/run_json.h"
 
 namespace pliant {
@@ -23,8 +24,8 @@ namespace {
 constexpr std::string_view star = "*";
 
 [[noreturn]] void fail_output(const fs::path& path, std::string_view what) {
-  throw Error(ErrorKind::output,
-              fmt::format("{}: cannot be used for the files of a run: {}; choose another folder", path.string(), what));
+  throw Error(ErrorKind::output, fmt::format("{}: cannot be used for the files of a run: {}; choose another folder",
+                                             printable_place(path.string()), what));
 }
 
 /// Every name that a run may have written, in this version or an earlier one.

@@ -21,8 +21,8 @@ std::string read_bytes(const Node& node) {
 /// Numbers written as bytes, into all of `numbers`.
 void read_numbers(const Node& node, std::span<Real> numbers) {
   if (!node.is_bytes() || node.text().size() != numbers.size_bytes()) {
-    node.fail(
-        fmt::format("{} numbers are wanted here; the scene that this checkpoint holds makes so many", numbers.size()));
+    node.fail(fmt::format("the list has another length than the scene of this checkpoint makes; {} numbers belong here",
+                          numbers.size()));
   }
   if (!numbers.empty()) std::memcpy(numbers.data(), node.text().data(), numbers.size_bytes());
   if (std::ranges::all_of(numbers, [](Real x) { return std::isfinite(x); })) return;

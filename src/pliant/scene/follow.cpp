@@ -3,76 +3,11 @@
 
 #include <fmt/format.h>
 
+#include "pliant/scene/detail/nearest_vertex.h"
 #include "pliant/scene/path.h"
 
 namespace pliant {
 namespace {
-
-/// Finds nearest vertices by a tree of boxes around their vertices, each cut in halves across its longest side.
-class NearestVertex {
- public:
-  explicit NearestVertex(const Positions& x) : x_(x) {
-    for (Index i = 0; i < x.rows(); ++i) order_.push_back(i);
-    build(0, order_.size());
-  }
-
-  /// Of several at the same distance the first.
-  Index operator()(const Vec3& place) const {
-    Best best;
-    search(0, place, best);
-    return best.vertex;
-  }
-
- private:
-  static constexpr std::size_t largest_leaf = 8;
-
-  struct Best {
-    Real squared = std::numeric_limits<Real>::infinity();
-    Index vertex = 0;
-  };
-  struct Box {
-    Eigen::AlignedBox<Real, 3> bounds{};
-    std::size_t begin;  // of its vertices in order_
-    std::size_t end;
-    std::size_t second = 0;  // its halves are the box that follows and this one; 0: a leaf
-  };
-
-  void build(std::size_t begin, std::size_t end) {
-    const std::size_t here = boxes_.size();
-    boxes_.push_back({.begin = begin, .end = end});
-    for (std::size_t i = begin; i < end; ++i) boxes_[here].bounds.extend(row(x_, order_[i]));
-    if (end - begin <= largest_leaf) return;
-    Index axis = 0;
-    boxes_[here].bounds.sizes().maxCoeff(&axis);
-    const std::size_t middle = begin + (end - begin) / 2;
-    const auto at = [this](std::size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
-    std::ranges::nth_element(at(begin), at(middle), at(end), {}, [&](Index i) { return x_(i, axis); });
-    build(begin, middle);
-    boxes_[here].second = boxes_.size();
-    build(middle, end);
-  }
-
-  void search(std::size_t box, const Vec3& place, Best& best) const {
-    const Box& here = boxes_[box];
-    if (here.bounds.squaredExteriorDistance(place) > best.squared) return;
-    if (here.second > 0) {
-      const bool first_is_nearer = boxes_[box + 1].bounds.squaredExteriorDistance(place) <=
-                                   boxes_[here.second].bounds.squaredExteriorDistance(place);
-      search(first_is_nearer ? box + 1 : here.second, place, best);
-      search(first_is_nearer ? here.second : box + 1, place, best);
-      return;
-    }
-    for (std::size_t i = here.begin; i < here.end; ++i) {
-      const Index vertex = order_[i];
-      const Real squared = (row(x_, vertex) - place).squaredNorm();
-      if (squared < best.squared || (squared == best.squared && vertex < best.vertex)) best = {squared, vertex};
-    }
-  }
-
-  const Positions& x_;
-  std::vector<Index> order_;
-  std::vector<Box> boxes_;
-};
 
 /// Gives each point its vertex, and the distance that it keeps. `x`: where the followed vertices are now.
 void attach_points(const Positions& x, const std::vector<Index>& vertices, Attach attach, MotionNumbers& numbers) {

@@ -2,12 +2,20 @@
 
 #include <algorithm>
 #include <numeric>
-#include <utility>
+#include <tuple>
 
 #include "pliant/core/printable.h"
 
 namespace pliant {
 namespace {
+
+std::string in_small_letters(std::string_view text) {
+  std::string small(text);
+  for (char& c : small) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return small;
+}
 
 /// Insertions, deletions and replacements of bytes that turn a into b.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -30,11 +38,14 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 std::vector<std::string_view> nearest_names(std::string_view word, std::vector<std::string_view> names) {
   constexpr std::size_t compared = 64;  // no key is longer, and the cost grows with the lengths
   word = word.substr(0, compared);
-  std::vector<std::pair<bool, std::size_t>> distances;
+  const std::string small_word = in_small_letters(word);
+  std::vector<std::tuple<bool, std::size_t, std::size_t>> distances;
   distances.reserve(names.size());
   for (const std::string_view name : names) {
-    const bool is_beginning = !word.empty() && name.starts_with(word);
-    distances.emplace_back(!is_beginning, edit_distance(word, name.substr(0, compared)));
+    const std::string small_name = in_small_letters(name.substr(0, compared));
+    const bool is_beginning = !word.empty() && small_name.starts_with(small_word);
+    distances.emplace_back(!is_beginning, edit_distance(small_word, small_name),
+                           edit_distance(word, name.substr(0, compared)));
   }
   std::vector<std::size_t> order(names.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

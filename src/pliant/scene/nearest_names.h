@@ -7,7 +7,7 @@
 namespace pliant {
 
 /// The names that begin with `word`, then the others; each kind by the edits that turn one into the other (Levenshtein
-/// distance), then in the given order.
+/// distance), in which capitals count as small letters but between equals, then in the given order.
 std::vector<std::string_view> nearest_names(std::string_view word, std::vector<std::string_view> names);
 
 /// The first two dozen of them as text: "columns, rows, size".

@@ -65,7 +65,8 @@ struct Rotation {
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& field) {
     field(OptionInfo{"axis", "", "of any length but zero"}, self.axis);
-    field(OptionInfo{"degrees", "", "counterclockwise, seen against the axis; more than 360 turn more than once"},
+    field(OptionInfo{"degrees", "", "counterclockwise, seen against the axis; more than 360 turn more than once",
+                     Range{-1e9, 1e9}},
           self.degrees);
   }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "pliant/core/printable.h"
 #include "pliant/mesh/io/read_file.h"
 #include "pliant/scene/detail/option_reader.h"
 #include "pliant/scene/detail/scene_documents.h"
@@ -64,7 +65,7 @@ void check_view(const Node& node, const ViewSettings& view) {
     }
   }
   if (view.colour_range && !((*view.colour_range)[0] < (*view.colour_range)[1])) {
-    node.require("colour_range").fail("the first value must be below the second");
+    node.require("colour_range").fail("the first value is not below the second; give [low, high]");
   }
 }
 
@@ -116,8 +117,12 @@ void read_simulation(std::span<SceneLayer* const> layers, Scene& scene) {
 
 }  // namespace
 
+std::string Scene::place() const {
+  return printable_place(source.texts.empty() ? name : source.texts[0].name);
+}
+
 StepReport Scene::step() {
-  return timeline.step(simulation);
+  return at_place(place(), [&] { return timeline.step(simulation); });
 }
 
 Scene parse_scene(SceneSource source) {

@@ -38,6 +38,8 @@ struct Scene {
   std::vector<SceneFile> files;          ///< of its meshes and maps, each once
   std::vector<std::string> group_names;  ///< of the groups there are, and behind them those that events add
 
+  /// What messages call it: its file.
+  std::string place() const;
   /// Lets the events act that are due and takes one step. When this throws, nothing has changed.
   StepReport step();
 };

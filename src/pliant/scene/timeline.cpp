@@ -12,7 +12,8 @@ namespace {
 
 const Group& group_of(const Simulation& simulation, GroupId id) {
   const auto found = simulation.groups().find(id);
-  if (found == simulation.groups().end()) fail_input(fmt::format("group {} does not exist", static_cast<Index>(id)));
+  if (found == simulation.groups().end())
+    fail_input(fmt::format("group {} does not exist; give one that was added and not removed", static_cast<Index>(id)));
   return found->second;
 }
 

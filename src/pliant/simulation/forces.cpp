@@ -10,7 +10,8 @@ namespace pliant {
 namespace {
 
 [[noreturn]] void fail_missing(ForceId id) {
-  fail_input("force " + std::to_string(static_cast<Index>(id)) + " does not exist");
+  fail_input("force " + std::to_string(static_cast<Index>(id)) +
+             " does not exist; give one that was added and not removed");
 }
 
 /// Triangles of bodies with the indices of the simulation, and their areas at rest.

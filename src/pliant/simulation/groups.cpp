@@ -122,7 +122,9 @@ std::vector<std::string> Simulation::group_names() const {
 
 void Simulation::remove(GroupId id) {
   const auto found = groups_.find(id);
-  if (found == groups_.end()) fail_input("group " + std::to_string(static_cast<Index>(id)) + " does not exist");
+  if (found == groups_.end())
+    fail_input("group " + std::to_string(static_cast<Index>(id)) +
+               " does not exist; give one that was added and not removed");
   if (undo_ != nullptr) undo_->save(id, std::move(found->second));
   groups_.erase(found);
   groups_changed_ = true;
@@ -130,7 +132,9 @@ void Simulation::remove(GroupId id) {
 
 const Group& Simulation::group(GroupId id) const {
   const auto found = groups_.find(id);
-  if (found == groups_.end()) fail_input("group " + std::to_string(static_cast<Index>(id)) + " does not exist");
+  if (found == groups_.end())
+    fail_input("group " + std::to_string(static_cast<Index>(id)) +
+               " does not exist; give one that was added and not removed");
   return found->second;
 }
 
@@ -225,7 +229,7 @@ Vec3 Simulation::target(GroupId id, Index i) const {
 }
 
 void Simulation::set_target(GroupId id, Index i, const Vec3& target) {
-  if (!target.allFinite()) fail_input("group '" + group(id).name + "': the target is not finite");
+  if (!target.allFinite()) fail_input("group '" + group(id).name + "': the target is not finite; mend it");
   const std::span<Real> numbers = target_numbers(id, i);
   if (undo_ != nullptr) undo_->save_numbers(id, group(id));
   std::ranges::copy(target, numbers.begin());

@@ -109,6 +109,10 @@ void Simulation::update_problem() {
   }
 }
 
+void Simulation::set_stop(std::function<bool()> stop) {
+  solver_->set_stop(std::move(stop));
+}
+
 StepReport Simulation::step() {
   update_problem();
   return solver_->step(state_);

@@ -7,6 +7,7 @@
 //     simulation.add(cloth, Position{.on = {0, 31}});
 //     simulation.add_force(std::make_unique<Gravity>());
 //     for (int i = 0; i < 60; ++i) simulation.step();
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -102,8 +103,12 @@ class Simulation {
   const SolverSettings& settings() const { return settings_; }
   void set_settings(const SolverSettings& settings);
 
+  /// Asked before each iteration whether the step is to be given up, so that even one of a thousand million iterations
+  /// can be; called on the thread of step(). None: never.
+  void set_stop(std::function<bool()> stop);
+
   /// Takes one step (Algorithm 1). Throws Error(diverged), with the state as it was before, when a position would not
-  /// be finite.
+  /// be finite; Error(interrupted), likewise, when the step is given up.
   StepReport step();
   /// One more local step at the positions the last step ended with; at the start, and after set_state(), without the
   /// inertia term.

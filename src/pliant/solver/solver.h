@@ -1,5 +1,7 @@
 #pragma once
 // The solver: thesis Algorithm 1 in residual form. step.cpp has the algorithm on one screen; here is what it needs.
+#include <functional>
+
 #include "pliant/core/thread_pool.h"
 #include "pliant/forces/force.h"
 #include "pliant/solver/factorization/factorization.h"
@@ -21,8 +23,12 @@ class Solver {
   void set_groups(Index vertex_count, std::vector<ConstraintGroup*> groups);
   void set_forces(std::vector<Force*> forces) { forces_ = std::move(forces); }
 
+  /// Asked before each iteration whether the step is to be given up; none: never.
+  void set_stop(std::function<bool()> stop) { stop_ = std::move(stop); }
+
   /// Takes one step. Never allocates, unless a group, the time step or the back end has changed. Throws Error(diverged)
-  /// and leaves the state as it was when a position would not be finite.
+  /// and leaves the state as it was when a position would not be finite; Error(interrupted), as well, when it is given
+  /// up.
   StepReport step(State& state);
 
   /// One local step at the positions of the state, against the prediction that the last step made for it; without
@@ -57,6 +63,7 @@ class Solver {
   void factorize(const State& state);
   bool groups_changed() const;
   bool stiffness_changed() const;
+  [[noreturn]] void give_up(const State& state) const;
   void predict(const State& state);
   void place_held_vertices(Positions& q) const;
   void record(const LocalResult& result);
@@ -66,6 +73,7 @@ class Solver {
   void commit(State& state);
 
   SolverSettings settings_;
+  std::function<bool()> stop_;
   Index vertex_count_ = 0;
   std::vector<ConstraintGroup*> groups_;
   std::vector<Force*> forces_;

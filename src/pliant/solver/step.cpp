@@ -3,7 +3,9 @@
 // q' = q + Y⁻¹ r. The margin has the line numbers of Algorithm 1.
 #include <algorithm>
 #include <cmath>
+#include <string>
 
+#include "pliant/core/error.h"
 #include "pliant/core/stopwatch.h"
 #include "pliant/solver/solver.h"
 
@@ -19,6 +21,7 @@ StepReport Solver::step(State& state) {
   /* 3   */ q_ = settings_.start == Start::prediction ? s_ : state.positions;
   place_held_vertices(q_);
   /* 4   */ while (report.iterations < settings_.iterations) {
+    if (stop_ && stop_()) give_up(state);
     const Stopwatch local;
     /* 5 */ const LocalResult found = local_step_.run(q_, s_, inertia_weights_, is_held_, residual_, *threads_);
     if (!std::isfinite(found.residual)) report_divergence(state);
@@ -38,6 +41,11 @@ StepReport Solver::step(State& state) {
   /* 8   */ commit(state);  // v = (q − qₙ)/h, qₙ = q
   report.seconds_total = total.seconds();
   return report;
+}
+
+void Solver::give_up(const State& state) const {
+  throw Error(ErrorKind::interrupted,
+              "step " + std::to_string(state.step + 1) + ": given up in the middle; take it again to go on");
 }
 
 void Solver::predict(const State& state) {

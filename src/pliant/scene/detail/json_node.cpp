@@ -93,7 +93,7 @@ std::string_view Node::require_one_of(const std::vector<std::string_view>& keys)
     if (!found.empty()) fail(fmt::format("has both '{}' and '{}'; keep one", found, key));
     found = key;
   }
-  if (found.empty()) fail(fmt::format("give one of the keys {}", fmt::join(keys, ", ")));
+  if (found.empty()) fail(fmt::format("no key says which it is; give one of the keys {}", fmt::join(keys, ", ")));
   return found;
 }
 
@@ -109,7 +109,7 @@ void Node::fail_type(std::string_view wanted) const {
                                  : is_null()    ? "null"
                                  : is_bytes()   ? "bytes"
                                                 : "a number";
-  fail(fmt::format("{} is wanted here, not {}", wanted, found));
+  fail(fmt::format("found {}; give {}", found, wanted));
 }
 
 }  // namespace pliant

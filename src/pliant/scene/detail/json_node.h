@@ -77,7 +77,7 @@ class Node {
 
   /// Throws Error(input) `file: path: what`.
   [[noreturn]] void fail(std::string_view what) const;
-  /// Throws "a number is wanted here, not a string".
+  /// Throws "found a string; give a number".
   [[noreturn]] void fail_type(std::string_view wanted) const;
 
   /// Calls f; errors of its input get this place in front.

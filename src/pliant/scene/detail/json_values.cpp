@@ -38,9 +38,9 @@ void read(const Node& node, std::int64_t& number) {
   if (!node.is_integer()) {
     constexpr std::int64_t largest = std::numeric_limits<std::int64_t>::max();
     if (std::abs(node.number()) >= 0x1p63) {
-      node.fail(fmt::format("a whole number is wanted here, not {}; they go up to {}", node.number(), largest));
+      node.fail(fmt::format("found {}; give a whole number up to {}", node.number(), largest));
     }
-    node.fail(fmt::format("a whole number is wanted here, not {}; leave out point and exponent", node.number()));
+    node.fail(fmt::format("found {}; give a whole number, without point and exponent", node.number()));
   }
   number = node.integer();
 }
@@ -126,7 +126,7 @@ void read(const Node& node, Ragged<Real>& lists) {
 }
 
 void read(const Node& node, Colour& colour) {
-  constexpr std::string_view wanted = "a colour is wanted here: \"#rrggbb\", or three numbers from 0 to 1";
+  constexpr std::string_view wanted = "is no colour; give \"#rrggbb\", or three numbers from 0 to 1";
   const std::array<Real*, 3> parts = {&colour.red, &colour.green, &colour.blue};
   if (node.is_list()) {
     node.require_list(3, "numbers from 0 to 1");

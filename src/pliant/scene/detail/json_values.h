@@ -78,7 +78,7 @@ void read(const Node& node, Choice& choice) {
       return;
     }
   }
-  node.fail(fmt::format("'{}' is none of the choices: {}", printable(name),
+  node.fail(fmt::format("'{}' is none of the choices; give one of {}", printable(name),
                         nearest_names_text(name, {names.begin(), names.end()})));
 }
 

@@ -51,7 +51,7 @@ bool has_text(const Node& entry, std::string_view key, std::string_view text) {
 std::size_t entry_of(std::size_t count, auto&& entry, std::string_view step, const Node& value) {
   if (const auto index = to_index(step)) {
     if (*index < count) return *index;
-    value.fail(count == 0 ? "the list has no entries"
+    value.fail(count == 0 ? "the list has no entries; write one in the scene file"
                           : fmt::format("[{}] is out of range; the list has entries 0 to {}", *index, count - 1));
   }
   for (const std::string_view key : {"name", "type"}) {
@@ -89,17 +89,27 @@ const Document& empty_list() {
   return document;
 }
 
+/// How a path may go on from there.
+std::string_view way_on(const Node& node) {
+  if (node.is_list()) return "name one of its entries, as in bodies[0]";
+  if (node.is_object()) return "name one of its keys, as in settings.time_step";
+  return "end the path there";
+}
+
 /// Goes one step down, and makes the object that is missing there.
 Node step_down(const Node& node, Overlay*& overlay, const PathStep& step, std::string_view place, const Node& value) {
   if (!step.is_key) {
-    if (!node.is_list()) value.fail(fmt::format("{} is no list, so [{}] leads nowhere", place, printable(step.text)));
+    if (!node.is_list()) {
+      value.fail(fmt::format("{} is no list, so [{}] leads nowhere; {}", place, printable(step.text), way_on(node)));
+    }
     const auto entry = [&](std::size_t i) { return node[i]; };
     const std::size_t index = entry_of(node.size(), entry, step.text, value);
     overlay = &overlay->entries[index];
     return node[index];
   }
   if (!node.is_object()) {
-    value.fail(fmt::format("{} is no object, so the key '{}' leads nowhere", place, printable(step.text)));
+    value.fail(
+        fmt::format("{} is no object, so the key '{}' leads nowhere; {}", place, printable(step.text), way_on(node)));
   }
   const bool is_missing = !node.has(step.text);
   overlay = &overlay->keys[std::string(step.text)];

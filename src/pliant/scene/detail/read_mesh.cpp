@@ -134,7 +134,8 @@ Vec3 read_scale(const Node& node) {
     read(node, factor);
     scale.setConstant(factor);
   }
-  if (!(scale.minCoeff() > 0)) node.fail("a scale must be above 0, since others turn a body inside out or flatten it");
+  if (!(scale.minCoeff() > 0))
+    node.fail("a scale of 0 or less flattens a body or turns it inside out; give one above 0");
   return scale;
 }
 

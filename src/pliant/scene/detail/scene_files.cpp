@@ -19,7 +19,7 @@ std::string SceneFiles::read(const std::filesystem::path& path) {
 namespace {
 
 SceneFiles& files_of(const Node& node) {
-  if (node.origin().files == nullptr) node.fail("no file can be read from here");
+  if (node.origin().files == nullptr) node.fail("a file cannot be named here; write the values themselves");
   return *node.origin().files;
 }
 

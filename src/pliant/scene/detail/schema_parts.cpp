@@ -107,7 +107,7 @@ SchemaJson timed_schema(std::string_view key, SchemaJson value, const SchemaJson
   properties.update(options_properties<EventTime>());
   for (const char* name : {"step", "time"}) properties[name].erase("default");
   SchemaJson schema = object_schema(joined(std::move(properties), more), {key});
-  schema["allOf"] = {one_of_keys({"step", "time"})};
+  schema["allOf"] = SchemaJson::array({one_of_keys({"step", "time"})});
   return schema;
 }
 

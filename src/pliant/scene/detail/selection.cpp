@@ -9,6 +9,7 @@
 #include "pliant/mesh/geometry.h"
 #include "pliant/mesh/topology.h"
 #include "pliant/scene/detail/json_values.h"
+#include "pliant/scene/detail/nearest_vertex.h"
 #include "pliant/scene/detail/read_map.h"
 #include "pliant/scene/nearest_names.h"
 
@@ -71,11 +72,8 @@ std::vector<Index> nearest(const Node& node, const SceneBody& body) {
   Points points;
   read(node, points);
   std::vector<Index> chosen;
-  for (const Vec3& point : points.list()) {
-    Index best = 0;
-    (body.mesh.vertices.rowwise() - point.transpose()).rowwise().squaredNorm().minCoeff(&best);
-    chosen.push_back(best);
-  }
+  const NearestVertex nearest_vertex(body.mesh.vertices);
+  for (const Vec3& point : points.list()) chosen.push_back(nearest_vertex(point));
   return chosen;
 }
 
@@ -108,7 +106,8 @@ std::vector<Index> in_group(const Node& node, const SceneBody& body) {
 
 std::vector<Index> in_map(const Node& node, const SceneBody& body) {
   node.check_keys({"map", "above", "below"});
-  if (!node.has("above") && !node.has("below")) node.fail("give 'above' or 'below', or both");
+  if (!node.has("above") && !node.has("below"))
+    node.fail("neither 'above' nor 'below' is there; give one of them, or both");
   Real above = -std::numeric_limits<Real>::infinity();
   Real below = std::numeric_limits<Real>::infinity();
   read_optional(node, "above", above);

@@ -1,6 +1,7 @@
 // SuiteSparse's CHOLMOD, supernodal (Chen et al. 2008). Built only with PLIANT_CHOLMOD: its Supernodal module is GPL.
 #include "pliant/solver/factorization/cholmod_factorization.h"
 
+#include <cstdlib>
 #include <mutex>
 
 #include <cholmod.h>
@@ -15,11 +16,26 @@ int openblas_get_num_threads();
 namespace pliant {
 namespace {
 
+/// OpenBLAS waits for ever where it gets no memory for its buffer, of 128 MiB, and OpenMP ends the program where it
+/// gets none for the stacks of its threads: better to know beforehand.
+void require_library_memory() {
+  constexpr std::size_t needed = std::size_t{192} << 20U;
+  void* volatile memory = std::malloc(needed);  // volatile: or the pair is optimized away
+  if (memory == nullptr) {
+    fail_input("the factorization needs 192 MiB of address space; allow more, or choose the back end `eigen`");
+  }
+  std::free(memory);
+}
+
 /// One thread inside OpenBLAS while it lives: how OpenBLAS splits a product among threads changes the bits. The number
 /// belongs to the whole process, so simulations that factorize at the same time take turns.
 class OneBlasThread {
  public:
-  OneBlasThread() { openblas_set_num_threads(1); }
+  OneBlasThread() {
+    static const bool has_memory = (require_library_memory(), true);  // they keep it
+    static_cast<void>(has_memory);
+    openblas_set_num_threads(1);
+  }
   ~OneBlasThread() { openblas_set_num_threads(threads_); }
   OneBlasThread(const OneBlasThread&) = delete;
   OneBlasThread& operator=(const OneBlasThread&) = delete;

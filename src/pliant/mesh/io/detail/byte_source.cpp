@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "pliant/core/error.h"
+#include "pliant/core/printable.h"
 
 namespace pliant {
 
@@ -70,7 +71,7 @@ std::size_t ByteSource::read(std::uint64_t offset, char* into, std::size_t count
 }
 
 void ByteSource::fail(std::string_view message) const {
-  fail_input(fmt::format("{}: {}", name_, message));
+  fail_input(fmt::format("{}: {}", printable_place(name_), message));
 }
 
 }  // namespace pliant

@@ -116,7 +116,8 @@ class HeaderReader {
     if (std::ranges::find(header_.elements, element.name, &PlyElement::name) != header_.elements.end()) {
       lexer_.fail(fmt::format("element {} twice; join the two", quoted(element.name)));
     }
-    if (header_.elements.size() == max_elements) lexer_.fail(fmt::format("more than {} elements", max_elements));
+    if (header_.elements.size() == max_elements)
+      lexer_.fail(fmt::format("more than {} elements; leave out those that are not of the mesh", max_elements));
     header_.elements.push_back(std::move(element));
   }
 

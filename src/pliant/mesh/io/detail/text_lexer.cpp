@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "pliant/core/error.h"
+#include "pliant/core/printable.h"
 
 namespace pliant {
 
@@ -189,7 +190,7 @@ std::string TextLexer::quoted(std::string_view word) {
 }
 
 void TextLexer::fail_at(std::int64_t line, std::string_view message) const {
-  fail_input(fmt::format("{}:{}: {}", source_.name(), line, message));
+  fail_input(fmt::format("{}:{}: {}", printable_place(source_.name()), line, message));
 }
 
 }  // namespace pliant
