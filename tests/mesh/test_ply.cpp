@@ -257,6 +257,10 @@ TEST_CASE("a malformed PLY file is refused with its place") {
     check(ascii("element vertex 3000000000\n" + xyz, ""), "a: more than 2147483647 vertices;");
     check(ascii("element vertex 1\nproperty float x\nproperty float z\n", "0 0\n"),
           "a: element \"vertex\" has no property y;");
+    check(ascii("element vertex 3\nelement face 1\n" + face_list, "3 0 1 2\n"),
+          "a: element \"vertex\" has no properties;");
+    check(ascii("element vertex 3\n" + xyz + "element edge 2\nproperty int vertex1\n", "0 0 0\n1 0 0\n0 1 0\n1\n2\n"),
+          "a: element \"edge\" has one of vertex1 and vertex2;");
     check(ascii("element vertex 2000000000\n" + xyz, "0 0 0\n"), "a: the header counts 2000000000 rows of element");
     check(std::string("ply\nformat ascii 1.0\n\0\nend_header\n", 33), "a:3: a NUL byte;");
   }

@@ -158,6 +158,9 @@ TEST_CASE("counts that do not fit, values that are not finite, times that do not
   refuse(pc2(2, 2, not_a_number), PointCacheFormat::pc2, "frame 0: its time is not finite");
   refuse(mdd(2, {1, 1}), PointCacheFormat::mdd, "not after");
   refuse(mdd(2, {0, std::numeric_limits<float>::infinity()}), PointCacheFormat::mdd, "not finite");
+  // So slow that there is no number for the time between the two frames.
+  CHECK_THROWS_WITH_AS(PointCache::parse(pc2(2, 2, -1e38f, 2e38f), "a", PointCacheFormat::pc2, {1e-270}),
+                       doctest::Contains("than numbers go; give"), Error);
   refuse("POINTCACHE", PointCacheFormat::pc2, "POINTCACHE2");
   for (const char* dictionary :
        {"{'descr': '>f8', 'fortran_order': False, 'shape': (2, 2, 3)}", "{'descr': '|O', 'fortran_order': False}",

@@ -1,6 +1,8 @@
 #include <string>
+#include <utility>
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include "pliant/mesh/geometry.h"
 #include "pliant/mesh/shapes.h"
@@ -57,6 +59,23 @@ TEST_CASE("version 4.1, in blocks, with tags in any order") {
   CHECK(surface.edges.empty());
   CHECK(gmsh(format_4 + four + "$Elements\n1 1 1 1\n1 1 1 1\n3 99 10\n$EndElements\n").edges ==
         std::vector<Edge>{{0, 1}});
+}
+
+TEST_CASE("tags of nodes at both ends of what a number holds") {
+  for (const auto& [first, second] : {std::pair{"9223372036854775807", "-9223372036854775808"},
+                                      std::pair{"-9223372036854775808", "9223372036854775807"},
+                                      std::pair{"9223372036854775806", "9223372036854775807"}}) {
+    const std::string two = fmt::format("$Nodes\n2\n{} 0 0 0\n{} 1 0 0\n$EndNodes\n", first, second);
+    const Mesh mesh = gmsh(format + two + elements(fmt::format("1 1 0 {} {}\n", second, first), 1));
+    CHECK(mesh.edges == std::vector<Edge>{{1, 0}});
+  }
+}
+
+TEST_CASE("a tetrahedron that rounding makes inverted in either order keeps the order of the file") {
+  const std::string flat = "4 3 0 0\n0 11 5475807 0\n1 1 0 0\n2 1 1 12147483647e8\n3 1 0 1\n";
+  const Mesh mesh = tetgen(flat + "1 4 0\n0 0 3 1 2\n");
+  CHECK(mesh.tetrahedra == std::vector<Tetrahedron>{{0, 3, 1, 2}});
+  check_same_elements(written_and_read(mesh, "b.msh"), mesh);
 }
 
 TEST_CASE("what Gmsh holds is written and read back") {

@@ -152,7 +152,7 @@ class GmshReader {
   void index_tags() {
     bool is_in_order = true;
     for (std::size_t v = 0; v < tags_.size(); ++v) {
-      is_in_order = is_in_order && tags_[v] == tags_[0] + static_cast<std::int64_t>(v);
+      is_in_order = is_in_order && (v == 0 || (tags_[v] > tags_[v - 1] && tags_[v] - 1 == tags_[v - 1]));
     }
     if (is_in_order) return;
     by_tag_.reserve(tags_.size());

@@ -66,6 +66,7 @@ class PlyReader {
       if (element.count > max_index_count) {
         source_.fail(fmt::format("more than {} vertices; cut the mesh up", max_index_count));
       }
+      if (element.properties.empty()) source_.fail("element \"vertex\" has no properties; give x, y and z");
       vertex_count_ = static_cast<Index>(element.count);
     }
     if (vertex_count_ == 0) source_.fail("no vertices; give at least one row of element \"vertex\"");
@@ -257,9 +258,9 @@ class PlyReader {
     const auto is_end = [](const PlyProperty& p) {
       return !p.count_type && (p.name == "vertex1" || p.name == "vertex2");
     };
-    if (std::ranges::count_if(element.properties, is_end) == 2) {
-      mesh_.edges.reserve(static_cast<std::size_t>(element.count));
-    }
+    const auto ends = std::ranges::count_if(element.properties, is_end);
+    if (ends == 1) source_.fail("element \"edge\" has one of vertex1 and vertex2; give both");
+    if (ends == 2) mesh_.edges.reserve(static_cast<std::size_t>(element.count));
     read_rows(element, [&](const PlyProperty& property) {
       if (!is_end(property)) return rows_.skip(property);
       edge_[property.name == "vertex1" ? 0 : 1] = take_index(property.type);

@@ -80,6 +80,12 @@ void check_times(std::string_view name, const std::vector<Real>& times) {
     if (!std::isfinite(times[i])) {
       fail(name, fmt::format("frame {}: its time is not finite; write the file again", i));
     }
+    if (!std::isfinite(times[i] - times.front())) {
+      fail(name,
+           fmt::format("frame {}: its time, {} s, is further from the first, {} s, than numbers go; give times in "
+                       "seconds",
+                       i, times[i], times.front()));
+    }
     if (i > 0 && !(times[i] > times[i - 1])) {
       fail(name,
            fmt::format("frame {}: its time, {} s, is not after that of the frame before, {} s; give frames rising "

@@ -14,10 +14,13 @@ std::string add_tetrahedron(Mesh& mesh, Tetrahedron tetrahedron, std::int64_t fi
       return fmt::format("a tetrahedron with point {} at two corners; remove it", tetrahedron[i] + first_number);
     }
   }
-  const auto& [a, b, c, d] = tetrahedron;
-  const Positions& x = mesh.vertices;
-  if (tetrahedron_volume(row(x, a), row(x, b), row(x, c), row(x, d)) < 0) std::swap(tetrahedron[2], tetrahedron[3]);
-  mesh.tetrahedra.push_back(tetrahedron);
+  const auto volume = [&x = mesh.vertices](const Tetrahedron& t) {
+    return tetrahedron_volume(row(x, t[0]), row(x, t[1]), row(x, t[2]), row(x, t[3]));
+  };
+  const Tetrahedron swapped = {tetrahedron[0], tetrahedron[1], tetrahedron[3], tetrahedron[2]};
+  // Rounding makes both negative where there is hardly a volume: then the order stays, however often it is read.
+  const bool is_inverted = volume(tetrahedron) < 0 && volume(swapped) > 0;
+  mesh.tetrahedra.push_back(is_inverted ? swapped : tetrahedron);
   return {};
 }
 
