@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <system_error>
 
 #include <unistd.h>
 
@@ -16,19 +17,26 @@ namespace {
 
 using pliant_fuzz::require;
 
-/// A folder with a mesh and two frames of it, which no input changes.
-std::filesystem::path make_folder() {
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / ("pliant_fuzz_run_" + std::to_string(getpid()));
-  std::filesystem::create_directories(folder);
-  pliant::Mesh mesh = pliant::chain({.links = 3});
-  mesh.edges = {{0, 1}, {2, 3}};  // two bodies that share no element
-  pliant::write_mesh(folder / "mesh.obj", mesh, mesh.vertices);
-  for (const std::int64_t frame : {0, 1}) {
-    pliant::write_mesh(folder / pliant::frame_file_name(frame, "obj"), mesh, mesh.vertices);
+/// A folder with a mesh and two frames of it, which no input changes; it goes when the program ends.
+struct RunFolder {
+  std::filesystem::path path = std::filesystem::temp_directory_path() / ("pliant_fuzz_run_" + std::to_string(getpid()));
+
+  RunFolder() {
+    std::filesystem::create_directories(path);
+    pliant::Mesh mesh = pliant::chain({.links = 3});
+    mesh.edges = {{0, 1}, {2, 3}};  // two bodies that share no element
+    pliant::write_mesh(path / "mesh.obj", mesh, mesh.vertices);
+    for (const std::int64_t frame : {0, 1}) {
+      pliant::write_mesh(path / pliant::frame_file_name(frame, "obj"), mesh, mesh.vertices);
+    }
   }
-  return folder;
-}
+  ~RunFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path, ignored);
+  }
+  RunFolder(const RunFolder&) = delete;
+  RunFolder& operator=(const RunFolder&) = delete;
+};
 
 void check(const pliant::Animation& animation) {
   require(!animation.times.empty(), "an animation without frames");
@@ -50,11 +58,11 @@ void check(const pliant::Animation& animation) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const std::filesystem::path folder = make_folder();
+  static const RunFolder folder;
   const std::string_view bytes = pliant_fuzz::text(data, size);
   const std::size_t end = std::min(bytes.find('\0'), size);
-  pliant::write_file_atomically(folder / "run.json", bytes.substr(0, end));
-  pliant::write_file_atomically(folder / "measurements.csv", bytes.substr(std::min(end + 1, size)));
-  pliant_fuzz::expect_errors_only([&] { check(pliant::read_run(folder)); });
+  pliant::write_file_atomically(folder.path / "run.json", bytes.substr(0, end));
+  pliant::write_file_atomically(folder.path / "measurements.csv", bytes.substr(std::min(end + 1, size)));
+  pliant_fuzz::expect_errors_only([&] { check(pliant::read_run(folder.path)); });
   return 0;
 }
