@@ -91,7 +91,8 @@ pliant::Scene open_scene(const SceneArguments& arguments) {
     if (scene.name == arguments.scene) return pliant::parse_scene(scene.text, {}, scene.name, arguments.overrides);
     names.push_back(scene.name);
   }
-  if (fs::is_directory(status)) return pliant::load_scene(arguments.scene, arguments.overrides);  // says what it is
+  const bool is_hidden = status.type() != fs::file_type::not_found;
+  if (is_hidden) return pliant::load_scene(arguments.scene, arguments.overrides);  // says what is wrong with it
   pliant::fail_input(
       fmt::format("{}: neither a file nor a built-in scene; `pliant scenes` lists those, the nearest first: {}",
                   pliant::printable_place(arguments.scene), pliant::nearest_names_text(arguments.scene, names)));

@@ -111,10 +111,35 @@ TEST_CASE("states that are of another timeline are refused, and change nothing")
   REQUIRE(!wrong.motions.empty());
   wrong.motions[0].order = 7;
   CHECK(contains(replay(wrong), "motion 7 of event"));
+  for (const Index bad : {-1, 1000}) {
+    CAPTURE(bad);
+    wrong = state;
+    for (TimelineState::Motion& motion : wrong.motions) motion.numbers.points.at(0).vertex = bad;
+    CHECK(contains(replay(wrong), "a point follows vertex " + std::to_string(bad)));
+  }
   second.advance(7);
   untouched.advance(7);
   CHECK(second.simulation.state().positions == untouched.simulation.state().positions);
   CHECK(contains(replay(state), "has begun already"));
+}
+
+TEST_CASE("a point that a straight path does not have is refused") {
+  const auto begun = [](Rig& rig) {
+    rig.timeline.start(rig.simulation, rig.pins,
+                       straight_path(MoveKind::target, std::vector<Vec3>{{0, 0, 1}, {1, 0, 1}}, 0.5));
+  };
+  Rig first;
+  begun(first);
+  first.advance(1);
+  for (const Index bad : {-1, 2, 1000}) {
+    CAPTURE(bad);
+    Rig second;
+    begun(second);
+    TimelineState wrong = first.timeline.state();
+    wrong.motions.at(0).numbers.points.at(1).place = bad;
+    CHECK(contains(error_of([&] { second.timeline.replay(second.simulation, wrong); }),
+                   "point " + std::to_string(bad) + " of a path of 2 points"));
+  }
 }
 
 TEST_CASE("a step that is refused leaves everything as before it") {

@@ -27,12 +27,17 @@ namespace pliant {
 
 inline constexpr int dynamic_vertices = -1;
 
+/// The system matrix has an entry for every two vertices of a constraint.
+inline constexpr int max_stencil = 4096;
+
 template <class Type>
 class Batch final : public ConstraintGroup {
  public:
   explicit Batch(Real stiffness, int vertices = Type::vertices) : ConstraintGroup(stiffness), vertices_(vertices) {
-    if (vertices < 1)
-      fail_input(std::string(Type::name) + ": a batch needs stencils of at least one vertex; give them");
+    if (vertices < 1 || vertices > max_stencil) {
+      fail_input(std::string(Type::name) + ": a constraint over " + std::to_string(vertices) + " vertices, which all " +
+                 "meet in the system matrix; give 1 to " + std::to_string(max_stencil) + ", or leave it out");
+    }
   }
 
   /// One more constraint: n vertices, k × n coefficients, its measure, and the fields of its type. Throws Error(input)

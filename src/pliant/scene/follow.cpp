@@ -31,6 +31,14 @@ void attach_points(const Positions& x, const std::vector<Index>& vertices, Attac
   }
 }
 
+void check_followed(const MotionNumbers& numbers, Index vertex_count) {
+  for (const MotionPoint& point : numbers.points) {
+    if (point.vertex >= 0 && point.vertex < vertex_count) continue;
+    fail_input(
+        fmt::format("a point follows vertex {}, but there are {}; begin the motion anew", point.vertex, vertex_count));
+  }
+}
+
 class BodyPath final : public Path {
  public:
   BodyPath(BodyId body, std::vector<Index> vertices, Attach attach)
@@ -43,6 +51,10 @@ class BodyPath final : public Path {
     }
     const Positions x = simulation.state().positions.middleRows(followed.first_vertex, followed.mesh.vertex_count());
     attach_points(x, vertices_, attach_, numbers);
+  }
+
+  void check(const Simulation& simulation, const MotionNumbers& numbers) const override {
+    check_followed(numbers, simulation.body(body_).mesh.vertex_count());
   }
 
   void go_to(const Simulation& simulation, const MotionNumbers&, Real) override {
@@ -74,6 +86,10 @@ class CachePath final : public Path {
     Positions first;
     cache_.frame(0, first);
     attach_points(first, vertices_, attach_, numbers);
+  }
+
+  void check(const Simulation&, const MotionNumbers& numbers) const override {
+    check_followed(numbers, cache_.vertex_count());
   }
 
   void go_to(const Simulation&, const MotionNumbers&, Real elapsed) override {

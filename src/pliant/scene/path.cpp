@@ -33,6 +33,14 @@ class StraightPath final : public Path {
                            numbers.points.size()));
   }
 
+  void check(const Simulation&, const MotionNumbers& numbers) const override {
+    if (!to_.each()) return;
+    for (const MotionPoint& point : numbers.points) {
+      if (point.place >= 0 && static_cast<std::size_t>(point.place) < to_.list().size()) continue;
+      fail_input(fmt::format("point {} of a path of {} points; begin the motion anew", point.place, to_.list().size()));
+    }
+  }
+
   void go_to(const Simulation&, const MotionNumbers&, Real elapsed) override {
     share_ = elapsed >= duration_ ? 1 : eased(elapsed / duration_, ease_);
   }

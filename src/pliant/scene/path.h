@@ -39,6 +39,9 @@ class Path {
 
   virtual ~Path() = default;
 
+  /// Refuses numbers of another path. Throws Error(input).
+  virtual void check(const Simulation&, const MotionNumbers&) const {}
+
   /// Of the whole path [s]; 0: a jump.
   virtual Real duration() const { return endless; }
   /// Called once, when a motion begins; `from` of each point is then where its target is. Throws Error(input) when the

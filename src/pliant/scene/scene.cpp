@@ -102,7 +102,7 @@ void read_simulation(std::span<SceneLayer* const> layers, Scene& scene) {
   const Node settings_node = find_last(layers, "settings").value_or(root);
   scene.simulation = settings_node.locate([&] { return Simulation(settings); });
   require_bodies(layers);
-  SceneReader reader{scene.simulation};
+  SceneReader reader(scene.simulation);
   for_each_entry(layers, "bodies", [&](const Node& node) { reader.read_body(node); });
   reader.read_gravity(find_last(layers, "gravity"));
   for_each_entry(layers, "forces", [&](const Node& node) { reader.read_force(node); });

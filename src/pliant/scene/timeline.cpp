@@ -340,6 +340,7 @@ void Timeline::replay(Simulation& simulation, const TimelineState& state) {
         fail_input(fmt::format("replay: motion {} of event {} was not begun; begin those outside of events first",
                                saved.order, saved.event));
       }
+      found->path->check(simulation, saved.numbers);
       Motion& motion = motions.emplace_back(*found);
       motion.state = saved;
       motion.indices.assign(saved.numbers.points.size(), -1);

@@ -101,6 +101,7 @@ void Simulation::check_held(const ConstraintGroup& added, const std::string& pla
   std::vector<Index> held(added.held_vertices().begin(), added.held_vertices().end());
   std::ranges::sort(held);
   const auto twice = std::ranges::adjacent_find(held);
+  if (held.empty()) return;
   if (twice != held.end()) fail_input(place + ": vertex " + std::to_string(*twice) + " is held twice; leave one out");
   for (const auto& [id, other] : groups_) {
     if (id == replaced) continue;

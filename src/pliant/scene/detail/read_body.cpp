@@ -69,13 +69,13 @@ void SceneReader::read_body(const Node& node) {
 
 void SceneReader::add_group(const Node& node, BodyId id, ConstraintOptions options) {
   const std::string name = group_name(node, id, type_of(options));
-  node.locate([&] { add(simulation, id, options, name); });
-  check_group(node, name);
+  const GroupId group = node.locate([&] { return add(simulation, id, options, name); });
+  check_group(node, group);
   groups.emplace(name, GroupEntry{id, std::move(options)});
 }
 
-void SceneReader::check_group(const Node& node, const std::string& name) const {
-  const ConstraintSet& set = simulation.groups().at(simulation.find_group(name).value()).set;
+void SceneReader::check_group(const Node& node, GroupId group) const {
+  const ConstraintSet& set = simulation.groups().at(group).set;
   if (set.count == 0 && set.skipped == 0) {
     node.fail(
         "makes no constraint, since the mesh has none of its stencils in the selection; select more, or remove it");
@@ -94,18 +94,20 @@ std::string SceneReader::read_new_name(const Node& node) const {
   return name;
 }
 
-std::string SceneReader::free_name(const std::string& base) const {
+std::string SceneReader::free_name(const std::string& base) {
+  int& last_number = last_numbers_[base];  // thousands may have no name of their own
   std::string name = base;
-  for (int i = 2; is_taken(name); ++i) name = fmt::format("{} {}", base, i);
+  if (last_number == 0) last_number = 1;
+  while (is_taken(name)) name = fmt::format("{} {}", base, ++last_number);
   return name;
 }
 
-std::string SceneReader::group_name(const Node& node, BodyId id, std::string_view type) const {
+std::string SceneReader::group_name(const Node& node, BodyId id, std::string_view type) {
   const auto given = node.find("name");
   return given ? read_new_name(*given) : free_name(fmt::format("{}.{}", simulation.body(id).name, type));
 }
 
-std::string SceneReader::force_name(const Node& node, std::string_view type) const {
+std::string SceneReader::force_name(const Node& node, std::string_view type) {
   const auto given = node.find("name");
   return given ? read_new_name(*given) : free_name(std::string(type));
 }

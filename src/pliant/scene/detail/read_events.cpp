@@ -231,7 +231,8 @@ Timeline::Edit EventReader::read_add(const Node& value) {
 }
 
 void EventReader::check_added() const {
-  if (!added_group_.empty()) scene_.check_group(node_.require("add"), added_group_);
+  if (added_group_.empty()) return;
+  scene_.check_group(node_.require("add"), scene_.simulation.find_group(added_group_).value());
 }
 
 Timeline::Edit EventReader::read_remove(const Node& node) {

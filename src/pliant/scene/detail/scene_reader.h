@@ -20,6 +20,8 @@ struct GroupEntry {
 
 /// What has been read so far, for what refers to it by name.
 struct SceneReader {
+  explicit SceneReader(Simulation& made) : simulation(made) {}
+
   Simulation& simulation;
   std::vector<Positions> untransformed = {};  ///< rest positions of each body before its transform; empty: it has none
   std::map<std::string, BodyId, std::less<>> bodies = {};
@@ -52,15 +54,17 @@ struct SceneReader {
   /// Makes a group of what has been read, with the name in the object's key or one of its own.
   void add_group(const Node& node, BodyId body, ConstraintOptions options);
   /// Refuses a group without constraints; `node` is where it was read.
-  void check_group(const Node& node, const std::string& name) const;
+  void check_group(const Node& node, GroupId group) const;
   /// The name given, which must be new; else the type, with the body in front, and a number behind where that is taken.
-  std::string group_name(const Node& node, BodyId body, std::string_view type) const;
-  std::string force_name(const Node& node, std::string_view type) const;
+  std::string group_name(const Node& node, BodyId body, std::string_view type);
+  std::string force_name(const Node& node, std::string_view type);
 
  private:
   bool is_taken(std::string_view name) const { return groups.contains(name) || forces.contains(name); }
   std::string read_new_name(const Node& node) const;
-  std::string free_name(const std::string& base) const;
+  std::string free_name(const std::string& base);
+
+  std::map<std::string, int, std::less<>> last_numbers_ = {};  ///< behind a base, of those given so far
 };
 
 }  // namespace pliant

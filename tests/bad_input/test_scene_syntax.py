@@ -46,7 +46,7 @@ SPELLINGS = [
     ("undefined", "undefined", r"mend"),
     ("Arabic digits", "٢٠", r"mend"),
     ("a dash", "–20", r"mend"),
-    ("quoted", '"20"', r"stiffness: a number is wanted"),
+    ("quoted", '"20"', r"stiffness: found a string"),
     ("single quotes", "'20'", r"mend"),
     ("nothing", "", r"mend"),
     ("2^63", "9223372036854775808", r""),

@@ -36,7 +36,7 @@ def misspellings(key):
 
 def wanted(key):
     """What is said where a key is misspelt: it is the nearest of those known, or the one that is missing."""
-    return rf"the nearest first: {key}\b|'{key}' is missing|give one of the keys .*\b{key}\b"
+    return rf"the key '{key}'|the nearest first: {key}\b|'{key}' is missing|give one of the keys .*\b{key}\b"
 
 
 class SceneValues(HostileTest):

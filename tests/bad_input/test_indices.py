@@ -45,7 +45,7 @@ OBJ = {
     "a line out of range": ("l 1 9", r"thing\.obj:5: "),
     "a line there and back": ("l 1 2 1", r""),
     "points": ("p 1 2 9", r""),
-    "curves": ("cstype bezier\ndeg 3\ncurv 0 1 1 2 3 4\nend", r""),
+    "curves": ("cstype bezier\ndeg 3\ncurv 0 1 1 2 3 4\nend", r"thing\.obj:7: .*curv"),
     "the triangle twice": ("f 1 2 3\nf 1 2 3", r""),
     "the triangle turned over": ("f 1 2 3\nf 3 2 1", r""),
     "an index of what comes later": ("f 1 2 5\nv 0 0 1", r""),
