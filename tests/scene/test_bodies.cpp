@@ -7,6 +7,7 @@
 #include "pliant/core/error.h"
 #include "pliant/mesh/topology.h"
 #include "pliant/scene/scene.h"
+#include "tests/mesh/meshes.h"
 #include "tests/support/temporary_folder.h"
 
 namespace {
@@ -73,13 +74,31 @@ TEST_CASE("what parts refuse") {
   starts(refusal(R"({"parts": [{"shape": "chain", "copies": {"count": 10001}}]})"),
          "s.json: bodies[0].mesh.parts[0].copies.count: 10001 is out of range; give a finite number from 1");
   starts(refusal(R"({"parts": [{"shape": "grid", "columns": 200, "rows": 200, "copies": {"count": 9999}}]})"),
-         "s.json: bodies[0].mesh.parts[0].copies: copies ask for 4e+08 vertices; stay under 100000000");
+         "s.json: bodies[0].mesh.parts[0].copies: copies ask for 4e+08 vertices; stay under 20000000");
   starts(refusal(R"({"parts": [{"shape": "chain", "name": 5}]})"),
          "s.json: bodies[0].mesh.parts[0].name: found a number; give a text");
   starts(refusal(R"({"parts": [{"vertices": [[0, 0, 0], [0, 0, 0]], "edges": [[0, 1]], "name": "knot"}]})"),
          "s.json: bodies[0].mesh: part 'knot': edge 0");
   starts(refusal(R"({"parts": [{"shape": "chain", "file": "a.obj"}]})"),
          "s.json: bodies[0].mesh.parts[0]: has both 'shape' and 'file'");
+}
+
+TEST_CASE("a group selects the vertices of a part, also of one without faces") {
+  const std::string mesh = R"({"parts": [{"name": "rope", "shape": "chain", "links": 2},
+                                         {"name": "plank", "shape": "bar", "cells": [1, 1, 1]}, {"shape": "chain"}]})";
+  const auto held = [&](const std::string& name) {
+    const Scene scene = parse_scene(R"({"pliant": 1, "bodies": [{"mesh": )" + mesh +
+                                        R"(, "mass": {"per_vertex": 1}, "constraints": [
+                                            {"type": "position", "on": {"group": ")" +
+                                        name + R"("}}]}]})",
+                                    {}, "s.json");
+    const std::span<const Index> vertices = scene.simulation.groups().begin()->second.set.parts[0]->held_vertices();
+    return std::vector<Index>(vertices.begin(), vertices.end());
+  };
+  CHECK(held("rope") == std::vector<Index>{0, 1, 2});
+  CHECK(held("plank") == std::vector<Index>{3, 4, 5, 6, 7, 8, 9, 10});
+  CHECK(pliant_tests::contains(pliant_tests::error_of([&] { held("plonk"); }),
+                               "no group, object, material or part 'plonk'; known, the nearest first: plank, rope"));
 }
 
 TEST_CASE("densities add up, other masses stand alone") {

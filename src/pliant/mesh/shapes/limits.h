@@ -6,7 +6,7 @@
 namespace pliant {
 
 /// A shape with more vertices than this is refused, as a slip of the keyboard.
-inline constexpr Index max_shape_vertices = 100'000'000;
+inline constexpr Index max_shape_vertices = 20'000'000;
 
 /// Throws Error (input) that names the options when they ask for more. The count is a floating-point number because
 /// the product of three counts may exceed every integer.

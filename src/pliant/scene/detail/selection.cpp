@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -77,16 +78,25 @@ std::vector<Index> nearest(const Node& node, const SceneBody& body) {
   return chosen;
 }
 
-/// The corners of the faces in every group, object or material of that name.
+[[noreturn]] void fail_no_group(const Node& node, const std::string& name, const Mesh& mesh) {
+  std::set<std::string_view> names;
+  for (const FaceGroup& group : mesh.groups) names.insert(group.name);
+  for (const VertexGroup& group : mesh.vertex_groups) names.insert(group.name);
+  if (names.empty()) {
+    node.fail("the mesh has no groups; select by place, name its parts, or take a mesh from OBJ that has some");
+  }
+  node.fail(fmt::format("the mesh has no group, object, material or part '{}'; known, the nearest first: {}",
+                        printable(name), nearest_names_text(name, {names.begin(), names.end()})));
+}
+
+/// The corners of the faces in every group, object or material of that name, and the vertices of the part.
 std::vector<Index> in_group(const Node& node, const SceneBody& body) {
   std::string name;
   read(node, name);
   const Mesh& mesh = body.mesh;
-  std::vector<std::string_view> names;
   std::vector<char> flags(static_cast<std::size_t>(mesh.vertex_count()), 0);
   bool found = false;
   for (const FaceGroup& group : mesh.groups) {
-    if (std::ranges::find(names, group.name) == names.end()) names.push_back(group.name);
     if (group.name != name) continue;
     found = true;
     for (const Index face : group.faces) {
@@ -96,11 +106,12 @@ std::vector<Index> in_group(const Node& node, const SceneBody& body) {
       }
     }
   }
-  if (names.empty()) node.fail("the mesh has no groups; select by place, or take a mesh from OBJ that has some");
-  if (!found) {
-    node.fail(fmt::format("the mesh has no group, object or material '{}'; known, the nearest first: {}",
-                          printable(name), nearest_names_text(name, names)));
+  for (const VertexGroup& group : mesh.vertex_groups) {
+    if (group.name != name) continue;
+    found = true;
+    for (const Index vertex : group.vertices) flags[static_cast<std::size_t>(vertex)] = 1;
   }
+  if (!found) fail_no_group(node, name, mesh);
   return flagged(flags);
 }
 
