@@ -79,7 +79,8 @@ TEST_CASE("a mass that is not finite and positive is refused, with its vertex") 
     CHECK(contains(refusal(sheet, Mass::area_density(bad)), "flag: the mass is "));
     CHECK(contains(refusal(sheet, Mass::each({1, 1, bad, 1})), "flag: vertex 2 has mass "));
   }
-  CHECK(refusal(sheet, Mass::each({1, 1, 0, 1})) == "flag: vertex 2 has mass 0; give every vertex one that is finite and above 0");
+  CHECK(refusal(sheet, Mass::each({1, 1, 0, 1})) ==
+        "flag: vertex 2 has mass 0; give every vertex one that is finite and above 0");
   CHECK(refusal(sheet, Mass::each({1, 1})) == "flag: there are 2 masses for 4 vertices; give one for each vertex");
 }
 
