@@ -49,6 +49,18 @@ TEST_CASE("a step is given up before the iteration in which that is asked") {
   CHECK(stopped.simulation.state().velocities == whole.simulation.state().velocities);
 }
 
+TEST_CASE("a group that was added since has no energy yet") {
+  Cloth cloth(5);
+  for (int i = 0; i < 3; ++i) cloth.simulation.step();
+  cloth.simulation.evaluate();
+  CHECK(cloth.simulation.elastic_energy(cloth.springs) > 0);
+  cloth.simulation.remove(cloth.springs);
+  const GroupId added = cloth.simulation.add(cloth.body, EdgeSpring{.stiffness = 7});
+  CHECK(cloth.simulation.elastic_energy(added) == 0);
+  cloth.simulation.evaluate();
+  CHECK(cloth.simulation.elastic_energy(added) > 0);
+}
+
 TEST_CASE("a step of a thousand million iterations can be given up") {
   Cloth cloth(1'000'000'000);
   int asked = 0;

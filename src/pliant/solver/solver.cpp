@@ -28,12 +28,14 @@ void Solver::set_settings(const SolverSettings& settings) {
   if (settings.precision != Precision::double_) {
     fail_input("settings: precision: `mixed` is not in this version; use `double`");
   }
-  if (!factorization_ || settings.backend != settings_.backend) {
-    factorization_ = make_factorization(settings.backend);
+  std::unique_ptr<Factorization> other;
+  if (!factorization_ || settings.backend != settings_.backend) other = make_factorization(settings.backend);
+  start_threads(settings.threads);  // may fail; nothing has changed until here
+  if (other) {
+    factorization_ = std::move(other);
     pattern_analyzed_ = false;
     factor_time_step_ = 0;
   }
-  start_threads(settings.threads);
   settings_ = settings;
   history_.reserve(std::min(history_limit, static_cast<std::size_t>(settings_.iterations)));
 }
