@@ -50,6 +50,9 @@ class Convert(ExportCase):
                       self.error("scene.json", "a.glb"))
         self.assertIn("no such file", self.error("none.obj", "a.glb"))
         self.assertIn("no run.json", self.error(self.folder, "a.glb"))
+        (self.folder / "many").mkdir()
+        (self.folder / "many/run.json").write_text("[" + "{}," * 1000000 + "{}]")
+        self.assertIn("run.json: holds more values than a run writes", self.error("many", "a.glb"))
         self.pliant("convert", expect=2)
         self.pliant("convert", "run", expect=2)
 

@@ -80,7 +80,11 @@ void Solver::lay_out_groups() {
   start_threads(settings_.threads);
   if (system_matrix_.set_groups(vertex_count_, groups_)) pattern_analyzed_ = false;
   stamps_.clear();
-  for (const ConstraintGroup* group : groups_) stamps_.push_back({group->revision(), group->stiffness()});
+  places_.clear();
+  for (const ConstraintGroup* group : groups_) {
+    places_.emplace(group, stamps_.size());
+    stamps_.push_back({group->revision(), group->stiffness()});
+  }
   is_held_.assign(static_cast<std::size_t>(vertex_count_), 0);
   for (const ConstraintGroup* group : groups_) {
     for (const Index vertex : group->held_vertices()) is_held_[static_cast<std::size_t>(vertex)] = 1;
@@ -108,9 +112,9 @@ void Solver::factorize(const State& state) {
 }
 
 Real Solver::elastic_energy(const ConstraintGroup& group) const {
-  const auto found = std::ranges::find(groups_, &group);
-  if (!groups_laid_out_ || found == groups_.end()) return 0;
-  return local_step_.elastic_energy(static_cast<std::size_t>(found - groups_.begin()));
+  const auto found = places_.find(&group);
+  if (!groups_laid_out_ || found == places_.end()) return 0;
+  return local_step_.elastic_energy(found->second);
 }
 
 }  // namespace pliant

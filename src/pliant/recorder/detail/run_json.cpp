@@ -74,8 +74,21 @@ std::vector<BodyRange> read_bodies(const Node& list) {
   return bodies;
 }
 
+/// Values of a run's own file are longer than these, with their keys and blanks; a file of shorter ones would cost many
+/// times its size of memory.
+constexpr std::size_t min_bytes_per_value = 12;
+constexpr std::size_t always_allowed_values = 1000;
+
 Json parse_json(const std::string& bytes, const std::string& name) {
-  Json json = Json::parse(bytes, nullptr, false);
+  std::size_t values_left = always_allowed_values + bytes.size() / min_bytes_per_value;
+  const auto count = [&](int, Json::parse_event_t event, Json&) {
+    using enum Json::parse_event_t;
+    if (event != value && event != object_start && event != array_start) return true;
+    if (values_left-- > 0) return true;
+    fail_input(fmt::format("{}: holds more values than a run writes; give the folder of a run as `pliant run` left it",
+                           name));
+  };
+  Json json = Json::parse(bytes, count, false);
   if (!json.is_discarded()) return json;
   fail_input(fmt::format("{}: is not JSON; give the folder of a run as `pliant run` left it", name));
 }
