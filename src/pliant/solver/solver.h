@@ -85,7 +85,7 @@ class Solver {
   std::unique_ptr<Factorization> factorization_;
   std::vector<GroupStamp> stamps_;  // of the groups in the factor
   std::unordered_map<const ConstraintGroup*, std::size_t> places_;
-  Real factor_time_step_ = 0;       // 0: there is no factor
+  Real factor_time_step_ = 0;  // 0: there is no factor
   bool groups_laid_out_ = false;
   bool pattern_analyzed_ = false;
 

@@ -85,8 +85,8 @@ Json parse_json(const std::string& bytes, const std::string& name) {
     using enum Json::parse_event_t;
     if (event != value && event != object_start && event != array_start) return true;
     if (values_left-- > 0) return true;
-    fail_input(fmt::format("{}: holds more values than a run writes; give the folder of a run as `pliant run` left it",
-                           name));
+    fail_input(
+        fmt::format("{}: holds more values than a run writes; give the folder of a run as `pliant run` left it", name));
   };
   Json json = Json::parse(bytes, count, false);
   if (!json.is_discarded()) return json;
