@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "pliant/core/error.h"
+#include "pliant/core/stopwatch.h"
 
 namespace pliant {
 namespace {
@@ -66,11 +67,17 @@ bool Solver::stiffness_changed() const {
   return false;
 }
 
-void Solver::prepare(const State& state) {
+SetUpTimes Solver::prepare(const State& state) {
+  SetUpTimes times;
   for (ConstraintGroup* group : groups_) group->begin_step(state.view(), settings_.time_step);
-  if (!groups_laid_out_ || groups_changed()) lay_out_groups();
-  if (factor_time_step_ != settings_.time_step || stiffness_changed()) factorize(state);
+  const Stopwatch watch;
+  if (!groups_laid_out_ || groups_changed()) {
+    lay_out_groups();
+    times.layout = watch.seconds();
+  }
+  if (factor_time_step_ != settings_.time_step || stiffness_changed()) factorize(state, times);
   history_.clear();
+  return times;
 }
 
 void Solver::lay_out_groups() {
@@ -94,14 +101,18 @@ void Solver::weigh_inertia(const State& state, Real time_step) {
   }
 }
 
-void Solver::factorize(const State& state) {
+void Solver::factorize(const State& state, SetUpTimes& times) {
+  Stopwatch watch;
   const Real h = settings_.time_step;
   for (std::size_t g = 0; g < groups_.size(); ++g) stamps_[g].stiffness = groups_[g]->stiffness();
   factor_time_step_ = 0;  // until this succeeds
   system_matrix_.sum(state.masses, h, groups_, is_held_);
+  times.assembly = watch.lap();
   if (!pattern_analyzed_) factorization_->analyze(system_matrix_.matrix());
   pattern_analyzed_ = true;
-  factorization_->factorize(system_matrix_.matrix());
+  times.symbolic = watch.lap();
+  times.repack = factorization_->factorize(system_matrix_.matrix());
+  times.numeric = watch.lap() - times.repack;
   factor_time_step_ = h;
 }
 

@@ -56,11 +56,11 @@ class Solver {
     Real stiffness;
   };
 
-  void prepare(const State& state);
+  SetUpTimes prepare(const State& state);
   void lay_out_groups();
   void start_threads(Index asked);
   void weigh_inertia(const State& state, Real time_step);
-  void factorize(const State& state);
+  void factorize(const State& state, SetUpTimes& times);
   bool groups_changed() const;
   bool stiffness_changed() const;
   [[noreturn]] void give_up(const State& state) const;

@@ -121,6 +121,8 @@ SystemInfo Solver::system_info(const State& state) {
   const LowerMatrix& matrix = system_matrix_.matrix();
   info.matrix_entries = static_cast<std::int64_t>(matrix.rows.size());
   info.factor_entries = static_cast<std::int64_t>(factorization_->factor().entry_count());
+  info.supernodes = factorization_->factor().supernode_count();
+  info.sweep_bytes = static_cast<std::int64_t>(factorization_->factor().sweep_bytes());
   constexpr auto entry_bytes = static_cast<std::int64_t>(sizeof(Real) + sizeof(Index));
   info.bytes = info.matrix_entries * entry_bytes + info.factor_entries * static_cast<std::int64_t>(sizeof(Real));
   info.held_vertices = static_cast<Index>(std::ranges::count_if(is_held_, [](char held) { return held != 0; }));

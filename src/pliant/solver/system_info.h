@@ -13,6 +13,8 @@ struct FreePart {
 struct SystemInfo {
   std::int64_t matrix_entries = 0;  ///< non-zeros of the lower triangle with the diagonal
   std::int64_t factor_entries = 0;  ///< of L, the zeros that panels carry along included
+  std::int64_t supernodes = 0;      ///< panels of L
+  std::int64_t sweep_bytes = 0;     ///< that one of the two sweeps of a solve reads of L
   std::int64_t bytes = 0;           ///< that matrix and factor take
   Index held_vertices = 0;          ///< by hard pins; the others are free
   std::vector<FreePart> free_parts;

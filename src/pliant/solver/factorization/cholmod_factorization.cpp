@@ -12,6 +12,7 @@ int openblas_get_num_threads();
 }
 
 #include "pliant/core/error.h"
+#include "pliant/core/stopwatch.h"
 
 namespace pliant {
 namespace {
@@ -77,12 +78,14 @@ class CholmodFactorization final : public Factorization {
     check(symbolic_ != nullptr);
   }
 
-  void factorize(const LowerMatrix& matrix) override {
+  double factorize(const LowerMatrix& matrix) override {
     const OneBlasThread one_thread;
     cholmod_sparse view = view_of(matrix);
     cholmod_factorize(&view, symbolic_.get(), &common_);
     check(common_.status == CHOLMOD_OK && symbolic_->minor == symbolic_->n);
+    const Stopwatch repack;
     take_factor();
+    return repack.seconds();
   }
 
  private:

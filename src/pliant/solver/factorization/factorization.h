@@ -18,11 +18,12 @@ class Factorization {
   /// Finds the ordering for the pattern of a matrix.
   virtual void analyze(const LowerMatrix& matrix) = 0;
 
-  /// Factorizes a matrix of the pattern analyzed last. Throws Error(input) when it is not positive definite.
-  virtual void factorize(const LowerMatrix& matrix) = 0;
+  /// Factorizes a matrix of the pattern analyzed last. Throws Error(input) when it is not positive definite. Returns
+  /// how long it took to repack the factor [s].
+  virtual double factorize(const LowerMatrix& matrix) = 0;
 
   /// Solves Y x = b for three right-hand sides (m × 3 each) in one sweep. Never allocates.
-  void solve(const Positions& b, Positions& x) { factor_.solve(b, x); }
+  SolveTimes solve(const Positions& b, Positions& x) { return factor_.solve(b, x); }
 
   const SupernodalFactor& factor() const { return factor_; }
 

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include "pliant/core/stopwatch.h"
+
 namespace pliant {
 
 void SupernodalFactor::begin(std::span<const Index> permutation) {
@@ -17,19 +19,26 @@ void SupernodalFactor::finish() {
   x_ = storage_.data() + (32 - address % 32) % 32 / sizeof(Real);
 }
 
-void SupernodalFactor::solve(const Positions& b, Positions& x) {
+SolveTimes SupernodalFactor::solve(const Positions& b, Positions& x) {
+  SolveTimes times;
+  Stopwatch watch;
   for (std::size_t i = 0; i < permutation_.size(); ++i) {
     const Real* from = b.data() + 3 * static_cast<std::ptrdiff_t>(permutation_[i]);
     for (std::size_t axis = 0; axis < 3; ++axis) x_[4 * i + axis] = from[axis];
   }
   const SweepData data{supernodes_.data(), supernodes_.size(), rows_.data(), values_.data(), x_};
+  times.permutation = watch.lap();
   sweeps().forward(data);
+  times.forward = watch.lap();
   sweeps().backward(data);
+  times.backward = watch.lap();
   for (std::size_t i = 0; i < permutation_.size(); ++i) {
     const Real* from = x_ + 4 * i;
     Real* to = x.data() + 3 * static_cast<std::ptrdiff_t>(permutation_[i]);
     for (std::size_t axis = 0; axis < 3; ++axis) to[axis] = from[axis];
   }
+  times.permutation += watch.lap();
+  return times;
 }
 
 }  // namespace pliant

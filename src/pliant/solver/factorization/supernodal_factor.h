@@ -13,8 +13,8 @@
 // The values stand in the order in which the forward sweep reads them: D, then B, supernode after supernode. All three
 // coordinates of a vertex, and a zero, go through a sweep together in four lanes, so each entry of L is read once a
 // sweep and serves three right-hand sides.
-#include "pliant/core/types.h"
 #include "pliant/solver/factorization/sweeps.h"
+#include "pliant/solver/state.h"
 
 namespace pliant {
 
@@ -33,12 +33,16 @@ class SupernodalFactor {
   void finish();
 
   /// Solves L Lᵀ x = b in the order of the vertices (m × 3 each). Never allocates.
-  void solve(const Positions& b, Positions& x);
+  SolveTimes solve(const Positions& b, Positions& x);
 
   Index size() const { return static_cast<Index>(permutation_.size()); }
   Index supernode_count() const { return static_cast<Index>(supernodes_.size()); }
   /// Stored entries of L, the zeros that panels carry along included.
   std::size_t entry_count() const { return values_.size(); }
+  /// What one sweep reads besides x: values, rows and panels.
+  std::size_t sweep_bytes() const {
+    return sizeof(Real) * values_.size() + sizeof(Index) * rows_.size() + sizeof(Supernode) * supernodes_.size();
+  }
 
  private:
   std::vector<Index> permutation_;
