@@ -51,27 +51,36 @@ Sum sum_for_this_processor() {
 }
 #endif
 
-/// The fastest of passes over the buffer, after one that fills the caches.
+/// The fastest of passes over a buffer.
 double read_speed(std::int64_t bytes) {
-  const std::size_t count = static_cast<std::size_t>(bytes) / sizeof(double) / numbers_at_once * numbers_at_once;
-  std::vector<double> buffer(count + 4, 1.0);
-  const auto address = reinterpret_cast<std::uintptr_t>(buffer.data());
-  const double* aligned = buffer.data() + (32 - address % 32) % 32 / sizeof(double);
-  const Sum sum = sum_for_this_processor();
-  volatile double sink = sum(aligned, count);
-  constexpr std::int64_t bytes_a_sample = 8 * mebibyte;  // long enough for the clock
-  const std::int64_t passes = std::max<std::int64_t>(1, bytes_a_sample / bytes);
+  ReadProbe probe(bytes);
   double best = std::numeric_limits<double>::infinity();
   const pliant::Stopwatch whole;
-  for (int sample = 0; sample < 3 || (whole.seconds() < 0.15 && sample < 200); ++sample) {
-    const pliant::Stopwatch watch;
-    for (std::int64_t pass = 0; pass < passes; ++pass) sink = sink + sum(aligned, count);
-    best = std::min(best, watch.seconds() / static_cast<double>(passes));
+  for (int sample = 0; sample < 2 || (whole.seconds() < 0.15 && sample < 200); ++sample) {
+    best = std::min(best, probe.seconds());
   }
-  return static_cast<double>(count * sizeof(double)) / best;
+  return static_cast<double>(probe.bytes()) / best;
 }
 
 }  // namespace
+
+ReadProbe::ReadProbe(std::int64_t bytes)
+    : count_(std::max<std::size_t>(1, static_cast<std::size_t>(bytes) / sizeof(double) / numbers_at_once) *
+             numbers_at_once),
+      buffer_(count_ + 4, 1.0) {
+  const auto address = reinterpret_cast<std::uintptr_t>(buffer_.data());
+  aligned_ = buffer_.data() + (32 - address % 32) % 32 / sizeof(double);
+}
+
+double ReadProbe::seconds() {
+  const Sum sum = sum_for_this_processor();
+  volatile double sink = sum(aligned_, count_);
+  constexpr std::int64_t bytes_a_sample = 8 * mebibyte;  // long enough for the clock
+  const std::int64_t passes = std::max<std::int64_t>(1, bytes_a_sample / bytes());
+  const pliant::Stopwatch watch;
+  for (std::int64_t pass = 0; pass < passes; ++pass) sink = sink + sum(aligned_, count_);
+  return watch.seconds() / static_cast<double>(passes);
+}
 
 std::vector<Level> measure_levels() {
   const std::int64_t l2 = cache_bytes(2) > 0 ? cache_bytes(2) : usual_l2;

@@ -61,10 +61,10 @@ void print_set_up(const WorkloadResult& w, Out out) {
   }
 }
 
-void print_workload(const BenchResult& result, const WorkloadResult& w, Out out) {
+void print_workload(const WorkloadResult& w, Out out) {
   for (const Phase& phase : w.phases) {
     print({w.workload.name, "phase", phase.name, w.threads.front().threads, phase.seconds.min, phase.seconds.median,
-           times_eigen(w, phase.seconds), phase.bytes, speed(phase), share(result, w, phase)},
+           times_eigen(w, phase.seconds), phase.bytes, speed(phase), share(w, phase)},
           out);
   }
   for (const BaselineResult& each : w.baselines) {
@@ -92,7 +92,7 @@ std::string csv_report(const BenchResult& result) {
     row.bytes_per_second = level.bytes_per_second;
     print(row, out);
   }
-  for (const WorkloadResult& workload : result.workloads) print_workload(result, workload, out);
+  for (const WorkloadResult& workload : result.workloads) print_workload(workload, out);
   for (const ProjectionsResult& each : result.projections) {
     print({"", "projections", each.type, 1, each.seconds.min, each.seconds.median}, out);
   }

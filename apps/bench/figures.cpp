@@ -24,11 +24,10 @@ std::optional<double> speed(const Phase& phase) {
   return static_cast<double>(*phase.bytes) / phase.seconds.min;
 }
 
-std::optional<double> share(const BenchResult& result, const WorkloadResult& workload, const Phase& phase) {
-  const Level* level = result.level_of(workload.working_set_bytes);
+std::optional<double> share(const WorkloadResult& workload, const Phase& phase) {
   const std::optional<double> bytes_per_second = speed(phase);
-  if (level == nullptr || !bytes_per_second) return std::nullopt;
-  return *bytes_per_second / level->bytes_per_second;
+  if (!workload.read_bytes_per_second || !bytes_per_second) return std::nullopt;
+  return *bytes_per_second / *workload.read_bytes_per_second;
 }
 
 }  // namespace pliant_bench

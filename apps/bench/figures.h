@@ -14,7 +14,7 @@ double ratio(const Seconds& slow, const Seconds& fast);
 std::optional<Seconds> best_cholmod(const WorkloadResult& workload);
 /// [bytes/s], in the fastest repeat
 std::optional<double> speed(const Phase& phase);
-/// That speed as a share of what one thread reads where the working set lies.
-std::optional<double> share(const BenchResult& result, const WorkloadResult& workload, const Phase& phase);
+/// That speed as a share of what one thread reads of a working set of the same size.
+std::optional<double> share(const WorkloadResult& workload, const Phase& phase);
 
 }  // namespace pliant_bench

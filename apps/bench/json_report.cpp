@@ -50,7 +50,7 @@ Json set_up_json(const SetUpResult& set_up) {
           {"peak_bytes", optional_json(set_up.peak_bytes)}};
 }
 
-Json phases_json(const BenchResult& result, const WorkloadResult& workload) {
+Json phases_json(const WorkloadResult& workload) {
   Json list = Json::array();
   for (const Phase& phase : workload.phases) {
     list.push_back({{"name", phase.name},
@@ -58,7 +58,7 @@ Json phases_json(const BenchResult& result, const WorkloadResult& workload) {
                     {"times_eigen", optional_json(times_eigen(workload, phase.seconds))},
                     {"bytes", optional_json(phase.bytes)},
                     {"bytes_per_second", optional_json(speed(phase))},
-                    {"share_of_bandwidth", optional_json(share(result, workload, phase))}});
+                    {"share_of_bandwidth", optional_json(share(workload, phase))}});
   }
   return list;
 }
@@ -102,7 +102,8 @@ Json workload_json(const BenchResult& result, const WorkloadResult& workload) {
           {"panels", workload.panels},
           {"working_set_bytes", workload.working_set_bytes},
           {"level", level != nullptr ? Json(level->name) : Json(nullptr)},
-          {"phases", phases_json(result, workload)},
+          {"read_bytes_per_second", optional_json(workload.read_bytes_per_second)},
+          {"phases", phases_json(workload)},
           {"baselines", baselines_json(workload)},
           {"threads", threads_json(workload)},
           {"set_up_seconds", set_up_json(workload.set_up)}};

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "bench/bandwidth.h"
 #include "bench/baselines.h"
 #include "bench/measure.h"
 #include "bench/system.h"
@@ -110,11 +111,18 @@ WorkloadResult measure_workload(const Workload& workload, const BenchOptions& op
   if (!options.baselines.empty()) {
     baselines = make_baselines(options, {first, runners.front().after_step, system_matrix(first)});
   }
+  std::optional<ReadProbe> probe;
+  if (options.bandwidth == Bandwidth::with) probe.emplace(traffic.working_set);
+  Samples probe_samples;
   result.repeats = repeat(options.repeats, seconds_a_workload, [&] {
     for (const auto& baseline : baselines) baseline->samples.add(baseline->seconds());
     for (Runner& runner : runners) runner.samples.add(runner.simulation.step());
+    if (probe) probe_samples.add(probe->seconds());
   });
 
+  if (probe) {
+    result.read_bytes_per_second = static_cast<double>(probe->bytes()) / probe_samples.spread().min;
+  }
   result.phases = runners.front().samples.phases(traffic);
   for (const auto& baseline : baselines) {
     result.baselines.push_back(baseline->result);

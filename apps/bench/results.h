@@ -72,6 +72,8 @@ struct WorkloadResult {
   std::int64_t factor_entries = 0;
   std::int64_t panels = 0;
   std::int64_t working_set_bytes = 0;  ///< of one iteration
+  /// How fast one thread that only reads goes over as many bytes, in turns with the rest [bytes/s].
+  std::optional<double> read_bytes_per_second{};
   std::int64_t repeats = 0;
   SetUpResult set_up;
   std::vector<Phase> phases;

@@ -22,13 +22,7 @@ std::unique_ptr<Solve> eigen_solve(const pliant::LowerMatrix& matrix);
 
 enum class CholmodMode { simplicial, supernodal };
 
-#ifdef PLIANT_HAS_CHOLMOD
-inline constexpr bool has_cholmod = true;
-#else
-inline constexpr bool has_cholmod = false;
-#endif
-
-/// CHOLMOD with its own choice of an ordering; only where has_cholmod.
+/// CHOLMOD with its own choice of an ordering. Throws Error(input) where this build has none.
 std::unique_ptr<Solve> cholmod_solve(const pliant::LowerMatrix& matrix, CholmodMode mode);
 
 /// "3.4.0"

@@ -12,7 +12,7 @@ constexpr std::string_view how_to_read =
     R"(How to read: times are of one iteration (a step has several), on one thread unless said otherwise, minimum and median of
 repeats in which everything takes turns. "x Eigen" is the median as a multiple of Eigen's solve of the same system with
 three right-hand sides. MB is what a phase must read and write at least; GB/s comes from it and the minimum; "share" is
-that of the bandwidth of the level of memory which holds the whole working set.
+that of the speed at which one thread only reads as much memory as an iteration touches.
 )";
 
 using Out = std::back_insert_iterator<std::string>;
@@ -56,10 +56,13 @@ void print_head(const BenchResult& result, const WorkloadResult& w, Out out) {
                  fmt::join(constraints, ", "), w.workload.iterations, w.repeats);
   fmt::format_to(out, "  factor by {}: {} entries in {} panels; an iteration touches {} MB{}\n", w.backend,
                  w.factor_entries, w.panels, megabytes(w.working_set_bytes, 1),
-                 level != nullptr ? ": fits " + level->name : "");
+                 level != nullptr ? " (" + level->name + ")" : "");
+  if (w.read_bytes_per_second) {
+    fmt::format_to(out, "  one thread reads as much at {:.1f} GB/s\n", 1e-9 * *w.read_bytes_per_second);
+  }
 }
 
-void print_phases(const BenchResult& result, const WorkloadResult& w, Out out) {
+void print_phases(const WorkloadResult& w, Out out) {
   fmt::format_to(out, "  {:<32} {:>9} {:>9} {:>8} {:>8} {:>7} {:>6}\n", "", "min ms", "median", "x Eigen", "MB", "GB/s",
                  "share");
   for (const Phase& phase : w.phases) {
@@ -69,7 +72,7 @@ void print_phases(const BenchResult& result, const WorkloadResult& w, Out out) {
                    is_sum ? fmt::format("Pliant, whole {}", phase.name) : "  " + phase.name, 1e3 * phase.seconds.min,
                    1e3 * phase.seconds.median, number(times_eigen(w, phase.seconds), 3), megabytes(phase.bytes, 2),
                    number(bytes_per_second ? std::optional(1e-9 * *bytes_per_second) : std::nullopt, 1),
-                   percent(share(result, w, phase)));
+                   percent(share(w, phase)));
   }
   for (const BaselineResult& each : w.baselines) {
     fmt::format_to(out, "  {:<32} {:>9.4f} {:>9.4f} {:>8}\n", fmt::format("{}, {}", each.name, each.what),
@@ -142,7 +145,7 @@ std::string text_report(const BenchResult& result) {
   if (!result.workloads.empty()) text += how_to_read;
   for (const WorkloadResult& workload : result.workloads) {
     print_head(result, workload, out);
-    print_phases(result, workload, out);
+    print_phases(workload, out);
     print_threads(workload, out);
     print_set_up(workload, out);
   }

@@ -37,7 +37,7 @@ struct BenchArguments {
 
 std::vector<BaselineKind> all_baselines() {
   std::vector<BaselineKind> kinds = {BaselineKind::eigen, BaselineKind::textbook, BaselineKind::thesis};
-  if (has_cholmod) kinds.insert(kinds.begin() + 1, BaselineKind::cholmod);
+  if (!cholmod_version().empty()) kinds.insert(kinds.begin() + 1, BaselineKind::cholmod);
   return kinds;
 }
 
