@@ -9,6 +9,7 @@
 
 #include "choice_option.h"
 #include "commands.h"
+#include "number_option.h"
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
 #include "pliant/mesh/io/mesh_file.h"
@@ -94,10 +95,9 @@ void refuse_to_replace(const ConvertOptions& options) {
   }
 }
 
-[[noreturn]] void fail_extension(const fs::path& path, std::string_view what) {
-  pliant::fail_input(fmt::format("{}: {}; meshes: {}; animations: {}", path.string(), what,
-                                 fmt::join(choice_names(pliant::MeshFormat{}), ", "),
-                                 fmt::join(choice_names(pliant::AnimationFormat{}), ", ")));
+std::string writable_formats() {
+  return fmt::format("meshes: {}; animations: {}", fmt::join(pliant::writable_mesh_extensions(), ", "),
+                     fmt::join(choice_names(pliant::AnimationFormat{}), ", "));
 }
 
 /// The folder of a run, a point cache with or without its mesh, or a mesh that stands still.
@@ -124,7 +124,9 @@ Animation read_animation(const ConvertOptions& options) {
         fmt::format("{}: is no point cache; --mesh is for those: .pc2, .mdd or .npy", options.in.string()));
   }
   if (!pliant::mesh_format(options.in)) {
-    fail_extension(options.in, "neither a run's folder nor a point cache (pc2, mdd, npy) nor a mesh");
+    pliant::fail_input(fmt::format("{}: neither a run's folder nor a point cache ({}) nor a mesh; meshes: {}",
+                                   options.in.string(), fmt::join(choice_names(pliant::PointCacheFormat{}), ", "),
+                                   fmt::join(pliant::readable_mesh_extensions(), ", ")));
   }
   return pliant::still(pliant::read_mesh(options.in, options.import), name);
 }
@@ -163,7 +165,8 @@ void warn_of_tolerance(const ConvertOptions& options, const pliant::ExportReport
 void convert(const ConvertOptions& options) {
   const bool is_mesh = pliant::mesh_format(options.out).has_value();
   if (!is_mesh && !pliant::animation_format(options.out)) {
-    fail_extension(options.out, "its extension is of no format that can be written");
+    pliant::fail_input(fmt::format("{}: its extension is of no format that can be written; {}", options.out.string(),
+                                   writable_formats()));
   }
   refuse_to_replace(options);
   Animation animation = read_animation(options);
@@ -183,8 +186,7 @@ void convert(const ConvertOptions& options) {
   }
 }
 
-constexpr const char* footer = R"(Formats of OUT, by its extension: obj, ply, off, stl for a mesh; glb, gltf, usda, pc2,
-mdd, npy for an animation. A name with #### gets one mesh file a frame, with its number there.
+constexpr const char* footer = R"(A name OUT with #### gets one mesh file a frame, with its number there.
 Examples:
   pliant convert out/flag flag.glb                       an animation for browsers and game engines
   pliant convert out/flag flag.usda                      for Blender, Houdini, Omniverse
@@ -202,22 +204,22 @@ void add_convert_command(CLI::App& program) {
   command->add_option("in", options->in, "A mesh, the folder of a run, or a point cache (pc2, mdd, npy)")->required();
   command->add_option("out", options->out, "The file to write")->required();
   command->add_option("--mesh", options->mesh, "The mesh that the point cache IN moves");
-  command->add_option("--scale", options->import.scale, "Metres per unit of a mesh or point cache IN");
+  add_number(*command, "--scale", options->import.scale, "Metres per unit of a mesh or point cache IN");
   add_choice(*command, "--up", options->import.up, "Its axis that points up: z (default), y or x");
-  command->add_option("--in-fps", options->cache.frames_per_second,
-                      "Frames per second of a point cache without times (pc2, npy), default 24");
+  add_number(*command, "--in-fps", options->cache.frames_per_second,
+             "Frames per second of a point cache without times (pc2, npy), default 24");
   command->add_option("--body", options->body, "Take one body of the run");
   command->add_option("--frames", options->frames,
                       "Take frames FIRST:LAST:STEP, both ends included; -1 is the last, as in --frames=-1");
-  command->add_option("--time", options->time, "Take the moment at this time [s]");
-  command->add_option("--fps", options->frames_per_second, "Frames per second of OUT; default: those of IN");
-  command->add_option(
-      "--tolerance", options->exported.tolerance,
-      "glb, gltf (default 0.001), usda: leave out frames that linear interpolation meets within this, in "
-      "sizes of the body");
-  command->add_option("--max-keyframes", options->exported.max_keyframes, "glb, gltf: keep at most these, default 256");
+  add_number(*command, "--time", options->time, "Take the moment at this time [s]");
+  add_number(*command, "--fps", options->frames_per_second, "Frames per second of OUT; default: those of IN");
+  add_number(*command, "--tolerance", options->exported.tolerance,
+             "glb, gltf (default 0.001), usda: leave out frames that linear interpolation meets within this, in "
+             "sizes of the body");
+  add_number(*command, "--max-keyframes", options->exported.max_keyframes,
+             "glb, gltf: keep at most these, default 256");
   add_choice(*command, "--normals", options->exported.normals, "glb, gltf: smooth (default) or flat");
-  command->footer(footer);
+  command->footer(fmt::format("Formats of OUT, by its extension; {}.\n{}", writable_formats(), footer));
   command->callback([options] { convert(*options); });
 }
 

@@ -11,6 +11,7 @@
 
 #include "commands.h"
 #include "import_options.h"
+#include "pliant/core/printable.h"
 #include "pliant/mesh/diagnosis.h"
 #include "pliant/mesh/io/mesh_file.h"
 
@@ -41,15 +42,6 @@ struct Info {
   Diagnosis diagnosis;
 };
 
-/// Text of the user's, as a terminal may see it.
-std::string printable(std::string text, std::size_t longest = 40) {
-  if (text.size() > longest) text = text.substr(0, longest) + "...";
-  for (char& c : text) {
-    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';
-  }
-  return text;
-}
-
 Info examine(const InfoOptions& options) {
   pliant::Mesh mesh = pliant::read_mesh(options.file, options.import);
   Info info;
@@ -59,7 +51,7 @@ Info examine(const InfoOptions& options) {
   info.file_size = std::filesystem::file_size(options.file, ignored);
   for (const pliant::FaceGroup& group : mesh.groups) ++info.group_counts[static_cast<std::size_t>(group.kind)];
   info.texture_coordinate_count = static_cast<Index>(mesh.texture_coordinates.rows());
-  for (const pliant::VertexMap& map : mesh.maps) info.maps.push_back(printable(map.name));
+  for (const pliant::VertexMap& map : mesh.maps) info.maps.push_back(pliant::printable(map.name, 40));
   mesh.maps = {};
   info.diagnosis = pliant::diagnose(std::move(mesh));
   return info;
@@ -167,7 +159,7 @@ void print_defects(const Diagnosis& d) {
 }
 
 void print_text(const Info& info) {
-  fmt::print("{}: {}, {} bytes\n", printable(info.file, 4096), info.format, info.file_size);
+  fmt::print("{}: {}, {} bytes\n", pliant::printable(info.file, 4096), info.format, info.file_size);
   print_counts(info);
   print_measures(info.diagnosis);
   print_boundary(info.diagnosis);
@@ -240,7 +232,8 @@ void print_json(const Info& info) {
       {"boundary", boundary_json(d)},
       {"defects", defects_json(d)},
   };
-  fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+  // In ASCII: the name of a file may hold what turns the direction of writing or commands a terminal.
+  fmt::print("{}\n", json.dump(2, ' ', true, Json::error_handler_t::replace));
 }
 
 }  // namespace
@@ -248,7 +241,10 @@ void print_json(const Info& info) {
 void add_info_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand("info", "Describe a mesh file and what is wrong with it");
   const auto options = std::make_shared<InfoOptions>();
-  command->add_option("file", options->file, "A mesh: .obj, .ply, .off, .stl, .msh, .node or .ele")->required();
+  command
+      ->add_option("file", options->file,
+                   fmt::format("A mesh: {}", fmt::join(pliant::readable_mesh_extensions(), ", ")))
+      ->required();
   add_import_options(*command, options->import);
   command->add_flag("--json", options->json, "Print JSON, in metres and square metres");
   command->footer("Example:\n  pliant info shirt.obj --scale 0.01 --up y");

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "commands.h"
+#include "number_option.h"
 #include "pliant/core/printable.h"
 #include "pliant/recorder/recorder.h"
 #include "pliant/recorder/run_files.h"
@@ -53,13 +54,17 @@ class Warnings {
   std::size_t printed_ = 0;
 };
 
-/// None when the step took too long after an interrupt.
-std::optional<pliant::StepReport> step_unless_given_up(Scene& scene) {
+/// None when the step took too long after an interrupt. A step that fails leaves its start to be taken up.
+std::optional<pliant::StepReport> step_unless_given_up(Scene& scene, const fs::path& checkpoint) {
   try {
     return scene.step();
   } catch (const pliant::Error& error) {
-    if (error.kind() != pliant::ErrorKind::interrupted) throw;
-    return std::nullopt;
+    if (error.kind() == pliant::ErrorKind::interrupted) return std::nullopt;
+    try {
+      pliant::write_checkpoint(checkpoint, scene);
+    } catch (const pliant::Error&) {  // the first error is the one to tell
+    }
+    throw;
   }
 }
 
@@ -71,7 +76,7 @@ void simulate(Scene& scene, pliant::Recorder& recorder, const fs::path& checkpoi
   const std::int64_t every = options.checkpoint_every;
   scene.simulation.set_stop(waits_no_longer);
   while (step < scene.steps && !was_interrupted()) {
-    const std::optional<pliant::StepReport> report = step_unless_given_up(scene);
+    const std::optional<pliant::StepReport> report = step_unless_given_up(scene, checkpoint);
     if (!report) break;
     recorder.record(scene.simulation, *report);
     ++step;
@@ -106,11 +111,9 @@ void print_summary(const Scene& scene, const pliant::RunInfo& info, const fs::pa
 }
 
 /// Simulates and records; what was recorded is whole however it ends.
-void record_run(Scene& scene, const fs::path& folder, const RecordingOptions& options, pliant::RunInfo& info) {
-  const std::int64_t kept = info.resumed_from ? *info.resumed_from / scene.output.every + 1 : 0;
-  pliant::Recorder recorder(folder, make_frame_writer(scene, folder, kept), scene.output.every, scene.group_names,
-                            kept);
-  if (kept == 0) recorder.record(scene.simulation, {});
+void record_run(Scene& scene, pliant::Recorder& recorder, const fs::path& folder, const RecordingOptions& options,
+                pliant::RunInfo& info) {
+  if (!info.resumed_from) recorder.record(scene.simulation, {});
   const auto begin = std::chrono::steady_clock::now();
   const auto count = [&] {
     info.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -136,10 +139,8 @@ void end_failed_run(const fs::path& folder, const pliant::RunInfo& info, const p
 }  // namespace
 
 void add_recording_options(CLI::App& command, RecordingOptions& options) {
-  command
-      .add_option("--checkpoint", options.checkpoint_every,
-                  "Steps from checkpoint to checkpoint, from which `pliant resume` goes on; default: one at the end")
-      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 53));
+  add_count(command, "--checkpoint", options.checkpoint_every,
+            "Steps from checkpoint to checkpoint, from which `pliant resume` goes on; default: one at the end");
   command.add_flag("--quiet", options.quiet, "Print warnings and errors only");
 }
 
@@ -154,8 +155,19 @@ pliant::RunInfo run_info(const Scene& scene, std::string source) {
 }
 
 int record_scene(Scene& scene, const fs::path& folder, pliant::RunInfo info, const RecordingOptions& options) {
+  std::optional<pliant::Recorder> recorder;
+  const auto open = [&] {
+    const std::int64_t kept = info.resumed_from ? *info.resumed_from / scene.output.every + 1 : 0;
+    recorder.emplace(folder, make_frame_writer(scene, folder, kept), scene.output.every, scene.group_names, kept);
+    info.frames = recorder->frame_count();
+  };
+  if (info.resumed_from) {
+    open();  // what is no run to go on with stays as it is
+    pliant::resume_run(folder, info, scene.simulation);
+  }
   try {
-    record_run(scene, folder, options, info);
+    if (!recorder) open();
+    record_run(scene, *recorder, folder, options, info);
   } catch (const std::exception& error) {
     const auto* known = dynamic_cast<const pliant::Error*>(&error);
     const bool is_diverged = known != nullptr && known->kind() == pliant::ErrorKind::diverged;

@@ -38,7 +38,6 @@ int resume_scene(const ResumeArguments& arguments) {
   catch_interrupts();
   pliant::RunInfo info = run_info(scene, scene.source.texts.front().name);
   info.resumed_from = scene.simulation.state().step;
-  pliant::resume_run(arguments.folder, info, scene.simulation);
   return record_scene(scene, arguments.folder, info, arguments.recording);
 }
 

@@ -1,8 +1,6 @@
 #include "scene_options.h"
 
-#include <charconv>
 #include <filesystem>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -12,53 +10,7 @@
 #include "pliant/scene/nearest_names.h"
 
 namespace pliant_cli {
-namespace {
-
 namespace fs = std::filesystem;
-
-/// Reads the whole of a text, or says what is wanted in its place.
-template <class Number>
-Number to_number(const std::string& option, const std::string& text, std::string_view wanted) {
-  Number number{};
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, number);
-  if (error == std::errc{} && stop == end) return number;
-  pliant::fail_input(fmt::format("{}: '{}' {}; give {}", option, pliant::printable(text, 60),
-                                 error == std::errc::result_out_of_range ? "is out of range" : "is not what is wanted",
-                                 wanted));
-}
-
-template <class Number>
-void add_number_option(CLI::App& command, const std::string& name, std::optional<Number>& number,
-                       const std::string& help, const std::string& wanted) {
-  const auto take = [&number, name, wanted](const std::string& text) {
-    number = to_number<Number>(name, text, wanted);
-  };
-  command.add_option_function<std::string>(name, take, help)->type_name(std::is_integral_v<Number> ? "INT" : "FLOAT");
-}
-
-/// The largest is named, since some try it for "for ever".
-template <class Number>
-std::string wanted_whole() {
-  return fmt::format("a whole number up to {}, without point and exponent", std::numeric_limits<Number>::max());
-}
-
-}  // namespace
-
-void add_number(CLI::App& command, const std::string& name, std::optional<std::int64_t>& number,
-                const std::string& help) {
-  add_number_option(command, name, number, help, wanted_whole<std::int64_t>());
-}
-
-void add_number(CLI::App& command, const std::string& name, std::optional<pliant::Index>& number,
-                const std::string& help) {
-  add_number_option(command, name, number, help, wanted_whole<pliant::Index>());
-}
-
-void add_number(CLI::App& command, const std::string& name, std::optional<pliant::Real>& number,
-                const std::string& help) {
-  add_number_option(command, name, number, help, "a number, such as 0.01 or 1e-2");
-}
 
 void add_scene_arguments(CLI::App& command, SceneArguments& arguments) {
   command.add_option("scene", arguments.scene, "A scene file, or the name of a built-in scene")->required();
@@ -83,15 +35,15 @@ void add_setting_options(CLI::App& command, SceneArguments& arguments) {
 }
 
 pliant::Scene open_scene(const SceneArguments& arguments) {
-  std::error_code ignored;
-  const fs::file_status status = fs::status(arguments.scene, ignored);
+  std::error_code error;
+  const fs::file_status status = fs::status(arguments.scene, error);
   if (fs::exists(status) && !fs::is_directory(status)) return pliant::load_scene(arguments.scene, arguments.overrides);
   std::vector<std::string_view> names;
   for (const pliant::BuiltinScene& scene : pliant::builtin_scenes()) {
     if (scene.name == arguments.scene) return pliant::parse_scene(scene.text, {}, scene.name, arguments.overrides);
     names.push_back(scene.name);
   }
-  const bool is_hidden = status.type() != fs::file_type::not_found;
+  const bool is_hidden = status.type() != fs::file_type::not_found && error != std::errc::filename_too_long;
   if (is_hidden) return pliant::load_scene(arguments.scene, arguments.overrides);  // says what is wrong with it
   pliant::fail_input(
       fmt::format("{}: neither a file nor a built-in scene; `pliant scenes` lists those, the nearest first: {}",

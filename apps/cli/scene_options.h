@@ -1,10 +1,11 @@
 #pragma once
 // What the sub-commands that take a scene have in common.
-#include <optional>
+#include <string>
 
 #include <CLI/CLI.hpp>
 
 #include "choice_option.h"
+#include "number_option.h"
 #include "pliant/scene/scene.h"
 
 namespace pliant_cli {
@@ -23,13 +24,5 @@ void add_setting_options(CLI::App& command, SceneArguments& arguments);
 
 /// A file where there is one of that name, else a built-in scene; a folder hides none.
 pliant::Scene open_scene(const SceneArguments& arguments);
-
-/// An option whose value is a number; whole ones are written without point and exponent.
-void add_number(CLI::App& command, const std::string& name, std::optional<std::int64_t>& number,
-                const std::string& help);
-void add_number(CLI::App& command, const std::string& name, std::optional<pliant::Index>& number,
-                const std::string& help);
-void add_number(CLI::App& command, const std::string& name, std::optional<pliant::Real>& number,
-                const std::string& help);
 
 }  // namespace pliant_cli

@@ -1,5 +1,7 @@
 #include "terminal.h"
 
+#include <array>
+#include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <fstream>
@@ -13,16 +15,23 @@
 namespace pliant_cli {
 namespace {
 
-volatile std::sig_atomic_t interrupted = 0;
-volatile std::sig_atomic_t patience_ended = 0;
+constexpr std::array interrupts = {SIGINT, SIGTERM, SIGHUP, SIGXCPU};
+
+// A handler may run on any thread.
+std::atomic<int> interrupted = 0;
+std::atomic<int> patience_ended = 0;
+static_assert(std::atomic<int>::is_always_lock_free);
 
 extern "C" void on_alarm(int) {
   patience_ended = 1;
 }
 
 extern "C" void on_interrupt(int) {
-  interrupted = 1;
+  if (interrupted.exchange(1) != 0) return;  // SIGXCPU comes every second
   alarm(patience);
+  for (const int number : interrupts) {
+    if (number != SIGXCPU) std::signal(number, SIG_DFL);
+  }
 }
 
 }  // namespace
@@ -79,9 +88,8 @@ void print_to_stderr(std::string_view text) {
 void catch_interrupts() {
   struct sigaction action = {};
   action.sa_handler = on_interrupt;
-  action.sa_flags = static_cast<int>(SA_RESTART | SA_RESETHAND);
-  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
-    if (number == SIGXCPU) action.sa_flags = SA_RESTART;  // it comes every second
+  action.sa_flags = SA_RESTART;
+  for (const int number : interrupts) {
     struct sigaction inherited = {};
     sigaction(number, nullptr, &inherited);
     if (inherited.sa_handler != SIG_IGN) sigaction(number, &action, nullptr);  // as nohup has it

@@ -34,7 +34,7 @@ MEMORY_FACTOR = 10  # times the input
 MEMORY_CONSTANT = 64 << 20  # [bytes], above the program's own
 # Past so many cases of a test, one in so many is run; a sanitized program takes ten times as long. HOSTILE_ALL=1: all.
 DENSE_CASES, STRIDE = 150, 3
-SANITIZED_DENSE_CASES, SANITIZED_STRIDE = 40, 9
+SANITIZED_DENSE_CASES, SANITIZED_STRIDE = 15, 25
 
 
 @functools.cache
@@ -147,7 +147,7 @@ def own_peak():
 # ---- what can be wrong with an ending
 
 def control_characters(text):
-    return re.findall(r"[\x00-\x1f\x7f-\x9f\u2028\u2029\u200e\u200f\u202a-\u202e\u2066-\u2069]", text)
+    return re.findall(r"[\x00-\x1f\x7f-\x9f\u061c\u2028\u2029\u200e\u200f\u202a-\u202e\u2066-\u2069]", text)
 
 
 def complain_of_lines(ending, case):

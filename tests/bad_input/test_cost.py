@@ -1,6 +1,7 @@
 """Small files that ask for much: what is read must cost time and memory in proportion to the file."""
 import json
 import math
+import unittest
 
 import hostile
 from hostile import DONE, INPUT, LEGAL, Case, HostileTest, run_scene_case, scene_of
@@ -75,6 +76,10 @@ SCENES = {
                                                                      for i in range(10000)]), 10000),
     "many pins, each its own group": (lambda: scene_of({"shape": "grid", "columns": 100, "rows": 100}, *[
         {"type": "position", "name": str(i), "on": [i]} for i in range(10000)]), 10000),
+    "many pins of one vertex, each its own group": (lambda: scene_of({"shape": "grid", "columns": 150, "rows": 150}, *[
+        {"type": "position", "on": [i]} for i in range(20000)], steps=1), 20000),
+    "many groups that events add": (lambda: scene_of({"shape": "grid"}, events=[
+        {"step": 0, "add": {"type": "drag", "stencils": [0]}}] * 10000, steps=1), 10000),
     "many bodies": (lambda: {"pliant": 1, "steps": 1, "bodies": [LINK] * 20000}, 40000),
     "many named bodies": (lambda: {"pliant": 1, "steps": 1, "bodies": [LINK | {"name": str(i)} for i in range(20000)]}, 40000),
     "many moves": (lambda: scene_of({"shape": "grid"}, PIN, moves=[{"group": "pin", "step": 0, "over": 1, "offset": [0, 0, 1]}]
@@ -106,6 +111,7 @@ SHAPES = [("grid", {"columns": 10**9, "rows": 2}), ("grid", {"columns": 46340, "
           ("bar", {"cells": [2**31 - 1] * 3}), ("chain", {"links": 2 * 10**9})]
 
 
+@unittest.skipIf(hostile.is_sanitized(), "time and memory are measured of programs without a sanitizer")
 class Cost(HostileTest):
     def test_obj(self):
         def cases():

@@ -158,6 +158,19 @@ class Resume(unittest.TestCase):
             done = self.pliant("info", path, "--json")
             self.assertEqual(json.loads(done.stdout)["vertices"], 10, path.name)
 
+    def test_a_run_goes_on_from_any_folder(self):
+        body = SCENE["bodies"][0] | {"mesh": {"file": "rope.obj"}}
+        (self.folder / "rope.obj").write_text("".join(f"v {i} 0 0\n" for i in range(10)) +
+                                              "".join(f"l {i} {i + 1}\n" for i in range(1, 10)))
+        self.scene.write_text(json.dumps(SCENE | {"bodies": [body]}))
+        self.pliant("run", "scene.json", "--out", "out", "--steps", 20)
+        self.pliant("run", "scene.json", "--out", "whole")
+        process = subprocess.run([PLIANT, "resume", self.folder / "out", "--steps", "120"], cwd="/",
+                                 capture_output=True, text=True, timeout=60)
+        self.assertEqual(process.returncode, 0, process.stderr)
+        self.assertEqual((self.folder / "out" / "frames.npy").read_bytes(),
+                         (self.folder / "whole" / "frames.npy").read_bytes())
+
     def test_what_cannot_go_on_says_why(self):
         error = self.pliant("resume", self.folder, expect=2).stderr
         self.assertIn("checkpoint.pliant: no such file", error)
@@ -171,6 +184,61 @@ class Resume(unittest.TestCase):
         (out / "checkpoint.pliant").write_bytes((out / "checkpoint.pliant").read_bytes()[:-1])
         error = self.pliant("resume", out, "--steps", 130, expect=2).stderr
         self.assertIn("checkpoint.pliant: this checkpoint is cut off", error)
+
+    def test_a_refused_resume_leaves_the_run_as_it_was(self):
+        whole = self.run_whole("--format", "obj", "--steps", 6)
+        before = (whole / "run.json").read_bytes()
+        (whole / "frame_00003.obj").rename(self.folder / "kept.obj")
+        error = self.pliant("resume", whole, "--steps", 9, expect=2).stderr
+        self.assertIn("frame_00003.obj: no such file", error)
+        self.assertEqual((whole / "run.json").read_bytes(), before)
+        (self.folder / "kept.obj").rename(whole / "frame_00003.obj")
+        self.pliant("resume", whole, "--steps", 9)
+
+    def test_a_run_that_fails_leaves_its_last_step_to_be_taken_up(self):
+        body = {"mesh": {"shape": "chain", "links": 2}, "mass": {"per_vertex": 1e-9},
+                "constraints": [{"type": "edge_spring"}]}
+        force = {"type": "test_force", "vertex": 0, "force": [1e100, 0, 0], "frames": [4, 9]}
+        self.scene.write_text(json.dumps({"pliant": 1, "steps": 9, "bodies": [body], "forces": [force]}))
+        error = self.pliant("run", self.scene, "--out", "out", expect=3).stderr
+        self.assertIn("vertex 0", error)
+        error = self.pliant("resume", "out", expect=3).stderr
+        self.assertIn("vertex 0", error)
+        frames = numpy.load(self.folder / "out" / "frames.npy")
+        self.assertEqual(len(frames), json.loads((self.folder / "out" / "run.json").read_text())["totals"]["frames"])
+
+    def endless_step(self):
+        """A run inside its first step, which takes a thousand million iterations."""
+        scene = SCENE | {"settings": {"threads": 1, "iterations": 10**9}}
+        self.scene.write_text(json.dumps(scene))
+        process = subprocess.Popen([PLIANT, "run", self.scene, "--out", "out"], cwd=self.folder, stderr=subprocess.PIPE)
+        self.addCleanup(process.stderr.close)
+        while not (self.folder / "out" / "measurements.csv").exists():
+            time.sleep(0.01)
+        time.sleep(0.3)
+        return process
+
+    def test_an_endless_step_is_given_up(self):
+        process = self.endless_step()
+        process.send_signal(signal.SIGHUP)
+        self.assertEqual(process.wait(timeout=60), 130, process.stderr.read())
+        info = json.loads((self.folder / "out" / "run.json").read_text())
+        self.assertEqual((info["outcome"], info["totals"]["frames"]), ("interrupted", 1))
+        self.assertTrue((self.folder / "out" / "checkpoint.pliant").exists())
+
+    def test_a_second_signal_ends_at_once(self):
+        process = self.endless_step()
+        process.send_signal(signal.SIGINT)
+        time.sleep(0.3)
+        process.send_signal(signal.SIGTERM)
+        self.assertEqual(process.wait(timeout=60), -signal.SIGTERM)
+
+    def test_the_end_of_processor_time_counts_as_an_interrupt(self):
+        scene = SCENE | {"settings": {"threads": 1, "iterations": 10**9}}
+        self.scene.write_text(json.dumps(scene))
+        process = subprocess.run(["prlimit", "--cpu=1:20", "--", PLIANT, "run", self.scene, "--out", "out"],
+                                 cwd=self.folder, capture_output=True, timeout=60)
+        self.assertEqual(process.returncode, 130, process.stderr)
 
     def test_a_closed_pipe_is_quiet(self):
         for arguments in (["schema"], ["scenes"], ["--help"]):

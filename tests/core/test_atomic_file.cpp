@@ -55,6 +55,31 @@ TEST_CASE("a link is followed") {
   CHECK(TemporaryFolder::read(target) == "new");
 }
 
+TEST_CASE("links to links are followed to their end, whether a file is there or not") {
+  const TemporaryFolder folder;
+  const fs::path inner = folder.path() / "inner";
+  fs::create_directory(inner);
+  fs::create_symlink("inner/b", folder.path() / "a");
+  fs::create_symlink("../c", inner / "b");
+  fs::create_symlink(folder.path() / "target", folder.path() / "c");
+  for (const std::string text : {"first", "second"}) {
+    write_file_atomically(folder.path() / "a", text);
+    for (const fs::path& link : {folder.path() / "a", inner / "b", folder.path() / "c"}) CHECK(fs::is_symlink(link));
+    CHECK(fs::is_regular_file(fs::symlink_status(folder.path() / "target")));
+    CHECK(TemporaryFolder::read(folder.path() / "target") == text);
+  }
+}
+
+TEST_CASE("links that lead round are refused, and stay") {
+  const TemporaryFolder folder;
+  fs::create_symlink("b", folder.path() / "a");
+  fs::create_symlink("a", folder.path() / "b");
+  const std::string message = error_of([&] { write_file_atomically(folder.path() / "a", "x"); }, ErrorKind::output);
+  CHECK(contains(message, (folder.path() / "a").string() + ": cannot be written: Too many levels of symbolic links;"));
+  CHECK(fs::is_symlink(folder.path() / "a"));
+  CHECK(folder.file_count() == 2);
+}
+
 namespace {
 
 /// A limit on the size of files, which makes writing fail as a full disk does.

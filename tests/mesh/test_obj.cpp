@@ -235,7 +235,9 @@ TEST_CASE("a malformed file is refused with file, line and what is wrong") {
     check("vt nan 0\n", "a.obj:1: \"nan\" is not finite;");
     check("v " + std::string(500, '7') + "z 0 0\n", "a.obj:1: \"" + std::string(40, '7') + "...\" is not a number;");
     check("v " + std::string(400, '7') + " 0 0\n", "a.obj:1: \"" + std::string(40, '7') + "...\" is not finite;");
-    check("v \x1b[31m 0 0\n", "a.obj:1: \"?[31m\" is not a number;");
+    check("v \x1b[31m 0 0\n", "a.obj:1: \" [31m\" is not a number;");
+    check("v \x9b[31m 0 0\n", "a.obj:1: \"?[31m\" is not a number;");
+    check("v \u009b31m\u202e\u061cä 0 0\n", "a.obj:1: \" 31m  ä\" is not a number;");
   }
   SUBCASE("counts of coordinates") {
     check("v 0 0\n", "a.obj:1: 2 of the 3 coordinates of a vertex;");

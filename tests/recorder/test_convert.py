@@ -42,13 +42,17 @@ class Convert(ExportCase):
         self.assertIn("leave out", self.error("run", "a.glb", "--scale", 2))
 
     def test_names_that_say_nothing(self):
-        for arguments in [["run", "a.fbx"], ["run", "a"], ["patch.obj", "b.png"], ["scene.json", "a.glb"]]:
+        for arguments in [["run", "a.fbx"], ["run", "a"], ["patch.obj", "b.png"]]:
             with self.subTest(arguments=arguments):
-                error = self.error(*arguments)
-                self.assertIn("obj, ply, off, stl", error)
-                self.assertIn("gltf, glb, usda, pc2, mdd, npy", error)
+                self.assertIn("meshes: obj, ply, off, stl, msh; animations: gltf, glb, usda, pc2, mdd, npy",
+                              self.error(*arguments))
+        self.assertIn("a point cache (pc2, mdd, npy) nor a mesh; meshes: obj, ply, off, stl, msh, node, ele",
+                      self.error("scene.json", "a.glb"))
         self.assertIn("no such file", self.error("none.obj", "a.glb"))
         self.assertIn("no run.json", self.error(self.folder, "a.glb"))
+        (self.folder / "many").mkdir()
+        (self.folder / "many/run.json").write_text("[" + "{}," * 1000000 + "{}]")
+        self.assertIn("run.json: holds more values than a run writes", self.error("many", "a.glb"))
         self.pliant("convert", expect=2)
         self.pliant("convert", "run", expect=2)
 

@@ -75,6 +75,9 @@ TEST_CASE("what parts refuse") {
          "s.json: bodies[0].mesh.parts[0].copies.count: 10001 is out of range; give a finite number from 1");
   starts(refusal(R"({"parts": [{"shape": "grid", "columns": 200, "rows": 200, "copies": {"count": 9999}}]})"),
          "s.json: bodies[0].mesh.parts[0].copies: copies ask for 4e+08 vertices; stay under 20000000");
+  starts(refusal(R"({"parts": [{"shape": "grid", "columns": 3000, "rows": 3000},
+                               {"shape": "grid", "columns": 3400, "rows": 3400}, {"shape": "chain"}]})"),
+         "s.json: bodies[0].mesh.parts[1]: the parts up to this one ask for 2.06e+07 vertices; stay under 20000000");
   starts(refusal(R"({"parts": [{"shape": "chain", "name": 5}]})"),
          "s.json: bodies[0].mesh.parts[0].name: found a number; give a text");
   starts(refusal(R"({"parts": [{"vertices": [[0, 0, 0], [0, 0, 0]], "edges": [[0, 1]], "name": "knot"}]})"),

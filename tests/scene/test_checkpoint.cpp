@@ -164,6 +164,33 @@ TEST_CASE("a checkpoint with any byte changed is refused by name") {
   }
 }
 
+TEST_CASE("scenes that are included are taken up as they were, whatever became of their files") {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path() / "sub");
+  const auto rope = [](int stiffness) {
+    return fmt::format(R"({{"pliant": 1, "bodies": [{{"mesh": {{"shape": "chain", "links": 3}}, "mass": {{"total": 1}},
+      "constraints": [{{"type": "position", "on": [0]}}, {{"type": "edge_spring", "stiffness": {}}}]}}]}})",
+                       stiffness);
+  };
+  folder.write("sub/rope.json", rope(100));
+  folder.write("sub/scene.json", R"({"pliant": 1, "steps": 6, "include": ["rope.json", "chain"]})");
+  Scene whole = load_scene(folder.path() / "sub" / "scene.json", {.threads = 1});
+  for (int i = 0; i < 3; ++i) whole.step();
+  write_checkpoint(folder.path() / "run.pliant", whole);
+  for (int i = 0; i < 3; ++i) whole.step();
+  for (const bool is_removed : {false, true}) {
+    if (is_removed) {
+      std::filesystem::remove_all(folder.path() / "sub");
+    } else {
+      folder.write("sub/rope.json", rope(9));
+      folder.write("sub/chain", rope(7));  // would come before the built-in scene of that name
+    }
+    Scene resumed = read_checkpoint(folder.path() / "run.pliant");
+    for (int i = 0; i < 3; ++i) resumed.step();
+    CHECK(resumed.simulation.state().positions == whole.simulation.state().positions);
+  }
+}
+
 TEST_CASE("a mesh that was changed since is named") {
   const TemporaryFolder folder;
   const auto mesh = folder.path() / "sail.obj";

@@ -137,7 +137,7 @@ TEST_CASE("errors name the file where the value stands") {
   files.folder.write("parts/syntax.json", "{\n\"pliant\" 1}");
   CHECK(files.message_of(including("\"parts/syntax.json\"")).starts_with("parts/syntax.json:2:10: "));
   CHECK(files.message_of(including(R"({"file": "parts/base.json", "set": {"steps": -1}})")) ==
-        "scene.json: include.set.steps: -1 is negative; give a number from 0 up");
+        "scene.json: include.set.steps: -1 is out of range; give a number from 0 to 9007199254740992");
   CHECK(files.message_of(including(R"([{"file": "parts/base.json", "set": {"stepz": 1}}])"))
             .starts_with("scene.json: include[0].set.stepz: unknown key"));
   CHECK(files.message_of(including(R"({"file": "parts/base.json", "set": {"bodies[0].mass.total": 0}})"))
@@ -199,6 +199,26 @@ TEST_CASE("the source has every text, and the files are known by their sums") {
     again.step();
   }
   CHECK(scene.simulation.state().positions == again.simulation.state().positions);
+}
+
+TEST_CASE("a name means the file beside the scene that says it, from wherever it is read") {
+  const Files files;
+  const auto chain = [](int links) {
+    return fmt::format(
+        R"({{"pliant": 1, "bodies": [{{"name": "rope {0}", "mesh": {{"shape": "chain", "links": {0}}}, "mass": {{"total": 1}}}}]}})",
+        links);
+  };
+  files.folder.write("b.json", chain(5));
+  files.folder.write("parts/b.json", chain(13));
+  files.folder.write("parts/c.json", R"({"pliant": 1, "include": "b.json"})");
+  files.folder.write("a.json", R"({"pliant": 1, "include": ["b.json", "parts/c.json"]})");
+  const std::filesystem::path before = std::filesystem::current_path();
+  for (const std::filesystem::path& from : {before, files.folder.path(), files.folder.path() / "parts"}) {
+    std::filesystem::current_path(from);
+    const Scene scene = load_scene(std::filesystem::relative(files.folder.path() / "a.json"));
+    std::filesystem::current_path(before);
+    CHECK(scene.simulation.state().vertex_count() == 6 + 14);
+  }
 }
 
 TEST_CASE("the CRC-32 of gzip") {

@@ -142,6 +142,22 @@ TEST_CASE("a point that a straight path does not have is refused") {
   }
 }
 
+TEST_CASE("a ramp that no edit can begin is refused") {
+  Rig first;
+  first.timeline.ramp_stiffness(first.simulation, first.springs, 900, 1);
+  const TimelineState state = first.timeline.state();
+  const auto refusal = [&](auto&& spoil) {
+    Rig second;
+    TimelineState wrong = state;
+    spoil(wrong.ramps.at(0), second);
+    return error_of([&] { second.timeline.replay(second.simulation, wrong); });
+  };
+  CHECK(contains(refusal([](StiffnessRamp& ramp, Rig&) { ramp.duration = 0; }), "no duration of a ramp"));
+  CHECK(contains(refusal([](StiffnessRamp& ramp, Rig&) { ramp.from = -1; }), "-1 is no stiffness"));
+  CHECK(contains(refusal([](StiffnessRamp& ramp, Rig&) { ramp.to = 0; }), "0 is no stiffness"));
+  CHECK(contains(refusal([](StiffnessRamp& ramp, Rig& rig) { ramp.group = rig.pins; }), "has no stiffness"));
+}
+
 TEST_CASE("a step that is refused leaves everything as before it") {
   for (int steps = 0; steps < 12; ++steps) {
     CAPTURE(steps);

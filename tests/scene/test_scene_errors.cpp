@@ -85,7 +85,7 @@ TEST_CASE("a wrong type says what is wanted and what was found") {
       {"\"steps\": 5", "\"steps\": 5.5", "s.json: steps: found 5.5; give a whole number, without"},
       {"\"steps\": 5", "\"steps\": 99999999999999999999", "s.json: steps: found "},
       {"\"steps\": 5", "\"steps\": 18446744073709551615", "s.json: steps: found "},
-      {"\"steps\": 5", "\"steps\": -5", "s.json: steps: -5 is negative"},
+      {"\"steps\": 5", "\"steps\": -5", "s.json: steps: -5 is out of range"},
       {"{\"iterations\": 3}", "[3]", "s.json: settings: found a list; give an object {...}"},
       {"\"iterations\": 3", "\"iterations\": null", "s.json: settings.iterations: found "},
       {"\"iterations\": 3", "\"iterations\": 3000000000", "s.json: settings.iterations: 3000000000 is out of range"},

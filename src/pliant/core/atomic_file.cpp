@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
@@ -19,18 +20,40 @@ namespace {
 /// More leftovers of killed runs than this in one folder are a sign of something else.
 constexpr int max_attempts = 1000;
 
-/// The file itself behind a link, so that a rename does not replace the link.
-fs::path resolved(const fs::path& path) {
-  std::error_code error;
-  if (!fs::is_symlink(path, error)) return path;
-  const fs::path target = fs::canonical(path, error);
-  if (!error) return target;
-  return path.parent_path() / fs::read_symlink(path, error);  // a link to what is not there yet
+/// As many links in a row as Linux follows.
+constexpr int max_links = 40;
+
+/// The file itself behind links, whether it is there yet or not, so that a rename replaces none of them.
+fs::path resolved(fs::path path, std::error_code& error) {
+  std::error_code ignored;
+  for (int links = 0; fs::is_symlink(path, ignored); ++links) {
+    if (links == max_links) {
+      error = std::make_error_code(std::errc::too_many_symbolic_link_levels);
+      return path;
+    }
+    const fs::path target = fs::read_symlink(path, error);
+    if (error) return path;
+    path = path.parent_path() / target;
+  }
+  return path;
+}
+
+/// Waits until the bytes are on the disk: a rename may get there before them, and a loss of power leave an empty file.
+std::error_code sync(std::FILE* file) {
+  while (fsync(fileno(file)) != 0) {
+    if (errno == EINVAL) break;  // a file system that has no such thing
+    if (errno != EINTR) return {errno, std::generic_category()};
+  }
+  return {};
 }
 
 }  // namespace
 
-AtomicFile::AtomicFile(const fs::path& path) : path_(resolved(path)) {
+AtomicFile::AtomicFile(const fs::path& path) : path_(path) {
+  std::error_code error;
+  const fs::path target = resolved(path, error);
+  if (error) fail(error.value());
+  path_ = target;
   std::error_code ignored;
   const fs::file_status status = fs::status(path_, ignored);
   if (fs::is_directory(status)) fail(EISDIR);
@@ -60,12 +83,9 @@ void AtomicFile::commit() {
   // A full disk may show only when the last buffer is flushed or the file is closed.
   if (std::fflush(file_) != 0) fail(errno);
   std::FILE* file = std::exchange(file_, nullptr);
-  std::error_code error;
-  if (std::fclose(file) != 0) {
-    error = std::error_code(errno, std::generic_category());
-  } else {
-    fs::rename(temporary_path_, path_, error);
-  }
+  std::error_code error = sync(file);
+  if (std::fclose(file) != 0 && !error) error = std::error_code(errno, std::generic_category());
+  if (!error) fs::rename(temporary_path_, path_, error);
   if (!error) return;
   std::error_code ignored;
   fs::remove(temporary_path_, ignored);

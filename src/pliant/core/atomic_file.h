@@ -1,5 +1,6 @@
 #pragma once
-// Files that are whole or absent: written under a temporary name in the same folder, renamed when complete.
+// Files that are whole or absent, even after a loss of power: written under a temporary name in the same folder,
+// renamed when complete and on the disk.
 #include <cstdio>
 #include <filesystem>
 #include <string_view>
@@ -7,7 +8,7 @@
 namespace pliant {
 
 /// An output file that takes its name only at commit(). Without it, the temporary is removed and what stood under the
-/// name stays. A link is followed; a name that stands for anything but a regular file is refused.
+/// name stays. Links are followed; a name that stands for anything but a regular file is refused.
 class AtomicFile {
  public:
   /// Opens the temporary, `path` with ".tmp-0" (or the first free number) behind it.

@@ -29,7 +29,7 @@ Character first_character(std::string_view text) {
 }
 
 bool is_control(std::uint32_t code) {
-  return code < 0x20U || (code >= 0x7FU && code < 0xA0U) || (code >= 0x200EU && code <= 0x200FU) ||
+  return code < 0x20U || (code >= 0x7FU && code < 0xA0U) || code == 0x061CU || (code >= 0x200EU && code <= 0x200FU) ||
          (code >= 0x2028U && code <= 0x202EU) || (code >= 0x2066U && code <= 0x2069U) || code == 0xFEFFU;
 }
 

@@ -56,14 +56,13 @@ class ArrayWriter final : public FrameWriter {
     std::string bytes;
     format.append(bytes, Positions::Zero(vertex_count, 3));
     const std::uintmax_t header = format.header(0, vertex_count).size();
-    const std::uintmax_t kept = header + bytes.size() * static_cast<std::uintmax_t>(kept_frames);
     const std::string begin = read_begin(path, header);
     std::error_code error;
     const std::uintmax_t size = std::filesystem::file_size(path, error);
     const auto frames = static_cast<std::int64_t>((size - std::min(size, header)) / bytes.size());
     const bool is_ours = !error && (begin == format.header(frames, vertex_count) ||
                                     begin == format.header(std::max<std::int64_t>(frames - 1, 0), vertex_count));
-    if (is_ours && size >= kept) return kept;
+    if (is_ours && frames >= kept_frames) return header + bytes.size() * static_cast<std::uintmax_t>(kept_frames);
     fail_input(
         fmt::format("{}: not {} frames of {} vertices, after which this run would go on; run the scene from its "
                     "start, or put that file back",

@@ -144,19 +144,19 @@ OutputFile open(const std::filesystem::path& path, const std::string& names, std
 
 MeasurementsWriter::MeasurementsWriter(const std::filesystem::path& path, std::vector<std::string> groups,
                                        std::int64_t kept_rows)
-    : file_(open(path, column_names(groups), kept_rows)), groups_(std::move(groups)) {}
+    : file_(open(path, column_names(groups), kept_rows)), elastic_count_(groups.size()) {
+  for (std::size_t column = 0; column < groups.size(); ++column) elastic_of_[groups[column]].push_back(column);
+}
 
 /// The energies of the groups that have columns. Of several groups with one name, each takes the next such column.
 std::vector<Real> MeasurementsWriter::elastic_columns(const Measurements& row) const {
-  std::vector<Real> columns(groups_.size(), 0);
-  std::vector<char> is_taken(groups_.size(), 0);
+  std::vector<Real> columns(elastic_count_, 0);
+  std::map<std::string_view, std::size_t> taken;
   for (std::size_t i = 0; i < row.groups.size(); ++i) {
-    for (std::size_t c = 0; c < groups_.size(); ++c) {
-      if (is_taken[c] != 0 || groups_[c] != row.groups[i]) continue;
-      is_taken[c] = 1;
-      columns[c] = row.elastic[i];
-      break;
-    }
+    const auto found = elastic_of_.find(row.groups[i]);
+    if (found == elastic_of_.end()) continue;
+    const std::size_t place = taken[found->first]++;
+    if (place < found->second.size()) columns[found->second[place]] = row.elastic[i];
   }
   return columns;
 }

@@ -1,5 +1,6 @@
 #pragma once
 // What a run is judged by: energies, momenta, residual and times, one row a recorded step.
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -43,8 +44,11 @@ class MeasurementsWriter {
  private:
   std::vector<Real> elastic_columns(const Measurements& row) const;
 
+  using ColumnsOfNames = std::map<std::string, std::vector<std::size_t>, std::less<>>;
+
   OutputFile file_;
-  std::vector<std::string> groups_;
+  std::size_t elastic_count_;
+  ColumnsOfNames elastic_of_;  // the columns of a name: several groups may have it
 };
 
 }  // namespace pliant

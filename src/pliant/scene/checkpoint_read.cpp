@@ -43,9 +43,10 @@ void for_each(const Node& list, Visitor&& visitor) {
 
 SceneSource read_source(const Node& node) {
   SceneSource source;
+  source.is_complete = true;
   for_each(node.require("texts"), [&](const Node& text) {
-    source.texts.push_back(
-        {read_bytes(text.require("name")), read_bytes(text.require("folder")), read_bytes(text.require("text"))});
+    source.texts.push_back({read_bytes(text.require("name")), read_bytes(text.require("folder")),
+                            read_bytes(text.require("text")), read_bytes(text.require("file"))});
   });
   const Node overrides = node.require("overrides");
   visit_overrides(source.overrides, [&](std::string_view name, auto& value) {
@@ -128,7 +129,9 @@ void restore_groups(const Node& list, const Simulation& simulation) {
 State read_state(const Node& node, const State& fresh) {
   State state = fresh;
   read(node.require("step"), state.step);
-  if (state.step < 0) node.require("step").fail("steps count from 0; take another checkpoint");
+  if (state.step < 0 || state.step > max_steps) {
+    node.require("step").fail(fmt::format("{} is out of range; take another checkpoint", state.step));
+  }
   state.time = read_real(node.require("time"));
   state.time_excess = read_real(node.require("time_excess"));
   for (const auto& [key, rows] : {std::pair{"positions", &state.positions}, {"velocities", &state.velocities}}) {

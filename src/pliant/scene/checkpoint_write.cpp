@@ -7,6 +7,7 @@
 #include "pliant/scene/checkpoint.h"
 #include "pliant/scene/detail/checkpoint_file.h"
 #include "pliant/scene/detail/checkpoint_values.h"
+#include "pliant/scene/detail/scene_files.h"
 
 namespace pliant {
 namespace {
@@ -36,15 +37,17 @@ Json bytes_of(const Vec3& vector) {
 }
 
 /// Paths that hold in whatever folder the run is taken up.
-Json absolute_path(const std::filesystem::path& path) {
-  return bytes_of((std::filesystem::current_path() / path).string());
+Json absolute_bytes(const std::filesystem::path& path) {
+  return bytes_of(absolute_path(path).string());
 }
 
 Json write_source(const SceneSource& source) {
   Json texts = Json::array();
   for (const SceneText& text : source.texts) {
-    texts.push_back(
-        {{"name", bytes_of(text.name)}, {"folder", absolute_path(text.folder)}, {"text", bytes_of(text.text)}});
+    texts.push_back({{"name", bytes_of(text.name)},
+                     {"folder", absolute_bytes(text.folder)},
+                     {"file", bytes_of(text.file.string())},
+                     {"text", bytes_of(text.text)}});
   }
   Json overrides = Json::object();
   visit_overrides(source.overrides, [&](const char* name, const auto& value) {
@@ -60,13 +63,13 @@ Json write_source(const SceneSource& source) {
   return {{"texts", std::move(texts)},
           {"overrides", std::move(overrides)},
           {"set", std::move(set)},
-          {"set_folder", absolute_path(source.overrides_folder)}};
+          {"set_folder", absolute_bytes(source.overrides_folder)}};
 }
 
 Json write_files(const std::vector<SceneFile>& files) {
   Json list = Json::array();
   for (const SceneFile& file : files) {
-    list.push_back({{"path", absolute_path(file.path)}, {"size", file.size}, {"crc32", file.crc32}});
+    list.push_back({{"path", absolute_bytes(file.path)}, {"size", file.size}, {"crc32", file.crc32}});
   }
   return list;
 }

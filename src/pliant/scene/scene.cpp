@@ -1,11 +1,13 @@
 #include "pliant/scene/scene.h"
 
 #include <algorithm>
+#include <set>
 
 #include "pliant/core/printable.h"
 #include "pliant/mesh/io/read_file.h"
 #include "pliant/scene/detail/option_reader.h"
 #include "pliant/scene/detail/scene_documents.h"
+#include "pliant/scene/detail/scene_files.h"
 #include "pliant/scene/detail/scene_reader.h"
 
 namespace pliant {
@@ -74,7 +76,9 @@ void read_run(std::span<SceneLayer* const> layers, Scene& scene) {
   read_last(layers, "description", scene.description);
   if (const auto steps = find_last(layers, "steps")) {
     read(*steps, scene.steps);
-    if (scene.steps < 0) steps->fail(fmt::format("{} is negative; give a number from 0 up", scene.steps));
+    if (scene.steps < 0 || scene.steps > max_steps) {
+      steps->fail(fmt::format("{} is out of range; give a number from 0 to {}", scene.steps, max_steps));
+    }
   }
   read_merged(layers, "output", scene.output);
   read_merged(layers, "view", scene.view);
@@ -110,8 +114,9 @@ void read_simulation(std::span<SceneLayer* const> layers, Scene& scene) {
   for (const SceneLayer* layer : layers) roots.push_back(layer->root());
   reader.read_events(roots, scene.timeline);
   scene.group_names = scene.simulation.group_names();
+  std::set<std::string> names(scene.group_names.begin(), scene.group_names.end());
   for (std::string& name : reader.later_groups) {
-    if (std::ranges::find(scene.group_names, name) == scene.group_names.end()) scene.group_names.push_back(name);
+    if (names.insert(name).second) scene.group_names.push_back(std::move(name));
   }
 }
 
@@ -139,6 +144,7 @@ Scene parse_scene(SceneSource source) {
     read_run(documents.layers(), scene);
     read_simulation(documents.layers(), scene);
   }
+  source.is_complete = true;
   scene.source = std::move(source);
   scene.files = files.files();
   return scene;
@@ -146,11 +152,17 @@ Scene parse_scene(SceneSource source) {
 
 Scene parse_scene(std::string_view text, const std::filesystem::path& folder, std::string_view name,
                   const SceneOverrides& overrides) {
-  return parse_scene({{{std::string(name), folder, std::string(text)}}, overrides, {}});
+  SceneSource source;
+  source.texts.push_back({std::string(name), folder, std::string(text)});
+  source.overrides = overrides;
+  return parse_scene(std::move(source));
 }
 
 Scene load_scene(const std::filesystem::path& file, const SceneOverrides& overrides) {
-  return parse_scene({{{file.string(), file.parent_path(), read_file(file)}}, overrides, {}});
+  SceneSource source;
+  source.texts.push_back({file.string(), file.parent_path(), read_file(file), absolute_path(file)});
+  source.overrides = overrides;
+  return parse_scene(std::move(source));
 }
 
 std::string scene_description(std::string_view text, std::string_view name) {

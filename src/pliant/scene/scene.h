@@ -25,6 +25,9 @@ struct OutputSettings {
   }
 };
 
+/// More steps than anyone takes; what counts them, and their frames, does not overflow.
+inline constexpr std::int64_t max_steps = std::int64_t{1} << 53;
+
 /// A simulation made ready to run, with what the scene says about the run.
 struct Scene {
   std::string name;  ///< default: the file's, without its extension
@@ -54,7 +57,7 @@ Scene load_scene(const std::filesystem::path& file, const SceneOverrides& overri
 Scene parse_scene(std::string_view text, const std::filesystem::path& folder, std::string_view name,
                   const SceneOverrides& overrides = {});
 
-/// The same once more: no file of a text is read, only those of meshes and maps.
+/// The same once more, of a source that is complete: no file of a text is read then, only those of meshes and maps.
 Scene parse_scene(SceneSource source);
 
 /// The "description" of a scene, "" when it has none, without making its simulation. Throws as parse_scene does.

@@ -37,11 +37,13 @@ struct SceneText {
   std::string name;              ///< what messages call it: its path, or the name of a built-in scene
   std::filesystem::path folder;  ///< where paths in it start; relative ones at the current folder
   std::string text;
+  std::filesystem::path file = {};  ///< absolute; none: it was not read from a file
 };
 
 /// All that is needed to read a scene again, but for the files of its meshes and maps.
 struct SceneSource {
-  std::vector<SceneText> texts;  ///< the scene's own, then those that it includes; no name twice
+  std::vector<SceneText> texts;  ///< the scene's own, then those that it includes
+  bool is_complete = false;      ///< all texts that are included are there: no file of another is read
   SceneOverrides overrides;
   std::filesystem::path overrides_folder;  ///< where paths in `overrides.set` start
 };

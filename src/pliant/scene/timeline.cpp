@@ -66,6 +66,20 @@ Real stiffness_at(const StiffnessRamp& ramp, Real elapsed) {
   return ramp.from * std::pow(ramp.to / ramp.from, share);
 }
 
+void check_ramp(const Simulation& simulation, const StiffnessRamp& ramp) {
+  const Group& group = group_of(simulation, ramp.group);
+  if (!simulation.stiffness(ramp.group)) {
+    fail_input(fmt::format("the group '{}' has no stiffness; hard pins have none", group.name));
+  }
+  for (const Real stiffness : {ramp.from, ramp.to}) {
+    if (stiffness > 0 && std::isfinite(stiffness)) continue;
+    fail_input(fmt::format("{} is no stiffness; give a positive number", stiffness));
+  }
+  if (!(ramp.duration > 0) || !std::isfinite(ramp.duration)) {
+    fail_input(fmt::format("{} s is no duration of a ramp; give a finite number above 0", ramp.duration));
+  }
+}
+
 }  // namespace
 
 template <class F>
@@ -175,14 +189,10 @@ void Timeline::stop(const Simulation& simulation, GroupId group, const std::vect
 }
 
 void Timeline::ramp_stiffness(const Simulation& simulation, GroupId id, Real to, Real duration, Ease ease) {
-  const Group& group = group_of(simulation, id);
-  const std::optional<Real> from = simulation.stiffness(id);
-  if (!from) fail_input(fmt::format("the group '{}' has no stiffness; hard pins have none", group.name));
-  if (!(to > 0) || !std::isfinite(to)) fail_input(fmt::format("{} is no stiffness; give a positive number", to));
-  if (!(duration > 0) || !std::isfinite(duration)) {
-    fail_input(fmt::format("{} s is no duration of a ramp; give a finite number above 0", duration));
-  }
-  ramps_.insert_or_assign(id, Ramp{{id, *from, to, simulation.state().time, duration, ease}});
+  group_of(simulation, id);
+  const StiffnessRamp ramp{id, simulation.stiffness(id).value_or(1), to, simulation.state().time, duration, ease};
+  check_ramp(simulation, ramp);
+  ramps_.insert_or_assign(id, Ramp{ramp});
 }
 
 bool Timeline::is_due(const Simulation& simulation) const {
@@ -349,7 +359,7 @@ void Timeline::replay(Simulation& simulation, const TimelineState& state) {
     motions_ = std::move(motions);
     ramps_.clear();
     for (const StiffnessRamp& ramp : state.ramps) {
-      group_of(simulation, ramp.group);
+      check_ramp(simulation, ramp);
       ramps_.emplace(ramp.group, Ramp{ramp});
     }
   });

@@ -73,7 +73,9 @@ GroupId Simulation::add_set(BodyId id, ConstraintSet set, std::string type, std:
   if (undo_ != nullptr) undo_->save(group, std::nullopt);
   std::vector<Index> points = new_points(set);
   const auto next_point = static_cast<Index>(points.size());
-  groups_.emplace(group, Group{std::move(name), std::move(type), id, std::move(set), std::move(points), next_point});
+  const auto placed = groups_.emplace(
+      group, Group{std::move(name), std::move(type), id, std::move(set), std::move(points), next_point});
+  group_index_.add(group, placed.first->second);
   groups_changed_ = true;
   return group;
 }
@@ -101,17 +103,12 @@ void Simulation::check_held(const ConstraintGroup& added, const std::string& pla
   std::vector<Index> held(added.held_vertices().begin(), added.held_vertices().end());
   std::ranges::sort(held);
   const auto twice = std::ranges::adjacent_find(held);
-  if (held.empty()) return;
   if (twice != held.end()) fail_input(place + ": vertex " + std::to_string(*twice) + " is held twice; leave one out");
-  for (const auto& [id, other] : groups_) {
-    if (id == replaced) continue;
-    for (const auto& part : other.set.parts) {
-      for (const Index vertex : part->held_vertices()) {
-        if (!std::ranges::binary_search(held, vertex)) continue;
-        fail_input(place + ": vertex " + std::to_string(vertex) + " is already held by '" + other.name +
-                   "'; leave it out of one of the two");
-      }
-    }
+  for (const Index vertex : held) {
+    const std::optional<GroupId> holder = group_index_.holder(vertex);
+    if (!holder || holder == replaced) continue;
+    fail_input(place + ": vertex " + std::to_string(vertex) + " is already held by '" + group(*holder).name +
+               "'; leave it out of one of the two");
   }
 }
 
@@ -126,6 +123,7 @@ void Simulation::remove(GroupId id) {
   if (found == groups_.end())
     fail_input("group " + std::to_string(static_cast<Index>(id)) +
                " does not exist; give one that was added and not removed");
+  group_index_.remove(id, found->second);
   if (undo_ != nullptr) undo_->save(id, std::move(found->second));
   groups_.erase(found);
   groups_changed_ = true;
@@ -140,8 +138,7 @@ const Group& Simulation::group(GroupId id) const {
 }
 
 std::optional<GroupId> Simulation::find_group(std::string_view name) const {
-  const auto found = std::ranges::find_if(groups_, [&](const auto& entry) { return entry.second.name == name; });
-  return found == groups_.end() ? std::nullopt : std::optional(found->first);
+  return group_index_.find(name);
 }
 
 void Simulation::replace_set(GroupId id, ConstraintSet set, std::string type, Anchors anchors) {
@@ -188,8 +185,10 @@ void Simulation::exchange_set(GroupId id, ConstraintSet set, std::string type, s
                               Index next_point) {
   Group& group = groups_.at(id);
   Group renewed{group.name, std::move(type), group.body, std::move(set), std::move(points), next_point};
+  group_index_.remove(id, group);
   if (undo_ != nullptr) undo_->save(id, std::move(group));
   group = std::move(renewed);
+  group_index_.add(id, group);
   groups_changed_ = true;
 }
 

@@ -130,7 +130,9 @@ SystemInfo Simulation::system_info() {
 
 Real Simulation::elastic_energy(GroupId id) const {
   Real energy = 0;
-  for (const auto& part : group(id).set.parts) energy += solver_->elastic_energy(*part);
+  const Group& owner = group(id);
+  if (groups_changed_) return 0;  // the solver has not seen these
+  for (const auto& part : owner.set.parts) energy += solver_->elastic_energy(*part);
   return energy;
 }
 

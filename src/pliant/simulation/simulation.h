@@ -17,7 +17,7 @@
 
 #include "pliant/forces/wind.h"
 #include "pliant/mesh/mass.h"
-#include "pliant/simulation/parts.h"
+#include "pliant/simulation/group_index.h"
 #include "pliant/solver/settings.h"
 #include "pliant/solver/state.h"
 #include "pliant/solver/system_info.h"
@@ -164,6 +164,7 @@ class Simulation {
   State state_;
   std::vector<Body> bodies_;
   std::map<GroupId, Group> groups_;
+  GroupIndex group_index_;
   std::map<ForceId, std::unique_ptr<Force>> forces_;
   std::map<ForceId, std::string> force_names_;
   std::unique_ptr<Solver> solver_;

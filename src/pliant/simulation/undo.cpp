@@ -52,8 +52,13 @@ void Undo::save_state() {
 void Undo::take_back() {
   Simulation& s = simulation_;
   for (auto& [id, group] : groups_) {
-    s.groups_.erase(id);
-    if (group) s.groups_.emplace(id, std::move(*group));
+    if (const auto now = s.groups_.find(id); now != s.groups_.end()) {
+      s.group_index_.remove(id, now->second);
+      s.groups_.erase(now);
+    }
+    if (!group) continue;
+    const auto placed = s.groups_.emplace(id, std::move(*group));
+    s.group_index_.add(id, placed.first->second);
   }
   for (const auto& [id, numbers] : numbers_) {
     const auto& parts = s.groups_.at(id).set.parts;

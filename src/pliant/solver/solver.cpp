@@ -29,12 +29,14 @@ void Solver::set_settings(const SolverSettings& settings) {
   if (settings.precision != Precision::double_) {
     fail_input("settings: precision: `mixed` is not in this version; use `double`");
   }
-  if (!factorization_ || settings.backend != settings_.backend) {
-    factorization_ = make_factorization(settings.backend);
+  std::unique_ptr<Factorization> other;
+  if (!factorization_ || settings.backend != settings_.backend) other = make_factorization(settings.backend);
+  start_threads(settings.threads);  // may fail; nothing has changed until here
+  if (other) {
+    factorization_ = std::move(other);
     pattern_analyzed_ = false;
     factor_time_step_ = 0;
   }
-  start_threads(settings.threads);
   settings_ = settings;
   history_.reserve(std::min(history_limit, static_cast<std::size_t>(settings_.iterations)));
 }
@@ -85,7 +87,11 @@ void Solver::lay_out_groups() {
   start_threads(settings_.threads);
   if (system_matrix_.set_groups(vertex_count_, groups_)) pattern_analyzed_ = false;
   stamps_.clear();
-  for (const ConstraintGroup* group : groups_) stamps_.push_back({group->revision(), group->stiffness()});
+  places_.clear();
+  for (const ConstraintGroup* group : groups_) {
+    places_.emplace(group, stamps_.size());
+    stamps_.push_back({group->revision(), group->stiffness()});
+  }
   is_held_.assign(static_cast<std::size_t>(vertex_count_), 0);
   for (const ConstraintGroup* group : groups_) {
     for (const Index vertex : group->held_vertices()) is_held_[static_cast<std::size_t>(vertex)] = 1;
@@ -117,9 +123,9 @@ void Solver::factorize(const State& state, SetUpTimes& times) {
 }
 
 Real Solver::elastic_energy(const ConstraintGroup& group) const {
-  const auto found = std::ranges::find(groups_, &group);
-  if (!groups_laid_out_ || found == groups_.end()) return 0;
-  return local_step_.elastic_energy(static_cast<std::size_t>(found - groups_.begin()));
+  const auto found = places_.find(&group);
+  if (!groups_laid_out_ || found == places_.end()) return 0;
+  return local_step_.elastic_energy(found->second);
 }
 
 }  // namespace pliant

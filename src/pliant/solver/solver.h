@@ -1,6 +1,7 @@
 #pragma once
 // The solver: thesis Algorithm 1 in residual form. step.cpp has the algorithm on one screen; here is what it needs.
 #include <functional>
+#include <unordered_map>
 
 #include "pliant/core/thread_pool.h"
 #include "pliant/forces/force.h"
@@ -83,7 +84,8 @@ class Solver {
   SystemMatrix system_matrix_;
   std::unique_ptr<Factorization> factorization_;
   std::vector<GroupStamp> stamps_;  // of the groups in the factor
-  Real factor_time_step_ = 0;       // 0: there is no factor
+  std::unordered_map<const ConstraintGroup*, std::size_t> places_;
+  Real factor_time_step_ = 0;  // 0: there is no factor
   bool groups_laid_out_ = false;
   bool pattern_analyzed_ = false;
 

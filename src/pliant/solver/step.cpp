@@ -90,12 +90,13 @@ void Solver::commit(State& state) {
 }
 
 Evaluation Solver::evaluate(const State& state) {
-  if (!groups_laid_out_ || groups_changed()) lay_out_groups();
+  const bool is_new = !groups_laid_out_ || groups_changed();
   const bool is_predicted = predicted_time_step_ > 0;
-  if (!is_predicted) {
-    s_ = state.positions;
+  if (!is_predicted) s_ = state.positions;
+  if (!is_predicted || is_new) {
     for (ConstraintGroup* group : groups_) group->begin_step(state.view(), settings_.time_step);
   }
+  if (is_new) lay_out_groups();
   weigh_inertia(state, is_predicted ? predicted_time_step_ : settings_.time_step);
   const LocalResult found = local_step_.run(state.positions, s_, inertia_weights_, is_held_, residual_, *threads_);
   return {found.residual, found.inertia, found.elastic};

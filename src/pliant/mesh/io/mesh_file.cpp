@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "pliant/core/error.h"
 #include "pliant/mesh/io/detail/readers.h"
@@ -28,6 +29,18 @@ constexpr std::array<std::pair<std::string_view, MeshFormat>, 7> extensions{{
     {".node", MeshFormat::tetgen},
     {".ele", MeshFormat::tetgen},
 }};
+
+bool is_writable(MeshFormat format) {
+  return format != MeshFormat::tetgen;
+}
+
+std::vector<std::string_view> extensions_where(bool (*holds)(MeshFormat)) {
+  std::vector<std::string_view> found;
+  for (const auto& [extension, format] : extensions) {
+    if (holds(format)) found.push_back(extension.substr(1));
+  }
+  return found;
+}
 
 Mesh read(const ByteSource& source, MeshFormat format) {
   switch (format) {
@@ -90,9 +103,8 @@ Mesh read_files(const std::vector<std::filesystem::path>& files, MeshFormat form
 
 MeshFormat require_mesh_format(const std::filesystem::path& path) {
   if (const auto format = mesh_format(path)) return *format;
-  std::string known;
-  for (const auto& [extension, format] : extensions) known += fmt::format("{}{}", known.empty() ? "" : ", ", extension);
-  fail_input(fmt::format("{}: not the extension of a known mesh format; known: {}", path.string(), known));
+  fail_input(fmt::format("{}: not the extension of a known mesh format; known: .{}", path.string(),
+                         fmt::join(readable_mesh_extensions(), ", .")));
 }
 
 std::optional<MeshFormat> mesh_format(const std::filesystem::path& path) {
@@ -102,6 +114,14 @@ std::optional<MeshFormat> mesh_format(const std::filesystem::path& path) {
   }
   const auto* entry = std::ranges::find(extensions, extension, &decltype(extensions)::value_type::first);
   return entry == extensions.end() ? std::nullopt : std::optional(entry->second);
+}
+
+std::vector<std::string_view> readable_mesh_extensions() {
+  return extensions_where([](MeshFormat) { return true; });
+}
+
+std::vector<std::string_view> writable_mesh_extensions() {
+  return extensions_where(is_writable);
 }
 
 std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& path) {

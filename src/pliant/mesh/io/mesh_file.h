@@ -22,6 +22,10 @@ std::optional<MeshFormat> mesh_format(const std::filesystem::path& path);
 /// The same. @throws Error (input), listing the known ones
 MeshFormat require_mesh_format(const std::filesystem::path& path);
 
+/// The extensions of files that read_mesh and write_mesh take, without the point.
+std::vector<std::string_view> readable_mesh_extensions();
+std::vector<std::string_view> writable_mesh_extensions();
+
 /// Which axis of a file points up.
 enum class UpAxis { z, y, x };
 constexpr std::array<std::string_view, 3> choice_names(UpAxis) {
@@ -63,9 +67,8 @@ Mesh parse_mesh(std::string_view bytes, std::string_view name, MeshFormat format
 /// the format of the extension: polygons where the mesh came from polygons, else its triangles, else the surface of its
 /// tetrahedra (Gmsh: the tetrahedra themselves), and with them what the format holds. Coordinates stay in metres with
 /// +z up.
-/// @throws Error (input): an extension that is not known, or TetGen's, a count of positions other than the mesh's, a
-/// position that
-///   is not finite or that the format cannot hold.
+/// @throws Error (input): an extension that is not known, or TetGen's, a count of positions other than the mesh's,
+///   a position that is not finite or that the format cannot hold.
 /// @throws Error (output): the file cannot be written.
 void write_mesh(const std::filesystem::path& path, const Mesh& mesh, const Positions& positions);
 

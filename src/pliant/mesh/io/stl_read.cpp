@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <random>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -53,15 +54,27 @@ class PointMerger {
     for (std::size_t p = 0; p < points_.size(); ++p) slot_of(points_[p]) = static_cast<Index>(p);
   }
 
-  static std::size_t hash(const Point& point) {
-    std::uint64_t mixed = 0;
-    for (const Real x : point) {
-      mixed = (mixed ^ std::bit_cast<std::uint64_t>(x)) * 0x9e3779b97f4a7c15u;
-      mixed ^= mixed >> 29;
+  /// Sums of products with random keys, of which the upper half is taken: whatever two points are, their hashes are the
+  /// same with probability 2^-32 (multilinear hashing: Carter and Wegman 1979, Lemire and Kaser 2014). So no file can
+  /// be made for points that all meet in one slot. Numbers do not depend on the keys, only the time to find them does.
+  std::size_t hash(const Point& point) const {
+    std::uint64_t sum = keys_[6];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto bits = std::bit_cast<std::uint64_t>(point[k]);
+      sum += keys_[2 * k] * (bits & 0xffffffffU) + keys_[2 * k + 1] * (bits >> 32U);
     }
-    return static_cast<std::size_t>(mixed * 0xbf58476d1ce4e5b9u >> 20);
+    const std::uint64_t mixed = (sum >> 32U) * 0x9e3779b97f4a7c15U;  // grids would give rows of neighbouring slots
+    return static_cast<std::size_t>(mixed >> 32U);
   }
 
+  static std::array<std::uint64_t, 7> random_keys() {
+    std::random_device device;
+    std::array<std::uint64_t, 7> keys{};
+    for (std::uint64_t& key : keys) key = std::uint64_t{device()} << 32U | device();
+    return keys;
+  }
+
+  std::array<std::uint64_t, 7> keys_ = random_keys();
   std::vector<Point> points_;
   std::vector<Index> slots_;  ///< a power of two, at most half of them used; -1 is free
 };

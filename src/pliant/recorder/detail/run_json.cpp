@@ -74,7 +74,22 @@ std::vector<BodyRange> read_bodies(const Node& list) {
   return bodies;
 }
 
+/// Values of a run's own file are longer than these, with their keys and blanks; a file of shorter ones would cost many
+/// times its size of memory.
+constexpr std::ptrdiff_t min_bytes_per_value = 12;
+constexpr std::ptrdiff_t always_allowed_values = 1000;
+
+void refuse_too_many_values(std::string_view bytes, const std::string& name) {
+  const auto begins_value = [](char c) { return c == ',' || c == '[' || c == '{'; };
+  if (std::ranges::count_if(bytes, begins_value) <= always_allowed_values + std::ssize(bytes) / min_bytes_per_value) {
+    return;
+  }
+  fail_input(
+      fmt::format("{}: holds more values than a run writes; give the folder of a run as `pliant run` left it", name));
+}
+
 Json parse_json(const std::string& bytes, const std::string& name) {
+  refuse_too_many_values(bytes, name);
   Json json = Json::parse(bytes, nullptr, false);
   if (!json.is_discarded()) return json;
   fail_input(fmt::format("{}: is not JSON; give the folder of a run as `pliant run` left it", name));

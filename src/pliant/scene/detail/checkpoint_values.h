@@ -1,5 +1,5 @@
 #pragma once
-// What the writing and the reading of a checkpoint share: the names of its parts.
+// What the writing and the reading of a checkpoint share.
 #include <string_view>
 
 #include "pliant/scene/path.h"

@@ -223,9 +223,7 @@ Timeline::Edit EventReader::read_add(const Node& value) {
   ConstraintOptions options = read_constraint_options(value, {"name", "body"}, scene_.body(body));
   added_group_ = scene_.group_name(value, body, type_of(options));
   scene_.groups.emplace(added_group_, GroupEntry{body, options});
-  if (std::ranges::find(scene_.later_groups, added_group_) == scene_.later_groups.end()) {
-    scene_.later_groups.push_back(added_group_);
-  }
+  scene_.later_groups.push_back(added_group_);
   return
       [name = added_group_, body, options](Simulation& simulation, Timeline&) { add(simulation, body, options, name); };
 }

@@ -86,7 +86,7 @@ struct Copies {
 };
 
 /// Appends a part and its copies.
-void read_part(const Node& node, std::vector<MeshPart>& parts) {
+void read_part(const Node& node, std::vector<MeshPart>& parts, Real& vertex_count) {
   MeshPart part;
   part.mesh = read_mesh(node, {"name", "transform", "copies"});
   read_optional(node, "name", part.name);
@@ -99,6 +99,8 @@ void read_part(const Node& node, std::vector<MeshPart>& parts) {
       require_vertex_count("copies", Real{1} * copies.count * part.mesh.vertex_count());
     });
   }
+  vertex_count += Real{1} * copies.count * part.mesh.vertex_count();
+  node.locate([&] { require_vertex_count("the parts up to this one", vertex_count); });
   for (Index i = 0; i < copies.count; ++i) {
     parts.push_back(part);
     parts.back().mesh.vertices.rowwise() += i * copies.offset.transpose();
@@ -110,7 +112,8 @@ Mesh read_parts(const Node& node, const Keys& more_keys) {
   const Node list = node.require("parts");
   list.require_list();
   std::vector<MeshPart> parts;
-  for (std::size_t i = 0; i < list.size(); ++i) read_part(list[i], parts);
+  Real vertex_count = 0;
+  for (std::size_t i = 0; i < list.size(); ++i) read_part(list[i], parts, vertex_count);
   if (parts.empty()) list.fail("there is no part; add one");
   std::optional<Real> weld;
   if (const auto given = node.find("weld")) read(*given, weld.emplace());

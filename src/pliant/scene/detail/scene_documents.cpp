@@ -18,10 +18,6 @@ constexpr std::size_t max_depth = 16;
 constexpr std::size_t max_includes = 256;
 constexpr std::size_t max_set = 1000;
 
-std::string normal_name(const std::string& name) {
-  return std::filesystem::path(name).lexically_normal().string();
-}
-
 /// The value of a `--set`: JSON, or a text. What begins like a number, a list or an object is held to be meant as JSON.
 Document value_document(std::string_view text, std::string_view name) {
   if (is_json(text)) return parse_json(text, name);
@@ -52,7 +48,7 @@ void SceneDocuments::add_layers(std::size_t text, Chain& chain) {
   const Origin& origin = origins_.emplace_back(Origin{source_.texts[text].name, source_.texts[text].folder, &files_});
   const Node root(parsed, origin);
   root.require_object();
-  chain.push_back(normal_name(origin.name));
+  chain.push_back(text);
   if (const auto included = root.find("include")) {
     if (included->is_list()) {
       for (std::size_t i = 0; i < included->size(); ++i) include((*included)[i], chain);
@@ -74,10 +70,9 @@ void SceneDocuments::include(const Node& node, Chain& chain) {
   if (++includes_ > max_includes)
     file.fail(fmt::format("more than {} scenes are included; put some into one", max_includes));
   const std::size_t text = text_of(file);
-  const std::string name = normal_name(source_.texts[text].name);
-  if (std::ranges::find(chain, name) != chain.end()) {
-    file.fail(fmt::format("a scene cannot include itself: {} > {}; take one out",
-                          printable(fmt::format("{}", fmt::join(chain, " > ")), 300), printable_place(name)));
+  if (std::ranges::find(chain, text) != chain.end()) {
+    file.fail(fmt::format("a scene cannot include itself: {} > {}; take one out", printable(chain_text(chain), 300),
+                          printable_place(source_.texts[text].name)));
   }
   const std::size_t first_layer = layers_.size();
   add_layers(text, chain);
@@ -88,35 +83,50 @@ void SceneDocuments::include(const Node& node, Chain& chain) {
   for (const std::string_view path : set->keys()) set_over(first_layer, path, set->require(path));
 }
 
-std::optional<std::size_t> SceneDocuments::known_text(const std::string& name) const {
-  for (std::size_t i = 0; i < source_.texts.size(); ++i) {
-    if (normal_name(source_.texts[i].name) == name) return i;
-  }
-  return std::nullopt;
+std::string SceneDocuments::chain_text(const Chain& chain) const {
+  std::string text;
+  for (const std::size_t place : chain) text += (text.empty() ? "" : " > ") + source_.texts[place].name;
+  return text;
 }
 
+/// A text that is there already counts as what it was when it was read; then come files, then built-in scenes.
 std::size_t SceneDocuments::text_of(const Node& file) {
+  std::vector<SceneText>& texts = source_.texts;
   const std::filesystem::path path = read_path(file).lexically_normal();
-  if (const auto known = known_text(path.string())) return *known;
+  const std::filesystem::path absolute = absolute_path(path);
   const std::string name(file.text());
-  if (const auto known = known_text(name)) return *known;
+  const auto place_of = [&](auto&& is_meant) {
+    return static_cast<std::size_t>(std::ranges::find_if(texts, is_meant) - texts.begin());
+  };
+  const std::size_t known = place_of([&](const SceneText& text) { return text.file == absolute; });
+  if (known < texts.size()) return known;
   std::error_code ignored;
-  const bool is_file = std::filesystem::exists(path, ignored) && !std::filesystem::is_directory(path, ignored);
-  std::vector<std::string_view> builtin_names;
+  if (!source_.is_complete && std::filesystem::is_regular_file(path, ignored)) {
+    std::string text = file.locate([&] { return read_file(path); });
+    texts.push_back({path.string(), path.parent_path(), std::move(text), absolute});
+    return texts.size() - 1;
+  }
+  const std::size_t builtin = place_of(
+      [&](const SceneText& text) { return text.file.empty() && text.name == name && &text != &texts.front(); });
+  if (builtin < texts.size()) return builtin;
+  if (source_.is_complete) file.fail("the text of this scene is not there; read the scene from its file");
+  return read_builtin(file, path, name);
+}
+
+std::size_t SceneDocuments::read_builtin(const Node& file, const std::filesystem::path& path, const std::string& name) {
+  std::vector<std::string_view> names;
   for (const BuiltinScene& builtin : builtin_scenes()) {
-    builtin_names.push_back(builtin.name);
-    if (is_file || builtin.name != name) continue;
+    names.push_back(builtin.name);
+    if (builtin.name != name) continue;
     source_.texts.push_back({name, {}, std::string(builtin.text)});
     return source_.texts.size() - 1;
   }
-  if (!is_file && !std::filesystem::is_directory(path, ignored)) {
-    file.fail(
-        fmt::format("{}: no such file, and no built-in scene; check the path; built in are, the nearest first: {}",
-                    printable_place(path.string()), nearest_names_text(name, builtin_names)));
+  std::error_code ignored;
+  if (std::filesystem::symlink_status(path, ignored).type() != std::filesystem::file_type::not_found) {
+    file.locate([&] { return read_file(path); });  // says what is wrong with it
   }
-  std::string text = file.locate([&] { return read_file(path); });
-  source_.texts.push_back({path.string(), path.parent_path(), std::move(text)});
-  return source_.texts.size() - 1;
+  file.fail(fmt::format("{}: no such file, and no built-in scene; check the path; built in are, the nearest first: {}",
+                        printable_place(path.string()), nearest_names_text(name, names)));
 }
 
 void SceneDocuments::set_over(std::size_t first_layer, std::string_view path, const Node& value) {

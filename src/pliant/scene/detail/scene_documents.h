@@ -19,13 +19,14 @@ class SceneDocuments {
   Node root() const { return layers_.back()->root(); }
 
  private:
-  /// Scenes that include each other, from the outermost on, by name.
-  using Chain = std::vector<std::string>;
+  /// Scenes that include each other, from the outermost on, as places in the texts.
+  using Chain = std::vector<std::size_t>;
 
   void add_layers(std::size_t text, Chain& chain);
   void include(const Node& node, Chain& chain);
   std::size_t text_of(const Node& file);
-  std::optional<std::size_t> known_text(const std::string& name) const;
+  std::size_t read_builtin(const Node& file, const std::filesystem::path& path, const std::string& name);
+  std::string chain_text(const Chain& chain) const;
   void apply_overrides();
   void set_over(std::size_t first_layer, std::string_view path, const Node& value);
   /// Puts a value over the scene that no text holds; `name` is what messages call it.

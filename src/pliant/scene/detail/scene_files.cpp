@@ -33,6 +33,12 @@ std::filesystem::path read_path(const Node& node) {
   return node.origin().folder / name;
 }
 
+std::filesystem::path absolute_path(const std::filesystem::path& path) {
+  std::error_code error;
+  const std::filesystem::path current = std::filesystem::current_path(error);
+  return (current / path).lexically_normal();
+}
+
 NamedFile read_named_file(const Node& node) {
   NamedFile file;
   file.path = read_path(node);

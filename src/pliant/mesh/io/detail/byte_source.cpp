@@ -25,7 +25,7 @@ std::string reason(int error_number) {
 void refuse_other_than_files(const ByteSource& source) {
   struct stat status {};
   if (stat(source.name().c_str(), &status) != 0) {
-    const bool is_missing = errno == ENOENT || errno == ENOTDIR;
+    const bool is_missing = errno == ENOENT || errno == ENOTDIR || errno == ENAMETOOLONG;
     if (is_missing) source.fail("no such file; check the path");
     source.fail(fmt::format("cannot be read: {}; check its permissions", reason(errno)));
   }

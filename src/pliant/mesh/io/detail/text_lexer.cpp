@@ -182,11 +182,7 @@ std::int64_t TextLexer::integer(std::string_view word) const {
 }
 
 std::string TextLexer::quoted(std::string_view word) {
-  constexpr std::size_t longest = 40;
-  std::string text(word.substr(0, longest));
-  std::ranges::replace_if(
-      text, [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; }, '?');
-  return fmt::format("\"{}{}\"", text, word.size() > longest ? "..." : "");
+  return fmt::format("\"{}\"", printable(word, 40));
 }
 
 void TextLexer::fail_at(std::int64_t line, std::string_view message) const {

@@ -46,7 +46,7 @@ class TextLexer {
   /// An integer as it stands in the file.
   std::int64_t integer(std::string_view word) const;
 
-  /// The word as messages show it: in quotes, shortened, without control characters.
+  /// The word as messages show it: in quotes, shortened, as printable() makes it.
   static std::string quoted(std::string_view word);
 
   /// Throws Error (input): `name:line: message`.

@@ -1,0 +1,28 @@
+#pragma once
+// Options whose values are numbers, in the decimal notation of C++ and JSON, whatever the locale.
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "pliant/core/types.h"
+
+namespace pliant_cli {
+
+/// Whole numbers are written without point and exponent. What is none, or past the type, is refused with what is
+/// wanted.
+void add_number(CLI::App& command, const std::string& name, std::optional<std::int64_t>& number,
+                const std::string& help);
+void add_number(CLI::App& command, const std::string& name, std::optional<pliant::Index>& number,
+                const std::string& help);
+void add_number(CLI::App& command, const std::string& name, std::optional<pliant::Real>& number,
+                const std::string& help);
+/// `number` keeps its value when the option is not given.
+void add_number(CLI::App& command, const std::string& name, std::int64_t& number, const std::string& help);
+void add_number(CLI::App& command, const std::string& name, pliant::Real& number, const std::string& help);
+
+/// From 1 on.
+void add_count(CLI::App& command, const std::string& name, std::int64_t& number, const std::string& help);
+
+}  // namespace pliant_cli
