@@ -26,6 +26,7 @@ struct Reference {
   const pliant::Simulation& simulation;  ///< at the start of a step
   const pliant::Positions& after_step;   ///< where that step ends
   pliant::LowerMatrix matrix;
+  double contraction;  ///< of the factor's precision
 };
 
 /// The matrix of a simulation, summed anew.

@@ -19,7 +19,7 @@ Machine this_machine() {
           std::string(pliant::compiler),
           eigen_version(),
           cholmod_version(),
-          pliant::sweeps().instruction_set,
+          pliant::fastest_sweeps<float>().instruction_set,
           utc_date()};
 }
 

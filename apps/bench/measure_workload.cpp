@@ -17,16 +17,15 @@ constexpr double seconds_a_workload = 3;
 
 /// Times of the phases of Pliant's steps, for one iteration but for the whole step.
 struct PhaseSamples {
-  Samples projections, gather, permutation, forward, backward, solve, iteration, step;
+  Samples projections, gather, forward, backward, solve, iteration, step;
 
   void add(const StepReport& report) {
     const auto iterations = static_cast<double>(std::max<Index>(1, report.iterations));
     projections.add(report.seconds_projections / iterations);
     gather.add((report.seconds_local - report.seconds_projections) / iterations);
-    permutation.add(report.solves.permutation / iterations);
     forward.add(report.solves.forward / iterations);
     backward.add(report.solves.backward / iterations);
-    solve.add((report.solves.permutation + report.solves.forward + report.solves.backward) / iterations);
+    solve.add((report.solves.forward + report.solves.backward) / iterations);
     iteration.add((report.seconds_local + report.seconds_global) / iterations);
     step.add(report.seconds_total);
   }
@@ -34,10 +33,9 @@ struct PhaseSamples {
   std::vector<Phase> phases(const Traffic& traffic) const {
     return {{"projections", projections.spread(), traffic.projections},
             {"gather", gather.spread(), traffic.gather},
-            {"permutation in and out", permutation.spread(), traffic.permutation},
             {"forward sweep", forward.spread(), traffic.sweep},
             {"backward sweep", backward.spread(), traffic.sweep},
-            {"solve", solve.spread(), traffic.permutation + 2 * traffic.sweep},
+            {"solve", solve.spread(), 2 * traffic.sweep},
             {"iteration", iteration.spread(), traffic.iteration()},
             {"step", step.spread()}};
   }
@@ -109,7 +107,7 @@ WorkloadResult measure_workload(const Workload& workload, const BenchOptions& op
 
   std::vector<std::unique_ptr<Baseline>> baselines;
   if (!options.baselines.empty()) {
-    baselines = make_baselines(options, {first, runners.front().after_step, system_matrix(first)});
+    baselines = make_baselines(options, {first, runners.front().after_step, system_matrix(first), info.contraction});
   }
   std::optional<ReadProbe> probe;
   if (options.bandwidth == Bandwidth::with) probe.emplace(traffic.working_set);

@@ -10,7 +10,6 @@ using namespace pliant;
 constexpr std::int64_t real = sizeof(Real);
 constexpr std::int64_t index = sizeof(Index);
 constexpr std::int64_t point = 3 * real;
-constexpr std::int64_t lanes = 4 * real;  // of a vertex in a sweep
 constexpr std::int64_t offset = sizeof(std::size_t);
 
 std::int64_t size_of(std::size_t count) {
@@ -46,8 +45,8 @@ Traffic traffic_of(const Simulation& simulation, const SystemInfo& info) {
   traffic.projections = sums.constraint_data + m * point + sums.slots;
   // q, s, M/h² and the mark of held vertices in, r out
   traffic.gather = gather_lists + sums.slots + m * (2 * point + real + 1 + point);
-  traffic.permutation = 2 * m * (point + index + lanes);
-  traffic.sweep = info.sweep_bytes + 2 * m * lanes;
+  const std::int64_t lanes = 4 * (info.precision == Precision::mixed ? 4 : 8);  // of a vertex in a sweep
+  traffic.sweep = info.sweep_bytes + m * (2 * lanes + point + index);
   traffic.update = 3 * m * point;
   traffic.working_set =
       sums.constraint_data + sums.slots + gather_lists + info.sweep_bytes + m * (4 * point + lanes + real + 1 + index);

@@ -9,12 +9,11 @@ namespace pliant_bench {
 struct Traffic {
   std::int64_t projections = 0;
   std::int64_t gather = 0;
-  std::int64_t permutation = 0;  ///< into the order of the factor and back
-  std::int64_t sweep = 0;        ///< forward or backward
+  std::int64_t sweep = 0;        ///< forward with the way into the order of the factor, or backward with that back
   std::int64_t update = 0;       ///< q += correction
   std::int64_t working_set = 0;  ///< everything that an iteration touches
 
-  std::int64_t iteration() const { return projections + gather + permutation + 2 * sweep + update; }
+  std::int64_t iteration() const { return projections + gather + 2 * sweep + update; }
 };
 
 Traffic traffic_of(const pliant::Simulation& simulation, const pliant::SystemInfo& info);

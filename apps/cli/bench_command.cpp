@@ -101,6 +101,7 @@ void end_show() {
 }
 
 void run(const BenchArguments& arguments) {
+  end_at_interrupts();
   const BenchResult result = run_bench(check(arguments), show);
   end_show();
   const auto give = [](const std::string& file, const std::string& text) {

@@ -26,17 +26,16 @@ Solver::Solver(const SolverSettings& settings) : threads_(std::make_unique<Threa
 
 void Solver::set_settings(const SolverSettings& settings) {
   check_options("settings", settings);
-  if (settings.precision != Precision::double_) {
-    fail_input("settings: precision: `mixed` is not in this version; use `double`");
-  }
   std::unique_ptr<Factorization> other;
-  if (!factorization_ || settings.backend != settings_.backend) other = make_factorization(settings.backend);
+  if (!global_step_.has_factorization() || settings.backend != settings_.backend)
+    other = make_factorization(settings.backend);
   start_threads(settings.threads);  // may fail; nothing has changed until here
   if (other) {
-    factorization_ = std::move(other);
+    global_step_.set_factorization(std::move(other));
     pattern_analyzed_ = false;
     factor_time_step_ = 0;
   }
+  if (settings.precision != settings_.precision) factor_time_step_ = 0;
   settings_ = settings;
   history_.reserve(std::min(history_limit, static_cast<std::size_t>(settings_.iterations)));
 }
@@ -96,6 +95,7 @@ void Solver::lay_out_groups() {
   for (const ConstraintGroup* group : groups_) {
     for (const Index vertex : group->held_vertices()) is_held_[static_cast<std::size_t>(vertex)] = 1;
   }
+  free_parts_ = find_free_parts(system_matrix_.matrix(), groups_, is_held_);
   groups_laid_out_ = true;
   factor_time_step_ = 0;
 }
@@ -114,11 +114,11 @@ void Solver::factorize(const State& state, SetUpTimes& times) {
   factor_time_step_ = 0;  // until this succeeds
   system_matrix_.sum(state.masses, h, groups_, is_held_);
   times.assembly = watch.lap();
-  if (!pattern_analyzed_) factorization_->analyze(system_matrix_.matrix());
+  if (!pattern_analyzed_) global_step_.analyze(system_matrix_.matrix());
   pattern_analyzed_ = true;
   times.symbolic = watch.lap();
-  times.repack = factorization_->factorize(system_matrix_.matrix());
-  times.numeric = watch.lap() - times.repack;
+  weigh_inertia(state, h);
+  global_step_.factorize(system_matrix_.matrix(), settings_.precision, inertia_weights_, free_parts_, *threads_, times);
   factor_time_step_ = h;
 }
 

@@ -18,12 +18,10 @@ struct State {
 
 /// Where the time of the global solves goes [s].
 struct SolveTimes {
-  double permutation = 0;  ///< into the order of the factor and back
-  double forward = 0;
-  double backward = 0;
+  double forward = 0;   ///< with the way into the order of the factor
+  double backward = 0;  ///< with the way back
 
   SolveTimes& operator+=(const SolveTimes& other) {
-    permutation += other.permutation;
     forward += other.forward;
     backward += other.backward;
     return *this;
@@ -37,6 +35,7 @@ struct SetUpTimes {
   double symbolic = 0;  ///< ordering and analysis by the back end
   double numeric = 0;   ///< factorization by the back end
   double repack = 0;    ///< its factor into panels
+  double estimate = 0;  ///< whether panels in single precision do
 };
 
 /// What a step tells about itself.
