@@ -38,7 +38,7 @@ THIRD_PARTY = {
     "nlohmann/": ["src/pliant/scene", "src/pliant/recorder", "apps", "tests"],
     "CLI/": ["apps"],
     "zlib": ["src/pliant/core"],
-    "cholmod": ["src/pliant/solver/factorization", "benchmarks"],
+    "cholmod": ["src/pliant/solver/factorization", "apps/bench", "benchmarks"],
     "doctest/": ["tests"],
 }
 IN_PUBLIC_HEADERS = ["Eigen/"]

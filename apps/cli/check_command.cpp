@@ -142,6 +142,8 @@ Json describe(Scene& scene) {
           {"system",
            {{"matrix_entries", info.matrix_entries},
             {"factor_entries", info.factor_entries},
+            {"precision", choice_names(info.precision)[static_cast<std::size_t>(info.precision)]},
+            {"contraction", info.contraction},
             {"bytes", info.bytes},
             {"peak_memory", peak_memory()}}},
           {"fastest_frequency",
@@ -190,9 +192,10 @@ void print_text(const Json& json) {
   fmt::print("vertices: {}, of which {} free and {} held\n", vertices["all"].get<Index>(),
              vertices["free"].get<Index>(), vertices["held"].get<Index>());
   const Json& system = json["system"];
-  fmt::print("system: {} non-zeros in the matrix, {} in the factor ({}), {:.1f} MB; {:.0f} MB in all\n",
+  fmt::print("system: {} non-zeros in the matrix, {} in the factor ({}, {}), {:.1f} MB; {:.0f} MB in all\n",
              system["matrix_entries"].get<std::int64_t>(), system["factor_entries"].get<std::int64_t>(),
-             text_of(json["backend"]), megabytes(system["bytes"]), megabytes(system["peak_memory"]));
+             text_of(json["backend"]), text_of(system["precision"]), megabytes(system["bytes"]),
+             megabytes(system["peak_memory"]));
   fmt::print("fastest vibration: {}\n", json["fastest_frequency"]["text"].get<std::string>());
   for (const Json& warning : json["warnings"]) fmt::print("warning: {}\n", text_of(warning));
   fmt::print("The scene is sound.\n");

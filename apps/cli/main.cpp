@@ -25,6 +25,7 @@ constexpr std::string_view help_footer = R"(Examples:
   pliant resume out/curtain --steps 900          goes on with a run that ended or was stopped
   pliant convert out/curtain curtain.glb         exports a run as an animation
   pliant info shirt.ply                          says what a mesh is like, and what is wrong with it
+  pliant bench                                   says how fast this machine is, part by part
 
 Exit codes: 0 done, 2 bad input, 3 diverged, 4 output could not be written, 130 interrupted.)";
 
@@ -62,6 +63,7 @@ int run_program(int argc, char** argv) {
   pliant_cli::add_check_command(program);
   pliant_cli::add_convert_command(program);
   pliant_cli::add_info_command(program);
+  pliant_cli::add_bench_command(program);
   pliant_cli::add_scenes_command(program);
   pliant_cli::add_schema_command(program);
   if (argc > 1) refuse_unknown_command(program, argv[1]);

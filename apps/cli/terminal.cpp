@@ -12,6 +12,8 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include "pliant/core/error.h"
+
 namespace pliant_cli {
 namespace {
 
@@ -31,6 +33,18 @@ extern "C" void on_interrupt(int) {
   alarm(patience);
   for (const int number : interrupts) {
     if (number != SIGXCPU) std::signal(number, SIG_DFL);
+  }
+}
+
+extern "C" void end_at_once(int) {
+  _exit(static_cast<int>(pliant::ErrorKind::interrupted));
+}
+
+void handle_interrupts(const struct sigaction& action) {
+  for (const int number : interrupts) {
+    struct sigaction inherited = {};
+    sigaction(number, nullptr, &inherited);
+    if (inherited.sa_handler != SIG_IGN) sigaction(number, &action, nullptr);  // as nohup has it
   }
 }
 
@@ -85,15 +99,17 @@ void print_to_stderr(std::string_view text) {
   std::fflush(stderr);
 }
 
+void end_at_interrupts() {
+  struct sigaction action = {};
+  action.sa_handler = end_at_once;
+  handle_interrupts(action);
+}
+
 void catch_interrupts() {
   struct sigaction action = {};
   action.sa_handler = on_interrupt;
   action.sa_flags = SA_RESTART;
-  for (const int number : interrupts) {
-    struct sigaction inherited = {};
-    sigaction(number, nullptr, &inherited);
-    if (inherited.sa_handler != SIG_IGN) sigaction(number, &action, nullptr);  // as nohup has it
-  }
+  handle_interrupts(action);
   action.sa_handler = on_alarm;
   sigaction(SIGALRM, &action, nullptr);
 }

@@ -14,6 +14,9 @@ void limit_memory();
 /// Writes to the standard error. What cannot be written there has nowhere else to go: it is dropped.
 void print_to_stderr(std::string_view text);
 
+/// From now on an interrupt ends the program at once, with the exit code of interrupts: nothing has to be finished.
+void end_at_interrupts();
+
 /// From now on the first SIGINT, SIGTERM, SIGHUP or SIGXCPU only raises a flag; a second one ends the program.
 void catch_interrupts();
 bool was_interrupted();

@@ -77,7 +77,6 @@ TEST_CASE("settings that are refused") {
   }
   CHECK(contains(refusal_of(SolverSettings{.tolerance = -1e-3}), "settings: tolerance"));
   CHECK(contains(refusal_of(SolverSettings{.threads = -1}), "settings: threads"));
-  CHECK(contains(refusal_of(SolverSettings{.precision = Precision::mixed}), "precision"));
 }
 
 TEST_CASE_TEMPLATE("stiffnesses that are refused", Type, Position, EdgeSpring, EdgeStrain, Bending, HingeBending,

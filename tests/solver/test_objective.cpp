@@ -177,7 +177,7 @@ TEST_CASE("before the first step, evaluate() gives the energy of the start alone
 
 TEST_CASE("the back ends agree") {
   const auto run = [](Backend backend) {
-    Simulation simulation = everything({.iterations = 10, .backend = backend}, 10);
+    Simulation simulation = everything({.iterations = 10, .backend = backend, .precision = Precision::double_}, 10);
     advance(simulation, 10);
     CHECK(simulation.backend() == (backend == Backend::eigen ? "eigen" : "cholmod"));
     return simulation.state().positions;

@@ -79,6 +79,8 @@ void write_run_info(const std::filesystem::path& path, const RunInfo& info, cons
   json["used"] = {{"pliant", version},
                   {"compiler", compiler},
                   {"backend", simulation.backend()},
+                  {"precision", choice_names(simulation.precision())[static_cast<std::size_t>(simulation.precision())]},
+                  {"contraction", simulation.contraction()},
                   {"threads", simulation.thread_count()}};
   json["counts"] = {{"vertices", simulation.state().vertex_count()}, {"constraints", count_constraints(simulation)}};
   json["bodies"] = describe_bodies(simulation);

@@ -115,7 +115,16 @@ void Simulation::set_stop(std::function<bool()> stop) {
 
 StepReport Simulation::step() {
   update_problem();
-  return solver_->step(state_);
+  const StepReport report = solver_->step(state_);
+  if (settings_.precision != solver_->precision()) warn_of_precision();
+  return report;
+}
+
+void Simulation::warn_of_precision() {
+  constexpr std::string_view warning =
+      "precision: this system is too stiff for its masses and time step to be solved in single precision; it is solved "
+      "in double precision, which is slower";
+  if (std::ranges::find(warnings_, warning) == warnings_.end()) warnings_.emplace_back(warning);
 }
 
 Evaluation Simulation::evaluate() {
@@ -161,6 +170,14 @@ void Simulation::restore(const State& state) {
   if (undo_ != nullptr) undo_->save_state();
   state_ = state;
   solver_->forget_prediction();
+}
+
+Precision Simulation::precision() const {
+  return solver_->precision();
+}
+
+Real Simulation::contraction() const {
+  return solver_->contraction();
 }
 
 std::string_view Simulation::backend() const {

@@ -131,6 +131,10 @@ class Simulation {
 
   /// The name of the back end in use.
   std::string_view backend() const;
+  /// Of the factor in use; `double_` before the first step.
+  Precision precision() const;
+  /// The share of an error that a solve in single precision was seen to leave; 0 where that was not asked for.
+  Real contraction() const;
   int thread_count() const;
   /// What a user may want to know: skipped constraints, forces past their stability limit. It only grows.
   const std::vector<std::string>& warnings() const { return warnings_; }
@@ -152,6 +156,7 @@ class Simulation {
   BodyView view(BodyId id) const;
   const Group& group(GroupId id) const;
   std::span<Real> target_numbers(GroupId id, Index i) const;
+  void warn_of_precision();
   void check_set(const ConstraintSet& set, const std::string& place, std::optional<GroupId> replaced) const;
   void check_held(const ConstraintGroup& added, const std::string& place, std::optional<GroupId> replaced) const;
   void warn_of(const ConstraintSet& set, const std::string& place);

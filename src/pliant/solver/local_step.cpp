@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "pliant/core/error.h"
+#include "pliant/core/stopwatch.h"
 
 namespace pliant {
 namespace {
@@ -76,18 +77,20 @@ void LocalStep::lay_out_gathers(Index vertex_count) {
 
 LocalResult LocalStep::run(const Positions& q, const Positions& s, std::span<const Real> inertia_weights,
                            std::span<const char> is_held, Positions& r, ThreadPool& threads) {
+  LocalResult result;
+  const Stopwatch projections;
   threads.parallel_for(static_cast<Index>(chunks_.size()), [&](Index i) {
     const Chunk& chunk = chunks_[static_cast<std::size_t>(i)];
     chunk_energies_[static_cast<std::size_t>(i)] =
         groups_[chunk.group]->project(q, std::span<Real>(slots_).subspan(3 * chunk.first_slot), chunk.begin, chunk.end);
   });
+  result.seconds_projections = projections.seconds();
   const auto vertex_count = static_cast<Index>(q.rows());
   threads.parallel_for(static_cast<Index>(vertex_sums_.size()), [&](Index i) {
     const Index begin = i * vertices_per_chunk;
     const Index end = std::min(vertex_count, begin + vertices_per_chunk);
     vertex_sums_[static_cast<std::size_t>(i)] = gather(begin, end, q, s, inertia_weights, is_held, r);
   });
-  LocalResult result;
   for (const Real energy : chunk_energies_) result.elastic += energy;
   for (const VertexSums& sums : vertex_sums_) {
     result.inertia += sums.inertia;

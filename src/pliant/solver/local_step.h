@@ -16,6 +16,7 @@ struct LocalResult {
   Real residual = 0;  ///< largest |r| of a vertex that is not held [N]
   Real inertia = 0;   ///< 1/(2h²) ‖M^½ (q − s)‖² [J]
   Real elastic = 0;   ///< Σ wᵢ/2 ‖zᵢ − pᵢ‖² [J]
+  double seconds_projections = 0;
 };
 
 class LocalStep {

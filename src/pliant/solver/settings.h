@@ -18,7 +18,7 @@ constexpr std::array<std::string_view, 3> choice_names(Backend) {
   return {"automatic", "eigen", "cholmod"};
 }
 
-/// Precision of the factor; state, differences and sums are double in either. This version has `double_` alone.
+/// Precision of the factor; state, differences and sums are double in either. `mixed`: single, where that does.
 enum class Precision { double_, mixed };
 constexpr std::array<std::string_view, 2> choice_names(Precision) {
   return {"double", "mixed"};
@@ -30,7 +30,7 @@ struct SolverSettings {
   Real tolerance = 0;
   Start start = Start::prediction;
   Backend backend = Backend::automatic;
-  Precision precision = Precision::double_;
+  Precision precision = Precision::mixed;
   Index threads = 0;
 
   friend bool operator==(const SolverSettings&, const SolverSettings&) = default;
@@ -48,7 +48,11 @@ struct SolverSettings {
     field(OptionInfo{"start", "", "iterations begin at the `prediction` s or at the `positions` of the last step"},
           self.start);
     field(OptionInfo{"backend", "", "library that factorizes: `automatic`, `eigen` or `cholmod`"}, self.backend);
-    field(OptionInfo{"precision", "", "of the factor: `double`"}, self.precision);
+    field(
+        OptionInfo{
+            "precision", "",
+            "of the factor: `mixed` has it in single precision, where that does; what is converged to is the same"},
+        self.precision);
     field(OptionInfo{"threads", "", "0: one a processor; results do not depend on it", Range{0, 1024}}, self.threads);
   }
 };

@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "pliant/core/error.h"
+#include "pliant/core/stopwatch.h"
 
 namespace pliant {
 namespace {
@@ -25,17 +26,16 @@ Solver::Solver(const SolverSettings& settings) : threads_(std::make_unique<Threa
 
 void Solver::set_settings(const SolverSettings& settings) {
   check_options("settings", settings);
-  if (settings.precision != Precision::double_) {
-    fail_input("settings: precision: `mixed` is not in this version; use `double`");
-  }
   std::unique_ptr<Factorization> other;
-  if (!factorization_ || settings.backend != settings_.backend) other = make_factorization(settings.backend);
+  if (!global_step_.has_factorization() || settings.backend != settings_.backend)
+    other = make_factorization(settings.backend);
   start_threads(settings.threads);  // may fail; nothing has changed until here
   if (other) {
-    factorization_ = std::move(other);
+    global_step_.set_factorization(std::move(other));
     pattern_analyzed_ = false;
     factor_time_step_ = 0;
   }
+  if (settings.precision != settings_.precision) factor_time_step_ = 0;
   settings_ = settings;
   history_.reserve(std::min(history_limit, static_cast<std::size_t>(settings_.iterations)));
 }
@@ -68,11 +68,17 @@ bool Solver::stiffness_changed() const {
   return false;
 }
 
-void Solver::prepare(const State& state) {
+SetUpTimes Solver::prepare(const State& state) {
+  SetUpTimes times;
   for (ConstraintGroup* group : groups_) group->begin_step(state.view(), settings_.time_step);
-  if (!groups_laid_out_ || groups_changed()) lay_out_groups();
-  if (factor_time_step_ != settings_.time_step || stiffness_changed()) factorize(state);
+  const Stopwatch watch;
+  if (!groups_laid_out_ || groups_changed()) {
+    lay_out_groups();
+    times.layout = watch.seconds();
+  }
+  if (factor_time_step_ != settings_.time_step || stiffness_changed()) factorize(state, times);
   history_.clear();
+  return times;
 }
 
 void Solver::lay_out_groups() {
@@ -89,6 +95,7 @@ void Solver::lay_out_groups() {
   for (const ConstraintGroup* group : groups_) {
     for (const Index vertex : group->held_vertices()) is_held_[static_cast<std::size_t>(vertex)] = 1;
   }
+  free_parts_ = find_free_parts(system_matrix_.matrix(), groups_, is_held_);
   groups_laid_out_ = true;
   factor_time_step_ = 0;
 }
@@ -100,14 +107,18 @@ void Solver::weigh_inertia(const State& state, Real time_step) {
   }
 }
 
-void Solver::factorize(const State& state) {
+void Solver::factorize(const State& state, SetUpTimes& times) {
+  Stopwatch watch;
   const Real h = settings_.time_step;
   for (std::size_t g = 0; g < groups_.size(); ++g) stamps_[g].stiffness = groups_[g]->stiffness();
   factor_time_step_ = 0;  // until this succeeds
   system_matrix_.sum(state.masses, h, groups_, is_held_);
-  if (!pattern_analyzed_) factorization_->analyze(system_matrix_.matrix());
+  times.assembly = watch.lap();
+  if (!pattern_analyzed_) global_step_.analyze(system_matrix_.matrix());
   pattern_analyzed_ = true;
-  factorization_->factorize(system_matrix_.matrix());
+  times.symbolic = watch.lap();
+  weigh_inertia(state, h);
+  global_step_.factorize(system_matrix_.matrix(), settings_.precision, inertia_weights_, free_parts_, *threads_, times);
   factor_time_step_ = h;
 }
 

@@ -5,7 +5,7 @@
 
 #include "pliant/core/thread_pool.h"
 #include "pliant/forces/force.h"
-#include "pliant/solver/factorization/factorization.h"
+#include "pliant/solver/global_step.h"
 #include "pliant/solver/local_step.h"
 #include "pliant/solver/state.h"
 #include "pliant/solver/system_info.h"
@@ -47,7 +47,9 @@ class Solver {
   /// Describes the system as the next step has it; factorizes when something has changed.
   SystemInfo system_info(const State& state);
 
-  std::string_view backend() const { return factorization_->name(); }
+  Precision precision() const { return global_step_.precision(); }
+  Real contraction() const { return global_step_.contraction(); }
+  std::string_view backend() const { return global_step_.backend_name(); }
   int thread_count() const { return threads_->thread_count(); }
 
  private:
@@ -57,11 +59,11 @@ class Solver {
     Real stiffness;
   };
 
-  void prepare(const State& state);
+  SetUpTimes prepare(const State& state);
   void lay_out_groups();
   void start_threads(Index asked);
   void weigh_inertia(const State& state, Real time_step);
-  void factorize(const State& state);
+  void factorize(const State& state, SetUpTimes& times);
   bool groups_changed() const;
   bool stiffness_changed() const;
   [[noreturn]] void give_up(const State& state) const;
@@ -82,7 +84,7 @@ class Solver {
   std::unique_ptr<ThreadPool> threads_;
   LocalStep local_step_;
   SystemMatrix system_matrix_;
-  std::unique_ptr<Factorization> factorization_;
+  GlobalStep global_step_;
   std::vector<GroupStamp> stamps_;  // of the groups in the factor
   std::unordered_map<const ConstraintGroup*, std::size_t> places_;
   Real factor_time_step_ = 0;  // 0: there is no factor
@@ -90,6 +92,7 @@ class Solver {
   bool pattern_analyzed_ = false;
 
   std::vector<char> is_held_;
+  FreeParts free_parts_;
   std::vector<Real> inertia_weights_;  // M/h², 0 at held vertices
   Real predicted_time_step_ = 0;       // h of s_; 0: s_ does not belong to the state
   Positions force_, s_, q_, residual_, correction_;

@@ -16,15 +16,40 @@ struct State {
   StateView view() const { return {positions, velocities, masses, step, time}; }
 };
 
+/// Where the time of the global solves goes [s].
+struct SolveTimes {
+  double forward = 0;   ///< with the way into the order of the factor
+  double backward = 0;  ///< with the way back
+
+  SolveTimes& operator+=(const SolveTimes& other) {
+    forward += other.forward;
+    backward += other.backward;
+    return *this;
+  }
+};
+
+/// Where the time of laying out and factorizing goes [s].
+struct SetUpTimes {
+  double layout = 0;    ///< slots, gathers, pattern and unit matrices of the groups
+  double assembly = 0;  ///< the sum of the system matrix
+  double symbolic = 0;  ///< ordering and analysis by the back end
+  double numeric = 0;   ///< factorization by the back end
+  double repack = 0;    ///< its factor into panels
+  double estimate = 0;  ///< whether panels in single precision do
+};
+
 /// What a step tells about itself.
 struct StepReport {
   Index iterations = 0;  ///< global solves made
   bool reached_tolerance = false;
-  Real residual = 0;          ///< largest force left on a vertex [N], of the iterate before the last solve
-  double seconds_local = 0;   ///< projections and the sum of the residual
-  double seconds_global = 0;  ///< triangular solves
-  double seconds_factor = 0;  ///< assembly and factorization, when something changed
+  Real residual = 0;               ///< largest force left on a vertex [N], of the iterate before the last solve
+  double seconds_local = 0;        ///< projections and the sum of the residual
+  double seconds_projections = 0;  ///< the first part of it
+  double seconds_global = 0;       ///< triangular solves
+  double seconds_factor = 0;       ///< assembly and factorization, when something changed
   double seconds_total = 0;
+  SolveTimes solves;  ///< parts of seconds_global
+  SetUpTimes set_up;  ///< parts of seconds_factor
 };
 
 /// The objective at the positions that the last step ended with.

@@ -14,7 +14,7 @@ namespace pliant {
 StepReport Solver::step(State& state) {
   const Stopwatch total;
   StepReport report;
-  prepare(state);
+  report.set_up = prepare(state);
   report.seconds_factor = total.seconds();
 
   /* 1-2 */ predict(state);  // s = q + h v + h² M⁻¹ f
@@ -28,11 +28,12 @@ StepReport Solver::step(State& state) {
     record(found);
     report.residual = found.residual;
     report.seconds_local += local.seconds();
+    report.seconds_projections += found.seconds_projections;
     report.reached_tolerance = found.residual <= settings_.tolerance;
     if (report.reached_tolerance) break;
 
     const Stopwatch global;
-    /* 6 */ factorization_->solve(residual_, correction_);
+    /* 6 */ report.solves += global_step_.solve(residual_, found.residual, correction_, *threads_);
     q_ += correction_;
     ++report.iterations;
     report.seconds_global += global.seconds();

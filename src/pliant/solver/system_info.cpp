@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include <Eigen/Eigenvalues>
 
@@ -64,55 +63,6 @@ Real largest_eigenvalue(const LowerMatrix& K, const Vector& scale) {
   return std::max(solver.eigenvalues().maxCoeff(), Real(0));
 }
 
-/// Marks the vertices of constraints that a translation does not leave as they are.
-void mark_anchored(const ConstraintGroup& group, std::vector<char>& is_anchored) {
-  const GroupShape shape = group.shape();
-  const auto n = static_cast<std::size_t>(shape.vertices);
-  const auto k = static_cast<std::size_t>(shape.rows);
-  const std::span<const Real> reduction = group.reduction();
-  for (std::size_t i = 0; i < static_cast<std::size_t>(shape.count); ++i) {
-    bool holds = false;
-    for (std::size_t r = 0; r < k; ++r) {
-      const std::span<const Real> row = reduction.subspan((i * k + r) * n, n);
-      const Real sum = std::accumulate(row.begin(), row.end(), Real(0));
-      Real size = 0;
-      for (const Real coefficient : row) size += std::abs(coefficient);
-      holds = holds || std::abs(sum) > 1e-6 * size;
-    }
-    for (std::size_t a = 0; holds && a < n; ++a) is_anchored[at(group.stencil()[i * n + a])] = 1;
-  }
-  for (const Index vertex : group.held_vertices()) is_anchored[at(vertex)] = 1;
-}
-
-/// The connected parts of the matrix's pattern in which no vertex is anchored.
-std::vector<FreePart> find_free_parts(const LowerMatrix& matrix, const std::vector<char>& is_anchored) {
-  std::vector<Index> parent(at(matrix.size()));
-  std::iota(parent.begin(), parent.end(), Index{0});
-  const auto root_of = [&](Index vertex) {
-    while (parent[at(vertex)] != vertex) vertex = parent[at(vertex)] = parent[at(parent[at(vertex)])];
-    return vertex;
-  };
-  for (Index column = 0; column < matrix.size(); ++column) {
-    for (Index e = matrix.column_starts[at(column)]; e < matrix.column_starts[at(column) + 1]; ++e) {
-      const Index a = root_of(column);
-      const Index b = root_of(matrix.rows[at(e)]);
-      parent[at(std::max(a, b))] = std::min(a, b);
-    }
-  }
-  std::vector<Index> counts(parent.size(), 0);
-  std::vector<char> is_held(parent.size(), 0);
-  for (Index vertex = 0; vertex < matrix.size(); ++vertex) {
-    const std::size_t root = at(root_of(vertex));
-    ++counts[root];
-    is_held[root] = static_cast<char>(is_held[root] | is_anchored[at(vertex)]);
-  }
-  std::vector<FreePart> parts;
-  for (std::size_t root = 0; root < counts.size(); ++root) {
-    if (counts[root] > 0 && !is_held[root]) parts.push_back({static_cast<Index>(root), counts[root]});
-  }
-  return parts;
-}
-
 }  // namespace
 
 SystemInfo Solver::system_info(const State& state) {
@@ -120,14 +70,15 @@ SystemInfo Solver::system_info(const State& state) {
   SystemInfo info;
   const LowerMatrix& matrix = system_matrix_.matrix();
   info.matrix_entries = static_cast<std::int64_t>(matrix.rows.size());
-  info.factor_entries = static_cast<std::int64_t>(factorization_->factor().entry_count());
+  global_step_.describe(info);
   constexpr auto entry_bytes = static_cast<std::int64_t>(sizeof(Real) + sizeof(Index));
-  info.bytes = info.matrix_entries * entry_bytes + info.factor_entries * static_cast<std::int64_t>(sizeof(Real));
+  info.bytes = info.matrix_entries * entry_bytes + info.sweep_bytes;
   info.held_vertices = static_cast<Index>(std::ranges::count_if(is_held_, [](char held) { return held != 0; }));
 
-  std::vector<char> is_anchored(is_held_.size(), 0);
-  for (const ConstraintGroup* group : groups_) mark_anchored(*group, is_anchored);
-  info.free_parts = find_free_parts(matrix, is_anchored);
+  for (std::size_t i = 0; i < free_parts_.count(); ++i) {
+    const std::span<const Index> part = free_parts_.part(i);
+    info.free_parts.push_back({part.front(), static_cast<Index>(part.size())});
+  }
 
   SystemMatrix elastic = system_matrix_;
   const std::vector<const ConstraintGroup*> groups(groups_.begin(), groups_.end());

@@ -1,6 +1,6 @@
 #pragma once
 // What the system of equations of a simulation is like, for people.
-#include "pliant/core/types.h"
+#include "pliant/solver/settings.h"
 
 namespace pliant {
 
@@ -11,10 +11,14 @@ struct FreePart {
 };
 
 struct SystemInfo {
-  std::int64_t matrix_entries = 0;  ///< non-zeros of the lower triangle with the diagonal
-  std::int64_t factor_entries = 0;  ///< of L, the zeros that panels carry along included
-  std::int64_t bytes = 0;           ///< that matrix and factor take
-  Index held_vertices = 0;          ///< by hard pins; the others are free
+  std::int64_t matrix_entries = 0;           ///< non-zeros of the lower triangle with the diagonal
+  std::int64_t factor_entries = 0;           ///< of L, the zeros that panels carry along included
+  std::int64_t supernodes = 0;               ///< panels of L
+  std::int64_t sweep_bytes = 0;              ///< that one of the two sweeps of a solve reads of L
+  std::int64_t bytes = 0;                    ///< that matrix and factor take
+  Precision precision = Precision::double_;  ///< of the panels in use
+  Real contraction = 0;     ///< of single precision: the share of an error that a solve leaves; 0 when not asked for
+  Index held_vertices = 0;  ///< by hard pins; the others are free
   std::vector<FreePart> free_parts;
   /// √λ_max(M⁻¹K) [rad/s], K the sum of the constraints' matrices on the free vertices: no vibration is faster. From
   /// below, to about a part in a thousand.

@@ -1,6 +1,8 @@
 // SuiteSparse's CHOLMOD, supernodal (Chen et al. 2008). Built only with PLIANT_CHOLMOD: its Supernodal module is GPL.
 #include "pliant/solver/factorization/cholmod_factorization.h"
 
+#include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <mutex>
 
@@ -63,6 +65,10 @@ class CholmodFactorization final : public Factorization {
     common_.print = 0;
     // The first of CHOLMOD's own strategies whose fill is acceptable: AMD, then nested dissection by METIS.
     common_.nmethods = 0;
+    // Which columns are joined into one panel although that stores zeros: up to so many columns always, and more of
+    // them for ever smaller shares of zeros (benchmarks/NOTES.md, "Panels").
+    std::ranges::copy(std::array{4, 8, 16}, common_.nrelax);
+    std::ranges::copy(std::array{0.5, 0.2, 0.1}, common_.zrelax);
   }
   ~CholmodFactorization() override {
     symbolic_.reset();
@@ -82,7 +88,24 @@ class CholmodFactorization final : public Factorization {
     cholmod_sparse view = view_of(matrix);
     cholmod_factorize(&view, symbolic_.get(), &common_);
     check(common_.status == CHOLMOD_OK && symbolic_->minor == symbolic_->n);
-    take_factor();
+  }
+
+  FactorView factor() const override {
+    const cholmod_factor& L = *symbolic_;
+    const auto* super = static_cast<const Index*>(L.super);
+    const auto* row_starts = static_cast<const Index*>(L.pi);
+    const auto* value_starts = static_cast<const Index*>(L.px);
+    const auto* rows = static_cast<const Index*>(L.s);
+    const auto* values = static_cast<const Real*>(L.x);
+    FactorView view;
+    view.permutation = {static_cast<const Index*>(L.Perm), L.n};
+    view.supernodes.reserve(L.nsuper);
+    for (std::size_t s = 0; s < L.nsuper; ++s) {
+      const Index columns = super[s + 1] - super[s];
+      view.supernodes.push_back(
+          {columns, {rows + row_starts[s] + columns, rows + row_starts[s + 1]}, values + value_starts[s], true});
+    }
+    return view;
   }
 
  private:
@@ -109,24 +132,6 @@ class CholmodFactorization final : public Factorization {
       fail_input("the factor of the system matrix does not fit into memory; use a coarser mesh");
     }
     fail_input("the system matrix is not positive definite to rounding; lessen the ratio of stiffness to m/h²");
-  }
-
-  void take_factor() {
-    const cholmod_factor& L = *symbolic_;
-    const auto* super = static_cast<const Index*>(L.super);
-    const auto* row_starts = static_cast<const Index*>(L.pi);
-    const auto* value_starts = static_cast<const Index*>(L.px);
-    const auto* rows = static_cast<const Index*>(L.s);
-    const auto* values = static_cast<const Real*>(L.x);
-    factor_.begin({static_cast<const Index*>(L.Perm), L.n});
-    for (std::size_t s = 0; s < L.nsuper; ++s) {
-      const Index columns = super[s + 1] - super[s];
-      const Index height = row_starts[s + 1] - row_starts[s];
-      const Real* panel = values + value_starts[s];
-      factor_.add_supernode(columns, {rows + row_starts[s] + columns, rows + row_starts[s + 1]},
-                            [=](Index r, Index c) { return panel[c * static_cast<std::ptrdiff_t>(height) + r]; });
-    }
-    factor_.finish();
   }
 
   cholmod_common common_;

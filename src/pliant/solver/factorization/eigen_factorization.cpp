@@ -25,10 +25,27 @@ class EigenFactorization final : public Factorization {
 
   void factorize(const LowerMatrix& matrix) override {
     llt_.factorize(EigenMatrix(view(matrix)));
-    if (llt_.info() != Eigen::Success) {
-      fail_input("the system matrix is not positive definite to rounding; lessen the ratio of stiffness to m/h²");
+    if (llt_.info() == Eigen::Success) return;
+    fail_input("the system matrix is not positive definite to rounding; lessen the ratio of stiffness to m/h²");
+  }
+
+  FactorView factor() const override {
+    const EigenMatrix& L = llt_.matrixL().nestedExpression();
+    const auto& permutation = llt_.permutationPinv().indices();
+    FactorView factor;
+    factor.permutation = {permutation.data(), static_cast<std::size_t>(permutation.size())};
+    const Index* p = L.outerIndexPtr();
+    for (Index first = 0; first < L.cols();) {
+      Index end = first + 1;
+      while (end < L.cols() && continues(L, end - 1)) ++end;
+      const Index columns = end - first;
+      factor.supernodes.push_back({columns,
+                                   {L.innerIndexPtr() + p[first] + columns, L.innerIndexPtr() + p[first + 1]},
+                                   L.valuePtr() + p[first],
+                                   false});
+      first = end;
     }
-    take_factor();
+    return factor;
   }
 
  private:
@@ -37,22 +54,6 @@ class EigenFactorization final : public Factorization {
     const Index* p = L.outerIndexPtr();
     if (p[j + 1] - p[j] != p[j + 2] - p[j + 1] + 1) return false;
     return std::equal(L.innerIndexPtr() + p[j] + 1, L.innerIndexPtr() + p[j + 1], L.innerIndexPtr() + p[j + 1]);
-  }
-
-  void take_factor() {
-    const EigenMatrix& L = llt_.matrixL().nestedExpression();
-    const auto& permutation = llt_.permutationPinv().indices();
-    factor_.begin({permutation.data(), static_cast<std::size_t>(permutation.size())});
-    const Index* p = L.outerIndexPtr();
-    for (Index first = 0; first < L.cols();) {
-      Index end = first + 1;
-      while (end < L.cols() && continues(L, end - 1)) ++end;
-      const Index columns = end - first;
-      const std::span<const Index> below(L.innerIndexPtr() + p[first] + columns, L.innerIndexPtr() + p[first + 1]);
-      factor_.add_supernode(columns, below, [&](Index r, Index c) { return L.valuePtr()[p[first + c] + r - c]; });
-      first = end;
-    }
-    factor_.finish();
   }
 
   Eigen::SimplicialLLT<EigenMatrix, Eigen::Lower> llt_;

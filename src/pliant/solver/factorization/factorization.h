@@ -1,8 +1,9 @@
 #pragma once
-// Y = P L Lᵀ Pᵀ by a library; the solve with it is ours (supernodal_factor.h).
+// Y = P L Lᵀ Pᵀ by a library; the solve with it is ours (panel_factor.h).
 #include <memory>
+#include <string_view>
 
-#include "pliant/solver/factorization/supernodal_factor.h"
+#include "pliant/solver/factorization/supernodes.h"
 #include "pliant/solver/settings.h"
 #include "pliant/solver/system_matrix.h"
 
@@ -21,13 +22,8 @@ class Factorization {
   /// Factorizes a matrix of the pattern analyzed last. Throws Error(input) when it is not positive definite.
   virtual void factorize(const LowerMatrix& matrix) = 0;
 
-  /// Solves Y x = b for three right-hand sides (m × 3 each) in one sweep. Never allocates.
-  void solve(const Positions& b, Positions& x) { factor_.solve(b, x); }
-
-  const SupernodalFactor& factor() const { return factor_; }
-
- protected:
-  SupernodalFactor factor_;
+  /// The factor. Its supernodes are the same for all matrices of a pattern.
+  virtual FactorView factor() const = 0;
 };
 
 /// Throws Error(input) when this build does not have the back end.

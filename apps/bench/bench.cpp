@@ -1,0 +1,52 @@
+#include "bench/bench.h"
+
+#include <algorithm>
+#include <thread>
+
+#include "bench/bandwidth.h"
+#include "bench/measure.h"
+#include "bench/solves.h"
+#include "bench/system.h"
+#include "pliant/core/version.h"
+#include "pliant/solver/factorization/sweeps.h"
+
+namespace pliant_bench {
+namespace {
+
+Machine this_machine() {
+  return {processor_name(),
+          std::max(1U, std::thread::hardware_concurrency()),
+          std::string(pliant::compiler),
+          eigen_version(),
+          cholmod_version(),
+          pliant::fastest_sweeps<float>().instruction_set,
+          utc_date()};
+}
+
+}  // namespace
+
+bool BenchOptions::has(BaselineKind kind) const {
+  return std::ranges::find(baselines, kind) != baselines.end();
+}
+
+BenchResult run_bench(const BenchOptions& options, const Progress& progress) {
+  BenchResult result;
+  result.machine = this_machine();
+  if (options.bandwidth == Bandwidth::with) {
+    progress("bandwidth");
+    result.levels = measure_levels();
+  }
+  if (options.projections != Projections::only) {
+    for (const Workload& workload : options.workloads) {
+      progress(workload.name);
+      result.workloads.push_back(measure_workload(workload, options));
+    }
+  }
+  if (options.projections != Projections::without) {
+    progress("projections");
+    result.projections = measure_projections(options.repeats);
+  }
+  return result;
+}
+
+}  // namespace pliant_bench

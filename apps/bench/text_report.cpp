@@ -1,0 +1,157 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "bench/figures.h"
+#include "bench/report.h"
+#include "pliant/core/version.h"
+
+namespace pliant_bench {
+namespace {
+
+constexpr std::string_view how_to_read =
+    R"(How to read: times are of one iteration (a step has several), on one thread unless said otherwise, minimum and median of
+repeats in which everything takes turns. "x Eigen" is the median as a multiple of Eigen's solve of the same system with
+three right-hand sides. MB is what a phase must read and write at least; GB/s comes from it and the minimum; "share" is
+that of the speed at which one thread only reads as much memory as an iteration touches.
+)";
+
+using Out = std::back_insert_iterator<std::string>;
+
+/// "%" of a share, or "-".
+std::string percent(const std::optional<double>& share) {
+  return share ? fmt::format("{:.0f} %", 100 * *share) : "-";
+}
+
+std::string number(const std::optional<double>& value, int digits) {
+  return value ? fmt::format("{:.{}f}", *value, digits) : "-";
+}
+
+std::string megabytes(const std::optional<std::int64_t>& bytes, int digits) {
+  return bytes ? fmt::format("{:.{}f}", 1e-6 * static_cast<double>(*bytes), digits) : "-";
+}
+
+std::string binary_size(std::int64_t bytes) {
+  return fmt::format("{:.4g} MiB", static_cast<double>(bytes) / (1 << 20));
+}
+
+void print_machine(const BenchResult& result, Out out) {
+  const Machine& machine = result.machine;
+  fmt::format_to(out, "pliant {}, {} UTC\n{}, {} in use; {}; Eigen {}, {}; sweeps for {}\n", pliant::version,
+                 machine.date, machine.processor,
+                 machine.processors == 1 ? "1 processor" : fmt::format("{} processors", machine.processors),
+                 machine.compiler, machine.eigen, machine.cholmod.empty() ? "no CHOLMOD" : "CHOLMOD " + machine.cholmod,
+                 machine.instruction_set);
+  for (const Level& level : result.levels) {
+    const std::string size = level.bytes > 0 ? " of " + binary_size(level.bytes) : "";
+    fmt::format_to(out, "one thread reads {}{} at {:.1f} GB/s (over and over {})\n", level.name, size,
+                   1e-9 * level.bytes_per_second, binary_size(level.buffer_bytes));
+  }
+}
+
+void print_head(const BenchResult& result, const WorkloadResult& w, Out out) {
+  std::vector<std::string> constraints;
+  for (const ConstraintCount& each : w.constraints) constraints.push_back(fmt::format("{} {}", each.count, each.type));
+  const Level* level = result.level_of(w.working_set_bytes);
+  fmt::format_to(out, "\n{}: {} vertices; {}; {} iterations a step; {} repeats\n", w.workload.name, w.vertices,
+                 fmt::join(constraints, ", "), w.workload.iterations, w.repeats);
+  fmt::format_to(out, "  factor by {}: {} entries in {} panels; an iteration touches {} MB{}\n", w.backend,
+                 w.factor_entries, w.panels, megabytes(w.working_set_bytes, 1),
+                 level != nullptr ? " (" + level->name + ")" : "");
+  if (w.read_bytes_per_second) {
+    fmt::format_to(out, "  one thread reads as much at {:.1f} GB/s\n", 1e-9 * *w.read_bytes_per_second);
+  }
+}
+
+void print_phases(const WorkloadResult& w, Out out) {
+  fmt::format_to(out, "  {:<32} {:>9} {:>9} {:>8} {:>8} {:>7} {:>6}\n", "", "min ms", "median", "x Eigen", "MB", "GB/s",
+                 "share");
+  for (const Phase& phase : w.phases) {
+    const std::optional<double> bytes_per_second = speed(phase);
+    const bool is_sum = phase.name == "solve" || phase.name == "iteration" || phase.name == "step";
+    fmt::format_to(out, "  {:<32} {:>9.4f} {:>9.4f} {:>8} {:>8} {:>7} {:>6}\n",
+                   is_sum ? fmt::format("Pliant, whole {}", phase.name) : "  " + phase.name, 1e3 * phase.seconds.min,
+                   1e3 * phase.seconds.median, number(times_eigen(w, phase.seconds), 3), megabytes(phase.bytes, 2),
+                   number(bytes_per_second ? std::optional(1e-9 * *bytes_per_second) : std::nullopt, 1),
+                   percent(share(w, phase)));
+  }
+  for (const BaselineResult& each : w.baselines) {
+    fmt::format_to(out, "  {:<32} {:>9.4f} {:>9.4f} {:>8}\n", fmt::format("{}, {}", each.name, each.what),
+                   1e3 * each.seconds.min, 1e3 * each.seconds.median, number(times_eigen(w, each.seconds), 3));
+  }
+}
+
+void print_threads(const WorkloadResult& w, Out out) {
+  for (std::size_t i = 1; i < w.threads.size(); ++i) {
+    const ThreadsResult& each = w.threads[i];
+    fmt::format_to(out, "  {} threads: iteration {:.4f} ms (min {:.4f}), {:.2f} times as fast as {}; {}\n",
+                   each.threads, 1e3 * each.iteration.median, 1e3 * each.iteration.min,
+                   ratio(w.threads[0].iteration, each.iteration), w.threads[0].threads,
+                   each.has_same_bits ? "the same bits" : "OTHER BITS: report this");
+  }
+}
+
+void print_set_up(const WorkloadResult& w, Out out) {
+  const SetUpResult& s = w.set_up;
+  fmt::format_to(
+      out,
+      "  set-up {:.1f} ms: mesh {:.1f}, constraints {:.1f}, layout {:.1f}, assembly {:.1f}, symbolic {:.1f}, "
+      "numeric {:.1f}, repack {:.1f}; peak {} MB\n",
+      1e3 * s.total(), 1e3 * s.mesh, 1e3 * s.constraints, 1e3 * s.solver.layout, 1e3 * s.solver.assembly,
+      1e3 * s.solver.symbolic, 1e3 * s.solver.numeric, 1e3 * s.solver.repack, megabytes(s.peak_bytes, 1));
+  for (const BaselineResult& each : w.baselines) {
+    fmt::format_to(out, "    {}: {:.1f} ms, peak {} MB; differs by {:.0e}\n", each.name, 1e3 * each.set_up_seconds,
+                   megabytes(each.peak_bytes, 1), each.difference);
+  }
+}
+
+/// Pliant against the others, a line a workload.
+void print_summary(const BenchResult& result, Out out) {
+  fmt::format_to(out,
+                 "\nSummary: iteration as a multiple of Eigen's solve, and how many times as fast Pliant is\n"
+                 "  {:<10} {:>8} {:>10} {:>10} | solve: {:>8} {:>8}\n",
+                 "", "x Eigen", "textbook", "thesis", "Eigen", "CHOLMOD");
+  for (const WorkloadResult& w : result.workloads) {
+    const auto faster = [&w](std::string_view baseline, std::string_view phase) -> std::optional<double> {
+      const BaselineResult* other = w.baseline(baseline);
+      if (other == nullptr) return std::nullopt;
+      return ratio(other->seconds, w.phase(phase).seconds);
+    };
+    const std::optional<Seconds> cholmod = best_cholmod(w);
+    fmt::format_to(out, "  {:<10} {:>8} {:>10} {:>10} |        {:>8} {:>8}\n", w.workload.name,
+                   number(times_eigen(w, w.phase("iteration").seconds), 3), number(faster("textbook", "iteration"), 1),
+                   number(faster("thesis 3m x 3m", "iteration"), 1), number(faster("Eigen", "solve"), 1),
+                   number(cholmod ? std::optional(ratio(*cholmod, w.phase("solve").seconds)) : std::nullopt, 1));
+  }
+}
+
+void print_projections(const BenchResult& result, Out out) {
+  fmt::format_to(
+      out,
+      "\nProjections by themselves, one thread, gathering of z included\n  {:<24} {:>7} {:>9} {:>9} {:>13} {:>7}\n", "",
+      "count", "min ms", "median", "million/s", "ns each");
+  for (const ProjectionsResult& each : result.projections) {
+    const double nanoseconds = 1e9 * each.seconds.median / static_cast<double>(each.count);
+    fmt::format_to(out, "  {:<24} {:>7} {:>9.4f} {:>9.4f} {:>13.1f} {:>7.1f}\n", each.type, each.count,
+                   1e3 * each.seconds.min, 1e3 * each.seconds.median, 1e3 / nanoseconds, nanoseconds);
+  }
+}
+
+}  // namespace
+
+std::string text_report(const BenchResult& result) {
+  std::string text;
+  const Out out(text);
+  print_machine(result, out);
+  if (!result.workloads.empty()) text += how_to_read;
+  for (const WorkloadResult& workload : result.workloads) {
+    print_head(result, workload, out);
+    print_phases(workload, out);
+    print_threads(workload, out);
+    print_set_up(workload, out);
+  }
+  if (!result.workloads.empty()) print_summary(result, out);
+  if (!result.projections.empty()) print_projections(result, out);
+  return text;
+}
+
+}  // namespace pliant_bench

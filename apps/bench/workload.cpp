@@ -1,0 +1,112 @@
+#include "bench/workload.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pliant/core/printable.h"
+#include "pliant/pliant.h"
+#include "pliant/scene/nearest_names.h"
+
+namespace pliant_bench {
+namespace {
+
+using namespace pliant;
+
+constexpr Index smallest_size = 3;  // a curtain has an interior vertex
+constexpr Index largest_size = 4000;
+
+std::vector<Workload> workloads_of_size(Index size) {
+  return {{"curtain", Kind::curtain, size, 10},
+          {"curtain-b", Kind::curtain_bending, size, 10},
+          {"bar", Kind::bar, size, 10}};
+}
+
+/// Waves along the body and a turn, a tenth of its size.
+Positions deformed(const Positions& rest, Real extent) {
+  Positions x = rest;
+  for (Index i = 0; i < static_cast<Index>(x.rows()); ++i) {
+    const Real u = rest(i, 0) / extent;
+    const Real v = rest(i, 2) / extent;
+    x(i, 0) += 0.03 * extent * std::sin(5 * v);
+    x(i, 1) += 0.05 * extent * std::sin(7 * u + 3 * v);
+    x(i, 2) += 0.04 * extent * std::cos(6 * u - 2 * v);
+  }
+  return x;
+}
+
+/// Those whose x, or z where the body is a curtain, is at the end that is pinned.
+std::vector<Index> pinned_vertices(const Workload& workload, const Mesh& mesh) {
+  const Index count = mesh.vertex_count();
+  if (workload.kind != Kind::bar) return {count - workload.size, count - 1};
+  std::vector<Index> end;
+  for (Index i = 0; i < count; ++i) {
+    if (mesh.vertices(i, 0) == 0) end.push_back(i);
+  }
+  return end;
+}
+
+}  // namespace
+
+std::vector<Workload> standard_workloads() {
+  return {{"W1", Kind::curtain, 32, 5},   {"W1b", Kind::curtain_bending, 32, 5},
+          {"W2", Kind::curtain, 100, 10}, {"W2b", Kind::curtain_bending, 100, 10},
+          {"W3", Kind::curtain, 316, 10}, {"W3b", Kind::curtain_bending, 316, 10},
+          {"W4", Kind::bar, 10, 10}};
+}
+
+std::vector<Workload> choose_workloads(const std::vector<std::string>& names, std::optional<Index> size) {
+  if (size && (*size < smallest_size || *size > largest_size)) {
+    fail_input("--size: " + std::to_string(*size) + " is out of range; give " + std::to_string(smallest_size) + " to " +
+               std::to_string(largest_size) + " vertices along a side");
+  }
+  const std::vector<Workload> sized = workloads_of_size(size.value_or(smallest_size));
+  const std::vector<Workload> fixed = standard_workloads();
+  if (names.empty()) return size ? std::vector<Workload>{sized[0], sized[1]} : fixed;
+  std::vector<std::string_view> known;
+  for (const Workload& workload : fixed) known.push_back(workload.name);
+  for (const Workload& workload : sized) known.push_back(workload.name);
+  std::vector<Workload> chosen;
+  for (const std::string& name : names) {
+    const auto is_named = [&name](const Workload& workload) { return workload.name == name; };
+    const auto in_fixed = std::ranges::find_if(fixed, is_named);
+    const auto in_sized = std::ranges::find_if(sized, is_named);
+    if (in_fixed == fixed.end() && in_sized == sized.end()) {
+      fail_input("--workloads: there is no '" + printable(name) +
+                 "'; known, the nearest first: " + nearest_names_text(name, known));
+    }
+    if (in_fixed != fixed.end() && size) {
+      fail_input("--workloads: " + name + " has a size of its own; with --size give curtain, curtain-b or bar");
+    }
+    if (in_sized != sized.end() && !size) fail_input("--workloads: " + name + " needs its size; give --size as well");
+    chosen.push_back(in_fixed != fixed.end() ? *in_fixed : *in_sized);
+  }
+  return chosen;
+}
+
+Mesh make_mesh(const Workload& workload) {
+  const Index n = workload.size;
+  if (workload.kind != Kind::bar) return grid({.columns = n, .rows = n, .size = {1, 1}});
+  return bar({.cells = {4 * n, n, n}, .size = {4, 1, 1}, .cut = TetrahedronCut::five});
+}
+
+Simulation make_simulation(const Workload& workload, Mesh mesh, SolverSettings settings) {
+  settings.iterations = workload.iterations;
+  Simulation simulation(settings);
+  const Real extent = workload.kind == Kind::bar ? 4 : 1;
+  const std::vector<Index> pinned = pinned_vertices(workload, mesh);
+  Positions start = deformed(mesh.vertices, extent);
+  Positions velocities = start - mesh.vertices;  // as if it had taken a second
+  const BodyId body = simulation.add_body(std::move(mesh), Mass::per_vertex(1),
+                                          {.start = std::move(start), .velocities = std::move(velocities)});
+  simulation.add_force(std::make_unique<Gravity>());
+  if (workload.kind == Kind::bar) {
+    simulation.add(body, TetrahedronStrain{.stiffness = 1e5});
+  } else {
+    simulation.add(body, EdgeSpring{.stiffness = 1e3});
+  }
+  if (workload.kind == Kind::curtain_bending) simulation.add(body, Bending{.stiffness = 1e-3});
+  simulation.add(body, Position{.on = pinned, .hold = Hold::soft, .stiffness = 1e6});
+  return simulation;
+}
+
+}  // namespace pliant_bench

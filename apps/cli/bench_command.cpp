@@ -1,0 +1,153 @@
+// pliant bench: how fast this machine runs the standard workloads, part by part, and other libraries beside them.
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "bench/bench.h"
+#include "bench/report.h"
+#include "bench/solves.h"
+#include "choice_option.h"
+#include "commands.h"
+#include "pliant/core/atomic_file.h"
+#include "pliant/core/printable.h"
+#include "pliant/scene/nearest_names.h"
+#include "scene_options.h"
+#include "terminal.h"
+
+namespace pliant_cli {
+namespace {
+
+using namespace pliant_bench;
+using pliant::Index;
+
+struct BenchArguments {
+  std::vector<std::string> workloads;
+  std::optional<Index> size;
+  std::optional<Index> repeats;
+  std::vector<std::string> threads;
+  std::vector<std::string> baselines = {"all"};
+  std::string json;
+  std::string csv;
+  BenchOptions options;
+};
+
+std::vector<BaselineKind> all_baselines() {
+  std::vector<BaselineKind> kinds = {BaselineKind::eigen, BaselineKind::textbook, BaselineKind::thesis};
+  if (!cholmod_version().empty()) kinds.insert(kinds.begin() + 1, BaselineKind::cholmod);
+  return kinds;
+}
+
+/// `all`, `none`, or names.
+std::vector<BaselineKind> choose_baselines(const std::vector<std::string>& words) {
+  constexpr auto names = choice_names(BaselineKind{});
+  if (words.size() == 1 && words[0] == "all") return all_baselines();
+  if (words.size() == 1 && words[0] == "none") return {};
+  std::vector<BaselineKind> kinds;
+  for (const std::string& word : words) {
+    const auto found = std::ranges::find(names, std::string_view(word));
+    if (found == names.end()) {
+      std::vector<std::string_view> known(names.begin(), names.end());
+      pliant::fail_input(fmt::format("--baselines: there is no '{}'; give all, none, or some of: {}",
+                                     pliant::printable(word), pliant::nearest_names_text(word, known)));
+    }
+    kinds.push_back(static_cast<BaselineKind>(found - names.begin()));
+  }
+  return kinds;
+}
+
+/// Whole numbers from 1.
+std::vector<int> choose_threads(const std::vector<std::string>& words) {
+  constexpr int most = 1024;
+  std::vector<int> threads;
+  for (const std::string& word : words) {
+    int count = 0;
+    for (const char c : word) count = c >= '0' && c <= '9' && count <= most ? 10 * count + (c - '0') : most + 1;
+    if (word.empty() || count < 1 || count > most) {
+      pliant::fail_input(fmt::format("--threads: '{}' is no number of threads; give some from 1 to {}, as in 1,2",
+                                     pliant::printable(word), most));
+    }
+    threads.push_back(count);
+  }
+  return threads;
+}
+
+BenchOptions check(const BenchArguments& arguments) {
+  constexpr Index most_repeats = 100'000;
+  BenchOptions options = arguments.options;
+  options.workloads = choose_workloads(arguments.workloads, arguments.size);
+  options.baselines = choose_baselines(arguments.baselines);
+  if (!arguments.threads.empty()) options.threads = choose_threads(arguments.threads);
+  if (arguments.repeats && (*arguments.repeats < 1 || *arguments.repeats > most_repeats)) {
+    pliant::fail_input(fmt::format("--repeats: {} is out of range; give 1 to {}", *arguments.repeats, most_repeats));
+  }
+  if (arguments.repeats) options.repeats = *arguments.repeats;
+  if (arguments.json == "-" && arguments.csv == "-") {
+    pliant::fail_input("--json and --csv both to the standard output; give one of them a file");
+  }
+  return options;
+}
+
+/// Where people watch, one line that says what is under way.
+void show(std::string_view what) {
+  if (has_error_terminal()) print_to_stderr(fmt::format("\r\x1b[Kmeasuring {} ...", what));
+}
+
+void end_show() {
+  if (has_error_terminal()) print_to_stderr("\r\x1b[K");
+}
+
+void run(const BenchArguments& arguments) {
+  end_at_interrupts();
+  const BenchResult result = run_bench(check(arguments), show);
+  end_show();
+  const auto give = [](const std::string& file, const std::string& text) {
+    if (file == "-") {
+      fmt::print("{}", text);
+    } else if (!file.empty()) {
+      pliant::write_file_atomically(file, text);
+    }
+  };
+  give(arguments.json, json_report(result));
+  give(arguments.csv, csv_report(result));
+  if (arguments.json != "-" && arguments.csv != "-") fmt::print("{}", text_report(result));
+}
+
+}  // namespace
+
+void add_bench_command(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("bench", "Measure the speed of this machine, part by part");
+  auto arguments = std::make_shared<BenchArguments>();
+  command
+      ->add_option("--workloads", arguments->workloads,
+                   "W1, W1b, W2, W2b, W3, W3b (curtains; b: with bending), W4 (bar); or, with --size, curtain, "
+                   "curtain-b, bar")
+      ->delimiter(',');
+  add_number(*command, "--size", arguments->size,
+             "Vertices along a side of a square curtain, cells across a bar that is four times as long");
+  add_number(*command, "--repeats", arguments->repeats, "Of everything; default: 5 to 200, about 3 s a workload");
+  command->add_option("--threads", arguments->threads, "Default: 1,2; the phases are those of the first")
+      ->delimiter(',');
+  command
+      ->add_option("--baselines", arguments->baselines,
+                   "all (default), none, or some of eigen, cholmod, textbook, thesis")
+      ->delimiter(',');
+  add_choice(*command, "--backend", arguments->options.settings.backend, "Library that factorizes");
+  add_choice(*command, "--precision", arguments->options.settings.precision, "Of the factor");
+  add_choice(*command, "--projections", arguments->options.projections,
+             "Measure the constraint types by themselves: with the workloads, not, or alone");
+  add_choice(*command, "--bandwidth", arguments->options.bandwidth, "Measure how fast one thread reads memory");
+  command->add_option("--json", arguments->json, "Write the results as JSON; -: to the standard output");
+  command->add_option("--csv", arguments->csv, "Write the results as CSV; -: to the standard output");
+  command->footer(
+      "Examples:\n"
+      "  pliant bench                                        all workloads, about a minute and a half\n"
+      "  pliant bench --workloads W2,W4 --json bench.json    two of them, with a file for programs\n"
+      "  pliant bench --size 200                             curtains of 200 x 200 vertices");
+  command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace pliant_cli

@@ -1,0 +1,90 @@
+#pragma once
+// The Cholesky factor L as the triangular solves want it.
+//
+// A panel is a supernode, a run of columns that share their rows below the diagonal block:
+//
+//        c0 .. c0+nc
+//       ┌──┐
+//       │D ╲            D⁻¹: lower triangle of blocks of 4 rows; block b has its columns 0 .. 4 b + 3
+//       ├────┤
+//       │ B  │  rows    B: blocks of 4 rows, all columns; row r belongs to row `rows[r]` of x
+//       └────┘
+//
+// A block of rows stands column after column, so four values at a time; what a last block lacks is zeros. Both sweeps
+// read the values of a panel from the first to the last. All three coordinates of a vertex, and a zero, go through a
+// sweep together in four lanes, so each value is read once a sweep and serves three right-hand sides.
+//
+// Subtrees of the elimination tree (panel_tasks.h) are swept at the same time. What one of them subtracts from rows
+// that are not its own goes to rows of x that it has for itself, and is added afterwards in the order of the subtrees:
+// the bits do not depend on the number of threads.
+#include "pliant/core/aligned.h"
+#include "pliant/core/thread_pool.h"
+#include "pliant/solver/factorization/panel_tasks.h"
+#include "pliant/solver/factorization/supernodes.h"
+#include "pliant/solver/factorization/sweeps.h"
+#include "pliant/solver/state.h"
+
+namespace pliant {
+
+/// Panels of `T`, float or double.
+template <class T>
+class PanelFactor {
+ public:
+  explicit PanelFactor(const Sweeps<T>& sweeps = fastest_sweeps<T>()) : sweeps_(sweeps) {}
+  PanelFactor(const PanelFactor&) = delete;
+  PanelFactor& operator=(const PanelFactor&) = delete;
+
+  /// Finds where everything goes; the values of the factor do not matter.
+  void lay_out(const FactorView& factor);
+  /// Takes over the values of a factor with the same supernodes. They are at most √largest_diagonal.
+  void fill(const FactorView& factor, Real largest_diagonal);
+  /// Gives all memory back.
+  void clear();
+
+  /// Solves L Lᵀ x = b in the order of the vertices (m × 3 each). `scale`: about the largest number in b; x is zero
+  /// where that is zero. Never allocates.
+  SolveTimes solve(const Positions& b, Real scale, Positions& x, ThreadPool& threads);
+
+  bool is_laid_out() const { return !panels_.empty(); }
+  Index panel_count() const { return static_cast<Index>(panels_.size()); }
+  Index task_count() const { return static_cast<Index>(tasks_.size()); }
+  /// Stored entries of L, the zeros that panels carry along included.
+  std::size_t entry_count() const { return values_.size(); }
+  /// What one sweep reads besides x: values, rows and panels.
+  std::size_t sweep_bytes() const {
+    return sizeof(T) * values_.size() + sizeof(Index) * rows_.size() + sizeof(Panel) * panels_.size();
+  }
+
+ private:
+  /// Panels that are swept in one go, and their part of x.
+  struct Part {
+    std::size_t panel_begin = 0, panel_end = 0;
+    std::size_t column_begin = 0, column_end = 0;
+    std::size_t outer_begin = 0, outer_end = 0;  // in outer_rows_
+    std::size_t own_rows = 0;                    // of x: one for each outer row, then one that nobody reads
+  };
+
+  void lay_out_panels(const FactorView& factor);
+  void lay_out_parts(const FactorView& factor);
+  template <class PlaceOf>
+  void lay_out_rows(const FactorView& factor, const Part& part, Index nobodys, PlaceOf&& place_of);
+  void lay_out_task_rows(const FactorView& factor, Part& part, std::vector<Index>& place_of_row);
+  void load(const Part& part, const Positions& b, Real factor);
+  void store(const Part& part, Positions& x, Real factor) const;
+  void forward(const Part& part);
+  void add_outer_rows(const Part& part);
+  void backward(const Part& part);
+
+  const Sweeps<T>& sweeps_;
+  std::vector<Index> permutation_;
+  std::vector<Panel> panels_;
+  std::vector<Index> rows_;  // of x, in blocks of four
+  AlignedVector<T> values_;
+  Real unit_ = 1;  // L is stored as L / unit_, a power of two
+  std::vector<Part> tasks_;
+  std::vector<Part> rest_;         // runs of panels that belong to no task
+  std::vector<Index> outer_rows_;  // of all tasks
+  AlignedVector<T> x_;
+};
+
+}  // namespace pliant

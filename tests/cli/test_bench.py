@@ -1,0 +1,175 @@
+"""pliant bench at sizes that take no time: what it measures, not how fast it is."""
+import csv
+import io
+import json
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+PLIANT = os.environ["PLIANT"]
+PHASES = ["projections", "gather", "forward sweep", "backward sweep", "solve", "iteration",
+          "step"]
+SET_UP = ["mesh", "constraints", "layout", "assembly", "symbolic", "numeric", "repack"]
+COLUMNS = ["workload", "table", "name", "threads", "min_s", "median_s", "times_eigen", "bytes", "bytes_per_second",
+           "share_of_bandwidth"]
+
+
+class Bench(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = pathlib.Path(temporary.name)
+
+    def bench(self, *arguments, expect=0):
+        done = subprocess.run([PLIANT, "bench", *map(str, arguments)], capture_output=True, text=True, timeout=300,
+                              cwd=self.folder)
+        self.assertEqual(done.returncode, expect, done.stderr)
+        if expect == 2:
+            self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+            self.assertTrue(done.stderr.startswith("pliant: error: "), done.stderr)
+            self.assertEqual(done.stdout, "")
+        elif expect == 0:
+            self.assertEqual(done.stderr, "")
+        return done
+
+    def check_seconds(self, seconds):
+        self.assertGreater(seconds["min"], 0)
+        self.assertGreaterEqual(seconds["median"], seconds["min"])
+
+    def test_small_workloads_with_every_baseline(self):
+        for precision in ["double", "mixed"]:
+            with self.subTest(precision):
+                self.check_small_workloads(precision)
+
+    def check_small_workloads(self, precision):
+        done = self.bench("--workloads", "curtain,curtain-b,bar", "--size", 4, "--repeats", 2, "--threads", "1,2,3",
+                          "--precision", precision, "--projections", "without", "--bandwidth", "without", "--json", "b.json", "--csv", "b.csv")
+        result = json.loads((self.folder / "b.json").read_text())
+        self.assertEqual([w["name"] for w in result["workloads"]], ["curtain", "curtain-b", "bar"])
+        self.assertEqual([w["vertices"] for w in result["workloads"]], [16, 16, 5 * 5 * 17])
+        self.assertEqual(result["workloads"][0]["constraints"], {"edge_spring": 33, "position": 2})
+        self.assertEqual(result["workloads"][1]["constraints"], {"edge_spring": 33, "bending": 4, "position": 2})
+        self.assertEqual(result["workloads"][2]["constraints"], {"tetrahedron_strain": 5 * 4 * 4 * 16, "position": 25})
+        self.assertEqual(result["levels"], [])
+        self.assertEqual(result["projections"], [])
+        for workload in result["workloads"]:
+            with self.subTest(workload["name"]):
+                self.check_workload(workload, result["machine"]["cholmod"] is not None, precision)
+                self.assertIn(f"\n{workload['name']}: {workload['vertices']} vertices;", done.stdout)
+        self.assertIn("How to read: ", done.stdout)
+        self.assertIn(result["machine"]["processor"], done.stdout)
+        self.check_csv((self.folder / "b.csv").read_text(), result)
+
+    def check_workload(self, workload, has_cholmod, precision):
+        self.assertEqual([phase["name"] for phase in workload["phases"]], PHASES)
+        for phase in workload["phases"]:
+            self.check_seconds(phase["seconds"])
+            self.assertGreater(phase["times_eigen"], 0)
+            self.assertIsNone(phase["share_of_bandwidth"])  # was not measured
+        phases = {phase["name"]: phase for phase in workload["phases"]}
+        self.assertIsNone(phases["step"]["bytes"])
+        self.assertEqual(phases["solve"]["bytes"], 2 * phases["forward sweep"]["bytes"])
+        self.assertGreater(phases["forward sweep"]["bytes"], workload["factor_entries"] * (8 if precision == "double" else 4))
+        self.assertLess(phases["solve"]["seconds"]["min"], phases["iteration"]["seconds"]["median"])
+        names = ["Eigen", *(["CHOLMOD simplicial", "CHOLMOD supernodal"] if has_cholmod else []), "textbook",
+                 "thesis 3m x 3m"]
+        self.assertEqual([each["name"] for each in workload["baselines"]], names)
+        for each in workload["baselines"]:
+            self.check_seconds(each["seconds"])
+            self.assertEqual(each["what"], "solve" if each["name"][0] in "EC" else "iteration")
+            self.assertLess(each["difference"], 1e-9 if precision == "double" else 1e-5)
+            self.assertGreater(each["set_up_seconds"], 0)
+        self.assertEqual(workload["baselines"][0]["times_eigen"], 1)
+        self.assertEqual([each["threads"] for each in workload["threads"]], [1, 2, 3])
+        for each in workload["threads"]:
+            self.assertTrue(each["same_bits"])
+            self.check_seconds(each["iteration_seconds"])
+        self.assertAlmostEqual(workload["set_up_seconds"]["total"],
+                               sum(workload["set_up_seconds"][part] for part in SET_UP))
+        for part in SET_UP:
+            self.assertGreater(workload["set_up_seconds"][part], 0, part)
+        self.assertEqual(workload["repeats"], 2)
+
+    def check_csv(self, text, result):
+        rows = list(csv.DictReader(io.StringIO(text)))
+        self.assertEqual(list(rows[0]), COLUMNS)
+        for workload in result["workloads"]:
+            for phase in workload["phases"]:
+                [row] = [row for row in rows if (row["workload"], row["table"], row["name"]) ==
+                         (workload["name"], "phase", phase["name"])]
+                self.assertEqual(float(row["min_s"]), phase["seconds"]["min"])
+                self.assertEqual(float(row["times_eigen"]), phase["times_eigen"])
+            for each in workload["baselines"]:
+                [row] = [row for row in rows if (row["workload"], row["table"], row["name"]) ==
+                         (workload["name"], "baseline_" + each["what"], each["name"])]
+                self.assertEqual(float(row["median_s"]), each["seconds"]["median"])
+
+    def test_projections_alone(self):
+        result = json.loads(self.bench("--projections", "only", "--repeats", 1, "--bandwidth", "without",
+                                       "--json", "-").stdout)
+        self.assertEqual(result["workloads"], [])
+        counts = {each["type"]: each["count"] for each in result["projections"]}
+        self.assertEqual(counts["edge_spring"], 29601)
+        self.assertEqual(counts["triangle_strain"], 19602)
+        self.assertEqual(counts["tetrahedron_strain"], 20000)
+        self.assertEqual(counts["bending, curved at rest"], 9604)
+        self.assertEqual(counts["hinge, curved at rest"], counts["hinge, flat at rest"])
+        for each in result["projections"]:
+            self.check_seconds(each["seconds"])
+            self.assertGreater(each["per_second"], 0)
+        rows = csv.DictReader(io.StringIO(self.bench("--projections", "only", "--repeats", 1, "--bandwidth", "without",
+                                                     "--csv", "-").stdout))
+        self.assertEqual([row["name"] for row in rows], list(counts))
+
+    def test_without_baselines(self):
+        done = self.bench("--size", 3, "--repeats", 1, "--threads", 1, "--baselines", "none", "--projections", "without",
+                          "--bandwidth", "without", "--backend", "eigen", "--json", "b.json")
+        result = json.loads((self.folder / "b.json").read_text())
+        self.assertEqual([w["name"] for w in result["workloads"]], ["curtain", "curtain-b"])
+        for workload in result["workloads"]:
+            self.assertEqual(workload["baselines"], [])
+            self.assertEqual(workload["backend"], "eigen")
+            self.assertIsNone(workload["phases"][0]["times_eigen"])
+        self.assertNotIn("threads: iteration", done.stdout)
+
+    def test_bandwidth(self):
+        result = json.loads(self.bench("--size", 3, "--repeats", 1, "--threads", 1, "--baselines", "eigen",
+                                       "--projections", "without", "--json", "-").stdout)
+        names = [level["name"] for level in result["levels"]]
+        self.assertIn(names, [["L2", "L3"], ["L2", "L3", "memory"]])
+        for level in result["levels"]:
+            self.assertGreater(level["bytes_per_second"], 0)
+        for phase in result["workloads"][0]["phases"][:-1]:
+            self.assertGreater(phase["share_of_bandwidth"], 0)
+        self.assertEqual(result["workloads"][0]["level"], "L2")
+
+    def test_slips_end_in_one_line(self):
+        for arguments, wanted in [
+            (["--workloads", "W9"], "there is no 'W9'; known, the nearest first: W"),
+            (["--workloads", "W2", "--size", 9], "W2 has a size of its own; with --size give curtain"),
+            (["--workloads", "bar"], "bar needs its size; give --size"),
+            (["--size", 2], "--size: 2 is out of range; give 3 to "),
+            (["--size", "x"], "--size: 'x'"),
+            (["--repeats", 0], "--repeats: 0 is out of range"),
+            (["--threads", "1,x"], "--threads: 'x' is no number of threads"),
+            (["--threads", "0"], "--threads: '0' is no number of threads"),
+            (["--baselines", "eigen,chol"], "there is no 'chol'; give all, none, or some of: cholmod"),
+            (["--backend", "lapack"], "--backend"),
+            (["--size", 3, "--precision", "single"], "precision"),
+            (["--projections", "some"], "--projections"),
+            (["--json", "-", "--csv", "-"], "give one of them a file"),
+            (["--what"], "--what"),
+        ]:
+            with self.subTest(arguments):
+                self.assertIn(wanted, self.bench("--bandwidth", "without", *arguments, expect=2).stderr)
+
+    def test_a_file_that_cannot_be_written(self):
+        done = self.bench("--size", 3, "--repeats", 1, "--projections", "without", "--bandwidth", "without", "--json",
+                          "nowhere/b.json", expect=4)
+        self.assertIn("nowhere", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
