@@ -46,7 +46,8 @@ void print_set_up(const WorkloadResult& w, Out out) {
                                                   {"assembly", s.solver.assembly},
                                                   {"symbolic", s.solver.symbolic},
                                                   {"numeric", s.solver.numeric},
-                                                  {"repack", s.solver.repack}};
+                                                  {"repack", s.solver.repack},
+                                                  {"estimate", s.solver.estimate}};
   const int threads = w.threads.front().threads;
   for (const auto& [name, seconds] : parts) {
     print({w.workload.name, "set_up", name, threads, seconds, seconds}, out);

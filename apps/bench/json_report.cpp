@@ -46,6 +46,7 @@ Json set_up_json(const SetUpResult& set_up) {
           {"symbolic", set_up.solver.symbolic},
           {"numeric", set_up.solver.numeric},
           {"repack", set_up.solver.repack},
+          {"estimate", set_up.solver.estimate},
           {"total", set_up.total()},
           {"peak_bytes", optional_json(set_up.peak_bytes)}};
 }

@@ -55,7 +55,8 @@ struct SetUpResult {
   std::optional<std::int64_t> peak_bytes{};
 
   double total() const {
-    return mesh + constraints + solver.layout + solver.assembly + solver.symbolic + solver.numeric + solver.repack;
+    return mesh + constraints + solver.layout + solver.assembly + solver.symbolic + solver.numeric + solver.repack +
+           solver.estimate;
   }
 };
 

@@ -95,9 +95,10 @@ void print_set_up(const WorkloadResult& w, Out out) {
   fmt::format_to(
       out,
       "  set-up {:.1f} ms: mesh {:.1f}, constraints {:.1f}, layout {:.1f}, assembly {:.1f}, symbolic {:.1f}, "
-      "numeric {:.1f}, repack {:.1f}; peak {} MB\n",
+      "numeric {:.1f}, repack {:.1f}, estimate {:.1f}; peak {} MB\n",
       1e3 * s.total(), 1e3 * s.mesh, 1e3 * s.constraints, 1e3 * s.solver.layout, 1e3 * s.solver.assembly,
-      1e3 * s.solver.symbolic, 1e3 * s.solver.numeric, 1e3 * s.solver.repack, megabytes(s.peak_bytes, 1));
+      1e3 * s.solver.symbolic, 1e3 * s.solver.numeric, 1e3 * s.solver.repack, 1e3 * s.solver.estimate,
+      megabytes(s.peak_bytes, 1));
   for (const BaselineResult& each : w.baselines) {
     fmt::format_to(out, "    {}: {:.1f} ms, peak {} MB; differs by {:.0e}\n", each.name, 1e3 * each.set_up_seconds,
                    megabytes(each.peak_bytes, 1), each.difference);

@@ -11,7 +11,7 @@ import unittest
 PLIANT = os.environ["PLIANT"]
 PHASES = ["projections", "gather", "forward sweep", "backward sweep", "solve", "iteration",
           "step"]
-SET_UP = ["mesh", "constraints", "layout", "assembly", "symbolic", "numeric", "repack"]
+SET_UP = ["mesh", "constraints", "layout", "assembly", "symbolic", "numeric", "repack", "estimate"]
 COLUMNS = ["workload", "table", "name", "threads", "min_s", "median_s", "times_eigen", "bytes", "bytes_per_second",
            "share_of_bandwidth"]
 
