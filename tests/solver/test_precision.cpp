@@ -1,6 +1,4 @@
 // What single precision of the factor changes: the speed of convergence, and nothing that is converged to.
-#include <tuple>
-
 #include <doctest/doctest.h>
 
 #include "../core/random.h"
@@ -81,11 +79,16 @@ TEST_CASE("a body at rest does not drift in mixed precision") {
 }
 
 TEST_CASE("bodies fall freely in mixed precision, however stiff and light they are") {
-  for (const auto& [time_step, stiffness, mass] : {std::tuple{1.0 / 60, 1e3, 1.0}, std::tuple{8.0, 1e7, 1e-3}}) {
-    CAPTURE(stiffness);
+  struct Body {
+    Real time_step, stiffness, mass;
+  };
+  for (const Body& each : {Body{1.0 / 60, 1e3, 1.0}, Body{8.0, 1e7, 1e-3}}) {
+    const Real time_step = each.time_step;
+    CAPTURE(each.stiffness);
     Simulation simulation({.time_step = time_step, .iterations = 10, .precision = Precision::mixed, .threads = 1});
-    const BodyId body = simulation.add_body(grid({.columns = 8, .rows = 8, .size = {1, 1}}), Mass::per_vertex(mass));
-    simulation.add(body, EdgeSpring{.stiffness = stiffness});
+    const BodyId body =
+        simulation.add_body(grid({.columns = 8, .rows = 8, .size = {1, 1}}), Mass::per_vertex(each.mass));
+    simulation.add(body, EdgeSpring{.stiffness = each.stiffness});
     simulation.add_force(std::make_unique<Gravity>());
     const Positions start = simulation.state().positions;
     const int steps = 10;
