@@ -8,7 +8,7 @@ namespace pliant {
 
 template <class T>
 struct CacheLineAllocator {
-  using value_type = T;
+  using value_type = T;  // NOLINT(readability-identifier-naming): the name that vectors ask for
   static constexpr std::align_val_t alignment{64};
 
   CacheLineAllocator() = default;
