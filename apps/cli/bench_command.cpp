@@ -111,9 +111,10 @@ void run(const BenchArguments& arguments) {
       pliant::write_file_atomically(file, text);
     }
   };
+  // First, so that what took minutes is not lost with a file that cannot be written.
+  if (arguments.json != "-" && arguments.csv != "-") fmt::print("{}", text_report(result));
   give(arguments.json, json_report(result));
   give(arguments.csv, csv_report(result));
-  if (arguments.json != "-" && arguments.csv != "-") fmt::print("{}", text_report(result));
 }
 
 }  // namespace

@@ -117,7 +117,7 @@ TEST_CASE("tasks are subtrees that follow each other, and the rest is above them
       for (Index& child : children) child = self(self, depth - 1);
     }
     const auto place = static_cast<Index>(panels.size());
-    panels.push_back({place, 1, -1, 1000});
+    panels.push_back({-1, 1000});
     for (const Index child : children) {
       if (child >= 0) panels[static_cast<std::size_t>(child)].parent = place;
     }

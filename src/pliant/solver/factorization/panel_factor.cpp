@@ -107,7 +107,7 @@ void PanelFactor<T>::lay_out_parts(const FactorView& factor) {
     const Panel& panel = panels_[p];
     std::fill_n(panel_of_column.begin() + panel.first_column, panel.columns, static_cast<Index>(p));
     const std::size_t end = p + 1 < panels_.size() ? panels_[p + 1].first_value : values_.size();
-    shapes[p] = {panel.first_column, panel.columns, -1, static_cast<std::int64_t>(end - panel.first_value)};
+    shapes[p] = {-1, static_cast<std::int64_t>(end - panel.first_value)};
   }
   for (std::size_t p = 0; p < panels_.size(); ++p) {
     const auto& below = factor.supernodes[p].rows_below;

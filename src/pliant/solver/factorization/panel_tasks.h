@@ -9,8 +9,6 @@ namespace pliant {
 
 /// What the division needs of a panel.
 struct PanelShape {
-  Index first_column = 0;
-  Index columns = 0;
   Index parent = -1;  ///< the panel that has its first row below; -1: none
   std::int64_t weight = 0;
 };
