@@ -9,6 +9,9 @@ VALUES = ["", " ", "0", "-0", "-1", "+1", "1", "0.5", "1e0", "1e3", "1e-320", "1
           "1;2", "$(id)", "*"]
 SCENE = {"scene.json": scene_of({"shape": "chain", "links": 2}, {"type": "edge_spring"})}
 
+# Which has work enough without any words, in workloads that take what they take.
+LONG = {"interrupt_after": 2, "input_size": 1 << 30}
+
 LINES = [
     [], [""], [" "], ["-"], ["--"], ["-x"], ["--hlep"], ["--version=1"], ["run"], ["run", ""], ["run", "--"], ["run", "--out"],
     ["run", "scene.json", "scene.json"], ["run", "scene.json", "--out", "a", "--out", "b"], ["run", "scene.json", "--steps"],
@@ -49,12 +52,12 @@ class CommandLine(HostileTest):
     def test_every_sub_command_without_and_with_too_much(self):
         self.assertIn("run", sub_commands())
         self.attack((Case(f"{command} {words}", [command, *words], SCENE, expect=(DONE, *LEGAL, OUTPUT, INTERRUPTED),
-                          interrupt_after=5 if command == "bench" else None)  # which has work enough without any words
+                          **(LONG if command == "bench" else {}))
                      for command in sub_commands() for words in ([], [""], ["-"], ["--"], ["nothing"], ["/dev/null"], ["."],
                                                                  ["scene.json"] * 9, ["a" * 5000], [b"\xff"], ["\x1b[31m"],
                                                                  ["--nothing"], ["--help", "x"])),
                     (Case(f"{command} {name} {value!r:.40}", [command, "scene.json", name, value], SCENE,
-                          expect=(*LEGAL, OUTPUT, INTERRUPTED), interrupt_after=0.5)
+                          expect=(*LEGAL, OUTPUT, INTERRUPTED), **(LONG if command == "bench" else {}))
                      for command in sub_commands() if command != "run" for name, kind in options_of(command)
                      for value in VALUES if kind))
 

@@ -53,7 +53,8 @@ void add_fan(CurvatureBatches<SignedFanCurvature>& batches, std::span<const Inde
 ConstraintSet from_arrays(const BodyView& body, const Bending& options) {
   constexpr std::string_view type = Bending::info.name;
   const Index count = options.stencils.size();
-  choose_stencils(type, body, options.on, options.stencils, {}, 0);
+  choose_stencils(
+      type, body, options.on, options.stencils, [] { return Stencils(); }, 0);
   if (options.cotangents.size() != count || options.areas.empty()) {
     fail_input("bending: stencils need one list of cotangents each and areas; give both, or leave out the stencils");
   }
@@ -94,7 +95,8 @@ ConstraintSet build(const BodyView& body, const Bending& options) {
     stencil.insert(stencil.end(), rings.ring(r).begin(), rings.ring(r).end());
     candidates.add(stencil);
   }
-  const Stencils chosen = choose_stencils(type, body, options.on, {}, candidates, 0);
+  const Stencils chosen = choose_stencils(
+      type, body, options.on, {}, [&] { return candidates; }, 0);
   const StiffnessSplit stiffness(type, body, options.stiffness, chosen);
   CurvatureBatches<SignedFanCurvature> batches(body, options.orientation, stiffness.common());
   for (Index i = 0; i < chosen.size(); ++i) {

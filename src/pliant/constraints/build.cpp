@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -36,44 +37,53 @@ void check_stencil(std::string_view type, const BodyView& body, std::span<const 
   }
 }
 
+/// Whether there are stencils of the user's, which are checked then.
+bool are_given(std::string_view type, const BodyView& body, const Selection& on, const Stencils& given, int vertices) {
+  if (given.empty()) return false;
+  if (!on.everything) fail_input(place(type, body) + ": has both `on` and `stencils`; keep one");
+  for (Index i = 0; i < given.size(); ++i) check_stencil(type, body, given[i], i, vertices);
+  return true;
+}
+
+void check_selection(std::string_view type, const BodyView& body, const Selection& on) {
+  for (const Index vertex : on.vertices) {
+    if (vertex >= 0 && vertex < body.rest.vertex_count()) continue;
+    fail_input(place(type, body) + ": selected vertex " + std::to_string(vertex) + " is out of range; " +
+               vertex_range(body));
+  }
+}
+
 }  // namespace
 
-Stencils every_vertex(const BodyView& body) {
-  Stencils all;
-  for (Index i = 0; i < body.rest.vertex_count(); ++i) all.add({i});
-  return all;
-}
-
-std::vector<char> selected_vertices(std::string_view type, const BodyView& body, const Selection& on) {
-  const auto count = static_cast<std::size_t>(body.rest.vertex_count());
-  if (on.everything) return std::vector<char>(count, 1);
-  std::vector<char> flags(count, 0);
-  for (const Index vertex : on.vertices) {
-    if (vertex < 0 || vertex >= body.rest.vertex_count()) {
-      fail_input(place(type, body) + ": selected vertex " + std::to_string(vertex) + " is out of range; " +
-                 vertex_range(body));
-    }
-    flags[static_cast<std::size_t>(vertex)] = 1;
-  }
-  return flags;
-}
-
 Stencils choose_stencils(std::string_view type, const BodyView& body, const Selection& on, const Stencils& given,
-                         const Stencils& candidates, int vertices) {
-  if (!given.empty()) {
-    if (!on.everything) fail_input(place(type, body) + ": has both `on` and `stencils`; keep one");
-    for (Index i = 0; i < given.size(); ++i) check_stencil(type, body, given[i], i, vertices);
-    return given;
-  }
-  const std::vector<char> selected = selected_vertices(type, body, on);
-  if (on.everything) return candidates;
+                         const std::function<Stencils()>& candidates, int vertices) {
+  if (are_given(type, body, on, given, vertices)) return given;
+  if (on.everything) return candidates();
+  check_selection(type, body, on);
+  std::vector<char> selected(static_cast<std::size_t>(body.rest.vertex_count()), 0);
+  for (const Index vertex : on.vertices) selected[static_cast<std::size_t>(vertex)] = 1;
+  const Stencils all = candidates();
   Stencils chosen;
-  for (Index i = 0; i < candidates.size(); ++i) {
-    const std::span<const Index> stencil = candidates[i];
-    const bool inside = std::all_of(stencil.begin(), stencil.end(),
-                                    [&](Index v) { return selected[static_cast<std::size_t>(v)] != 0; });
-    if (inside) chosen.add(stencil);
+  for (Index i = 0; i < all.size(); ++i) {
+    const bool inside =
+        std::ranges::all_of(all[i], [&](Index v) { return selected[static_cast<std::size_t>(v)] != 0; });
+    if (inside) chosen.add(all[i]);
   }
+  return chosen;
+}
+
+Stencils choose_vertices(std::string_view type, const BodyView& body, const Selection& on, const Stencils& given) {
+  if (are_given(type, body, on, given, 1)) return given;
+  check_selection(type, body, on);
+  std::vector<Index> vertices = on.vertices;
+  if (on.everything) {
+    vertices.resize(static_cast<std::size_t>(body.rest.vertex_count()));
+    std::iota(vertices.begin(), vertices.end(), Index{0});
+  }
+  std::ranges::sort(vertices);
+  vertices.erase(std::ranges::unique(vertices).begin(), vertices.end());
+  Stencils chosen;
+  for (const Index vertex : vertices) chosen.add({vertex});
   return chosen;
 }
 

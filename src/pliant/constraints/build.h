@@ -1,13 +1,19 @@
 #pragma once
 // Steps that the builders of several constraint types share.
+#include <functional>
+
 #include "pliant/constraints/constraint_set.h"
 
 namespace pliant {
 
-/// The stencils given, checked (n vertices each, in range, none twice), or those of `candidates` that lie in `on`.
-/// Throws Error(input) that names the type, the body, the constraint and the remedy.
+/// The stencils given, checked (n vertices each, in range, none twice), or those of `candidates`, which is called for
+/// nothing else, that lie in `on`. Throws Error(input) that names the type, the body, the constraint and the remedy.
 Stencils choose_stencils(std::string_view type, const BodyView& body, const Selection& on, const Stencils& given,
-                         const Stencils& candidates, int vertices);
+                         const std::function<Stencils()>& candidates, int vertices);
+
+/// The stencils given, checked as above, or the vertices in `on`, each a stencil of its own: in ascending order, in time
+/// proportional to their number and not to the mesh, so that a mesh may have as many groups as vertices.
+Stencils choose_vertices(std::string_view type, const BodyView& body, const Selection& on, const Stencils& given);
 
 /// Throws unless `values` is a single value or has one for each of `count` constraints.
 void check_length(std::string_view type, std::string_view option, std::size_t length, bool each, Index count);
@@ -17,12 +23,6 @@ template <class List>
 void check_length(std::string_view type, std::string_view option, const List& list, Index count) {
   check_length(type, option, list.list().size(), list.each(), count);
 }
-
-/// Every vertex as a stencil of its own.
-Stencils every_vertex(const BodyView& body);
-
-/// Vertices of the body that are selected: one flag each. Throws on an index out of range.
-std::vector<char> selected_vertices(std::string_view type, const BodyView& body, const Selection& on);
 
 /// Throws unless the area or volume of element i at rest is positive and finite; `remedy` begins with its name.
 void check_rest_measure(std::string_view type, const BodyView& body, Index i, Real measure, std::string_view remedy);

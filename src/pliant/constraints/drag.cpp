@@ -33,7 +33,8 @@ ConstraintSet build(const BodyView& body, const Drag& options) {
   constexpr std::string_view type = Drag::info.name;
   const Index count = options.stencils.size();
   if (count == 0) fail_input("drag: stencils are missing; name the vertices of the point to be dragged");
-  choose_stencils(type, body, {}, options.stencils, {}, 0);
+  choose_stencils(
+      type, body, {}, options.stencils, [] { return Stencils(); }, 0);
   check_length(type, "weights", static_cast<std::size_t>(options.weights.size()), !options.weights.empty(), count);
   check_length(type, "targets", options.targets, count);
 

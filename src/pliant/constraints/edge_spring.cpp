@@ -7,7 +7,8 @@ namespace pliant {
 
 ConstraintSet build(const BodyView& body, const EdgeSpring& options) {
   constexpr std::string_view type = EdgeSpring::info.name;
-  const Stencils chosen = choose_stencils(type, body, options.on, options.stencils, mesh_edges(body), 2);
+  const Stencils chosen = choose_stencils(
+      type, body, options.on, options.stencils, [&] { return mesh_edges(body); }, 2);
   const std::vector<Real> rest_length = rest_lengths(type, body, chosen, options.rest_length);
 
   const StiffnessSplit stiffness(type, body, options.stiffness, chosen);

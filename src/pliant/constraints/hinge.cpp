@@ -30,7 +30,8 @@ RestHinge rest_hinge(const Vec3& x0, const Vec3& x1, const Vec3& x2, const Vec3&
 ConstraintSet build(const BodyView& body, const HingeBending& options) {
   constexpr std::string_view type = HingeBending::info.name;
   const Hinges all = hinges(body.rest);
-  const Stencils chosen = choose_stencils(type, body, options.on, options.stencils, to_stencils(all.stencils), 4);
+  const Stencils chosen = choose_stencils(
+      type, body, options.on, options.stencils, [&] { return to_stencils(all.stencils); }, 4);
   const StiffnessSplit stiffness(type, body, options.stiffness, chosen);
   CurvatureBatches<SignedHingeCurvature> batches(body, options.orientation, stiffness.common());
   for (Index i = 0; i < chosen.size(); ++i) {

@@ -7,7 +7,7 @@ namespace pliant {
 
 ConstraintSet build(const BodyView& body, const Line& options) {
   constexpr std::string_view type = Line::info.name;
-  const Stencils chosen = choose_stencils(type, body, options.on, options.stencils, every_vertex(body), 1);
+  const Stencils chosen = choose_vertices(type, body, options.on, options.stencils);
   check_length(type, "origin", options.origin, chosen.size());
   check_length(type, "direction", options.direction, chosen.size());
   if (options.direction.empty()) fail_input("line: direction is missing; give a vector such as [1, 0, 0]");

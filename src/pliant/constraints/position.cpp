@@ -15,7 +15,7 @@ void HardPins::add(Index vertex, const Vec3& target) {
 
 ConstraintSet build(const BodyView& body, const Position& options) {
   constexpr std::string_view type = Position::info.name;
-  const Stencils chosen = choose_stencils(type, body, options.on, options.stencils, every_vertex(body), 1);
+  const Stencils chosen = choose_vertices(type, body, options.on, options.stencils);
   check_length(type, "targets", options.targets, chosen.size());
   const auto target = [&](Index i) {
     return options.targets.empty() ? row(body.start, chosen[i][0]) : options.targets[i];

@@ -16,8 +16,8 @@ void TetrahedronStrainProjection::project(const Real* field, const Real* z, Real
 
 ConstraintSet build(const BodyView& body, const TetrahedronStrain& options) {
   constexpr std::string_view type = TetrahedronStrain::info.name;
-  const Stencils chosen =
-      choose_stencils(type, body, options.on, options.stencils, to_stencils(body.rest.tetrahedra), 4);
+  const Stencils chosen = choose_stencils(
+      type, body, options.on, options.stencils, [&] { return to_stencils(body.rest.tetrahedra); }, 4);
   const StretchLimits limits(type, body, options.min_stretch, options.max_stretch, chosen);
 
   const StiffnessSplit stiffness(type, body, options.stiffness, chosen);

@@ -17,8 +17,8 @@ void TriangleStrainProjection::project(const Real* field, const Real* z, Real* p
 
 ConstraintSet build(const BodyView& body, const TriangleStrain& options) {
   constexpr std::string_view type = TriangleStrain::info.name;
-  const Stencils chosen =
-      choose_stencils(type, body, options.on, options.stencils, to_stencils(body.rest.triangles), 3);
+  const Stencils chosen = choose_stencils(
+      type, body, options.on, options.stencils, [&] { return to_stencils(body.rest.triangles); }, 3);
   const StretchLimits limits(type, body, options.min_stretch, options.max_stretch, chosen);
 
   const StiffnessSplit stiffness(type, body, options.stiffness, chosen);
