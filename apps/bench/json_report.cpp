@@ -82,6 +82,7 @@ Json threads_json(const WorkloadResult& workload) {
   Json list = Json::array();
   for (const ThreadsResult& each : workload.threads) {
     list.push_back({{"threads", each.threads},
+                    {"used", each.used},
                     {"iteration_seconds", seconds_json(each.iteration)},
                     {"times_as_fast", ratio(workload.threads.front().iteration, each.iteration)},
                     {"same_bits", each.has_same_bits}});

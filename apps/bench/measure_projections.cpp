@@ -33,8 +33,7 @@ struct Kernel {
     const GroupShape shape = group.shape();
     for (Index begin = 0; begin < shape.count; begin += constraints_at_once) {
       const Index end = std::min(shape.count, begin + constraints_at_once);
-      const std::size_t slot = 3 * static_cast<std::size_t>(begin) * static_cast<std::size_t>(shape.rows);
-      group.project(positions, std::span<Real>(slots).subspan(slot), begin, end);
+      project_to_slots(group, positions, slots, begin, end);  // the same slots for all, as the local step has them
     }
   }
 };
@@ -69,7 +68,8 @@ Kernel make_kernel(std::string type, Mesh mesh, const Constraint& constraint) {
   std::size_t most = 0;
   for (const auto& part : kernel.simulation.groups().begin()->second.set.parts) {
     const GroupShape shape = part->shape();
-    most = std::max(most, 3 * static_cast<std::size_t>(shape.count) * static_cast<std::size_t>(shape.rows));
+    most = std::max(most, 3 * static_cast<std::size_t>(constraints_at_once) *
+                              static_cast<std::size_t>(std::max(shape.rows, shape.vertices)));
   }
   kernel.slots.resize(most);
   return kernel;

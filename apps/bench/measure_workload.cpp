@@ -127,7 +127,8 @@ WorkloadResult measure_workload(const Workload& workload, const BenchOptions& op
     result.baselines.back().seconds = baseline->samples.spread();
   }
   for (const Runner& runner : runners) {
-    result.threads.push_back({runner.simulation.thread_count(), runner.samples.iteration.spread(),
+    result.threads.push_back({runner.simulation.settings().threads, runner.simulation.thread_count(),
+                              runner.samples.iteration.spread(),
                               has_same_bits(runner.after_step, runners.front().after_step)});
   }
   return result;

@@ -42,7 +42,8 @@ struct BaselineResult {
 };
 
 struct ThreadsResult {
-  int threads = 1;
+  int threads = 1;  ///< asked for
+  int used = 1;     ///< a small system takes fewer
   Seconds iteration;
   bool has_same_bits = true;  ///< as the first number of threads
 };

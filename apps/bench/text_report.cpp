@@ -83,10 +83,10 @@ void print_phases(const WorkloadResult& w, Out out) {
 void print_threads(const WorkloadResult& w, Out out) {
   for (std::size_t i = 1; i < w.threads.size(); ++i) {
     const ThreadsResult& each = w.threads[i];
-    fmt::format_to(out, "  {} threads: iteration {:.4f} ms (min {:.4f}), {:.2f} times as fast as {}; {}\n",
-                   each.threads, 1e3 * each.iteration.median, 1e3 * each.iteration.min,
-                   ratio(w.threads[0].iteration, each.iteration), w.threads[0].threads,
-                   each.has_same_bits ? "the same bits" : "OTHER BITS: report this");
+    fmt::format_to(out, "  {} threads{}: iteration {:.4f} ms (min {:.4f}), {:.2f} times as fast as {}; {}\n",
+                   each.threads, each.used < each.threads ? fmt::format(", of which {} used", each.used) : "",
+                   1e3 * each.iteration.median, 1e3 * each.iteration.min, ratio(w.threads[0].iteration, each.iteration),
+                   w.threads[0].threads, each.has_same_bits ? "the same bits" : "OTHER BITS: report this");
   }
 }
 

@@ -107,7 +107,8 @@ class Numbers(HostileTest):
                     for value in (LOW if key == "iterations" else WHOLE if key == "threads" else REALS + WHOLE))
 
     def test_an_interrupt_does_not_wait_for_a_thousand_million_iterations(self):
-        scene = scene_of(GRID, {"type": "edge_spring"}, settings={"threads": 1, "iterations": 10**9})
+        scene = scene_of(GRID, {"type": "edge_spring"}, {"type": "position", "on": [0]}, forces=[{"type": "gravity"}],
+                         settings={"threads": 1, "iterations": 10**9})
         self.attack([case(scene, "iterations", expect=(INPUT, INTERRUPTED), interrupt_after=0.5)])
 
     def test_masses(self):

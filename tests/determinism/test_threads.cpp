@@ -29,7 +29,7 @@ bool same_bits(const std::vector<Real>& a, const std::vector<Real>& b) {
 std::vector<Real> run(Index threads, Backend backend) {
   Simulation simulation = everything({.iterations = 4, .backend = backend, .threads = threads}, 40);
   advance(simulation, 4);
-  CHECK(simulation.thread_count() == (threads == 0 ? simulation.thread_count() : threads));
+  if (threads > 0) CHECK(simulation.thread_count() == threads);
   return bits_of(simulation);
 }
 
@@ -54,8 +54,8 @@ TEST_CASE("the same bits for any number of threads, and from run to run") {
 }
 
 TEST_CASE("a change of the number of threads between steps changes nothing") {
-  Simulation changed = everything({.iterations = 4, .threads = 1}, 20);
-  Simulation same = everything({.iterations = 4, .threads = 1}, 20);
+  Simulation changed = everything({.iterations = 4, .threads = 1}, 40);
+  Simulation same = everything({.iterations = 4, .threads = 1}, 40);
   for (const Index threads : {2, 3, 1, 8}) {
     SolverSettings settings = changed.settings();
     settings.threads = threads;

@@ -134,7 +134,7 @@ TEST_CASE("the system matrix is M/h² plus the sum of w SᵀAᵀAS") {
   const Index vertex_count = 9;
   const Real time_step = 0.02;
   Batch<TriangleStrainProjection> triangles(3);
-  Batch<EdgeSpringProjection> edges(5);
+  Batch<EdgeStrainProjection> edges(5);
   Batch<DragProjection> drags(7, 4);
   const std::array<Real, 3> fields = {1, 1, 1};
   std::vector<Real> masses;
@@ -161,7 +161,7 @@ TEST_CASE("the system matrix is M/h² plus the sum of w SᵀAᵀAS") {
   };
   for (int i = 0; i < 12; ++i) {
     add(triangles, 2, 3, 2);
-    add(edges, 1, 2, 1);
+    add(edges, 1, 2, 2);
     add(drags, 1, 4, 3);
   }
   for (Index i = 0; i < vertex_count; ++i) {

@@ -12,6 +12,8 @@
 //
 //     static constexpr bool has_targets = true;       // the three fields are a point that may be moved
 //     static constexpr bool has_anchors = true;       // the first three are a point that begins where the vertices are
+//     static constexpr auto kernel = &LocalKernels::edge_spring;   // does many at once, in place of project
+//     static constexpr bool is_difference = true;     // A is (−1, 1), which its kernel need not read
 //     static void begin_step(const Positions& q, std::span<const Index> stencil, Real* fields);
 //
 // z of a translation-invariant type is summed over differences to the first vertex of the stencil: far from the origin
@@ -21,6 +23,7 @@
 #include <string>
 
 #include "pliant/constraints/constraint_group.h"
+#include "pliant/constraints/kernels/local_kernels.h"
 #include "pliant/core/error.h"
 
 namespace pliant {
@@ -29,6 +32,9 @@ inline constexpr int dynamic_vertices = -1;
 
 /// The system matrix has an entry for every two vertices of a constraint.
 inline constexpr int max_stencil = 4096;
+
+/// Throws Error(input) on coefficients that do not sum to zero, of a type that says that they do.
+void check_sum_of_row(std::string_view type, std::span<const Real> coefficients);
 
 template <class Type>
 class Batch final : public ConstraintGroup {
@@ -89,46 +95,75 @@ class Batch final : public ConstraintGroup {
   }
 
   Real project(const Positions& positions, std::span<Real> out, Index begin, Index end) const override {
-    constexpr std::size_t size = Type::rows * 3;
+    if constexpr (has_kernel && Type::rows == 1) return project_together(positions, out, begin, end);
     Real energy = 0;
-    Real* difference = out.data();
-    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i, difference += size) {
-      std::array<Real, size> z;
-      std::array<Real, size> p;
-      reduce(positions.data(), i, z.data());
-      Type::project(field(i), z.data(), p.data());
-      const Real weight = stiffness() * measure_[i];
-      Real squared = 0;
-      for (std::size_t a = 0; a < size; ++a) {
-        const Real d = p[a] - z[a];
-        squared += d * d;
-        difference[a] = weight * d;
-      }
-      energy += weight / 2 * squared;
+    for (Index i = begin; i < end; ++i, out = out.subspan(size)) {
+      energy += project_one(positions.data(), static_cast<std::size_t>(i), out.data());
     }
     return energy;
   }
 
+  Real project_to_forces(const Positions& positions, std::span<Real> out, Index begin, Index end) const override {
+    if constexpr (has_kernel && Type::rows > 1) return project_together(positions, out, begin, end);
+    return ConstraintGroup::project_to_forces(positions, out, begin, end);
+  }
+
  private:
+  static constexpr std::size_t size = Type::rows * 3;
+  static constexpr bool has_kernel = requires { Type::kernel; };
+
+  /// Writes w (p − z) of constraint i; returns its energy.
+  Real project_one(const Real* positions, std::size_t i, Real* to) const {
+    std::array<Real, size> z;
+    std::array<Real, size> p;
+    reduce(positions, i, z.data());
+    Type::project(field(i), z.data(), p.data());
+    const Real weight = stiffness() * measure_[i];
+    Real squared = 0;
+    for (std::size_t a = 0; a < size; ++a) {
+      const Real d = p[a] - z[a];
+      squared += d * d;
+      to[a] = weight * d;
+    }
+    return weight / 2 * squared;
+  }
+
+  /// What the kernel of the type writes, and for what that leaves the same, one by one.
+  Real project_together(const Positions& positions, std::span<Real> out, Index begin, Index end) const {
+    static_assert(Type::translation_invariant);
+    const auto n = static_cast<std::size_t>(vertices());
+    const std::size_t numbers = 3 * (Type::rows == 1 ? 1 : n);
+    static const LocalKernels& kernels = *local_kernels().back();
+    const auto last = static_cast<std::size_t>(end);
+    Real energy = 0;
+    for (auto first = static_cast<std::size_t>(begin); first < last; first += local_block) {
+      const std::size_t count = std::min(local_block, last - first);
+      const LocalDone done = (kernels.*Type::kernel)({positions.data(), stencil_.data() + n * first,
+                                                      reduction_.data() + n * Type::rows * first, field(first),
+                                                      measure_.data() + first, stiffness(), n, count, out.data()});
+      energy += done.energy;
+      for (std::size_t i = done.next(0); i < count; i = done.next(i + 1)) {
+        const auto place = static_cast<Index>(first + i);
+        energy += Type::rows == 1 ? project_one(positions.data(), first + i, out.data() + i * numbers)
+                                  : ConstraintGroup::project_to_forces(positions, out.subspan(i * numbers, numbers),
+                                                                       place, place + 1);
+      }
+      out = out.subspan(count * numbers);
+    }
+    return energy;
+  }
+
   void check(std::size_t stencil_size, std::span<const Real> reduction, std::size_t field_count) const {
     const auto n = static_cast<std::size_t>(vertices());
     if (stencil_size != n || reduction.size() != Type::rows * n || field_count != Type::fields) {
       fail_input(std::string(Type::name) + ": a constraint takes " + std::to_string(n) + " vertices, " +
                  std::to_string(Type::rows * n) + " coefficients and " + std::to_string(Type::fields) + " fields");
     }
-    if constexpr (Type::translation_invariant) {
-      for (std::size_t row = 0; row < Type::rows; ++row) {
-        Real sum = 0;
-        Real magnitude = 0;
-        for (const Real c : reduction.subspan(row * n, n)) {
-          sum += c;
-          magnitude += std::abs(c);
-        }
-        if (std::abs(sum) <= 1e-9 * magnitude || !std::isfinite(magnitude)) continue;
-        fail_input(std::string(Type::name) + ": the coefficients of a row sum to " + std::to_string(sum) +
-                   ", not to zero; mend them, or declare the type not translation_invariant");
-      }
+    if constexpr (requires { Type::is_difference; }) {
+      if (reduction[0] != -1 || reduction[1] != 1) fail_input(std::string(Type::name) + ": its coefficients are -1, 1");
     }
+    if (!Type::translation_invariant) return;
+    for (std::size_t row = 0; row < Type::rows; ++row) check_sum_of_row(Type::name, reduction.subspan(row * n, n));
   }
 
   int vertices() const { return Type::vertices == dynamic_vertices ? vertices_ : Type::vertices; }

@@ -81,7 +81,7 @@ Stencils choose_vertices(std::string_view type, const BodyView& body, const Sele
     std::iota(vertices.begin(), vertices.end(), Index{0});
   }
   std::ranges::sort(vertices);
-  vertices.erase(std::ranges::unique(vertices).begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   Stencils chosen;
   for (const Index vertex : vertices) chosen.add({vertex});
   return chosen;

@@ -11,8 +11,8 @@ namespace pliant {
 Stencils choose_stencils(std::string_view type, const BodyView& body, const Selection& on, const Stencils& given,
                          const std::function<Stencils()>& candidates, int vertices);
 
-/// The stencils given, checked as above, or the vertices in `on`, each a stencil of its own: in ascending order, in time
-/// proportional to their number and not to the mesh, so that a mesh may have as many groups as vertices.
+/// The stencils given, checked as above, or the vertices in `on`, each a stencil of its own: in ascending order, in
+/// time proportional to their number and not to the mesh, so that a mesh may have as many groups as vertices.
 Stencils choose_vertices(std::string_view type, const BodyView& body, const Selection& on, const Stencils& given);
 
 /// Throws unless `values` is a single value or has one for each of `count` constraints.

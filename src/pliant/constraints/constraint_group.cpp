@@ -1,6 +1,7 @@
 #include "pliant/constraints/constraint_group.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -10,6 +11,28 @@
 namespace pliant {
 
 void ConstraintGroup::begin_step(const StateView&, Real) {}
+
+Real ConstraintGroup::project_to_forces(const Positions& positions, std::span<Real> out, Index begin, Index end) const {
+  const auto n = static_cast<std::size_t>(shape().vertices);
+  const auto rows = static_cast<std::size_t>(shape().rows);
+  // Room for the rows is there where they are few; else a constraint at a time takes its own.
+  std::array<Real, 3 * 64> few;
+  std::vector<Real> many(rows > few.size() / 3 ? 3 * rows : 0);
+  const std::span<Real> slots = many.empty() ? std::span<Real>(few).first(3 * rows) : std::span<Real>(many);
+  Real energy = 0;
+  for (Index i = begin; i < end; ++i) {
+    energy += project(positions, slots, i, i + 1);
+    const std::span<const Real> A = reduction().subspan(static_cast<std::size_t>(i) * rows * n, rows * n);
+    for (std::size_t j = 0; j < n; ++j) {
+      Real* const force = out.data() + 3 * (static_cast<std::size_t>(i - begin) * n + j);
+      std::fill_n(force, 3, Real(0));
+      for (std::size_t row = 0; row < rows; ++row) {
+        for (std::size_t axis = 0; axis < 3; ++axis) force[axis] += A[row * n + j] * slots[3 * row + axis];
+      }
+    }
+  }
+  return energy;
+}
 
 std::span<const Index> ConstraintGroup::held_vertices() const {
   return {};
@@ -39,6 +62,10 @@ void check_lengths(const ConstraintGroup& group, const std::string& where) {
   const GroupShape shape = group.shape();
   if (shape.count < 0 || shape.vertices < 1 || shape.rows < 1) {
     fail_input(where + ": its shape has no vertices, no rows or a negative count; mend shape()");
+  }
+  if (shape.rows > max_reduction_rows) {
+    fail_input(fmt::format("{}: its reductions have {} rows, of {} at most; split the constraint", where, shape.rows,
+                           max_reduction_rows));
   }
   const auto count = static_cast<std::size_t>(shape.count);
   const std::size_t stencil = count * static_cast<std::size_t>(shape.vertices);

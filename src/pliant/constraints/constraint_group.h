@@ -12,10 +12,13 @@
 
 namespace pliant {
 
+/// The local step holds the rows of a constraint in the cache.
+inline constexpr int max_reduction_rows = 4096;
+
 struct GroupShape {
   Index count = 0;   ///< constraints
   int vertices = 1;  ///< n, the size of a stencil
-  int rows = 1;      ///< k, the rows of a reduction
+  int rows = 1;      ///< k, the rows of a reduction, at most max_reduction_rows
 };
 
 class ConstraintGroup {
@@ -37,6 +40,11 @@ class ConstraintGroup {
   /// The local step for constraints [begin, end). Writes w (p − z), k × 3 numbers a constraint, to `out`, which begins
   /// with the first row of constraint `begin`, and returns Σ w/2 ‖z − p‖² [J]. May be called from several threads.
   virtual Real project(const Positions& positions, std::span<Real> out, Index begin, Index end) const = 0;
+
+  /// The same as forces Σ_rows Aᵀ w (p − z) [N] on the vertices of each constraint, n × 3 numbers a constraint: what
+  /// the local step asks of groups with more than one row, since a vertex then has one number to collect and no
+  /// coefficient.
+  virtual Real project_to_forces(const Positions& positions, std::span<Real> out, Index begin, Index end) const;
 
   /// Vertices that the group holds exactly (hard pins). They leave the system of equations; vertex i of them stands at
   /// the point i of targets().
@@ -67,6 +75,19 @@ class ConstraintGroup {
   Real stiffness_ = 1;
   std::uint64_t revision_ = 0;
 };
+
+/// Of a group with several rows a vertex collects one force of each of its constraints; of others the row, times its
+/// coefficient.
+inline bool takes_forces(const ConstraintGroup& group) {
+  return group.shape().rows > 1;
+}
+
+/// What the local step asks of a group: its forces or its rows, three numbers each.
+inline Real project_to_slots(const ConstraintGroup& group, const Positions& positions, std::span<Real> out, Index begin,
+                             Index end) {
+  return takes_forces(group) ? group.project_to_forces(positions, out, begin, end)
+                             : group.project(positions, out, begin, end);
+}
 
 /// Throws Error(input), naming the constraint and the remedy, on a group that does not keep to its own shape: lists of
 /// the wrong length, a vertex out of range or twice in a stencil, a coefficient that is not finite, a measure that is

@@ -15,6 +15,7 @@ struct FlatCurvature {
   static constexpr int rows = 1;
   static constexpr int fields = 0;
   static constexpr bool translation_invariant = true;
+  static constexpr auto kernel = &LocalKernels::flat_curvature;
   static void project(const Real*, const Real*, Real* p) { std::fill_n(p, 3, Real(0)); }
 };
 
@@ -25,6 +26,7 @@ struct AbsoluteCurvature {
   static constexpr int rows = 1;
   static constexpr int fields = 4;  // ‖z_g‖, z_g
   static constexpr bool translation_invariant = true;
+  static constexpr auto kernel = &LocalKernels::absolute_curvature;
   static void project(const Real* field, const Real* z, Real* p);
 };
 
@@ -36,6 +38,7 @@ struct SignedCurvature {
   static constexpr int rows = 1;
   static constexpr int fields = 8;  // ‖z_g‖, z_g, σ, n
   static constexpr bool translation_invariant = true;
+  static constexpr auto kernel = &LocalKernels::signed_curvature;
   static void project(const Real* field, const Real* z, Real* p);
   static void begin_step(const Positions& positions, std::span<const Index> stencil, Real* field) {
     const Vec3 n = normal(positions, stencil);

@@ -37,6 +37,8 @@ struct EdgeSpringProjection {
   static constexpr int rows = 1;
   static constexpr int fields = 1;  // L
   static constexpr bool translation_invariant = true;
+  static constexpr bool is_difference = true;
+  static constexpr auto kernel = &LocalKernels::edge_spring;
   static void project(const Real* field, const Real* z, Real* p) {
     const Real length = std::sqrt(z[0] * z[0] + z[1] * z[1] + z[2] * z[2]);
     const Real scale = field[0] / length;

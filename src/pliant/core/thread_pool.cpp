@@ -16,7 +16,7 @@ ThreadPool::ThreadPool(int threads) {
   if (threads == 0) threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   workers_.reserve(static_cast<std::size_t>(threads - 1));
   try {
-    for (int i = 1; i < threads; ++i) workers_.emplace_back([this] { work(0); });
+    for (int i = 1; i < threads; ++i) workers_.emplace_back([this, i] { work(i); });
   } catch (const std::system_error&) {
     const std::string started = std::to_string(workers_.size() + 1);
     stop();
@@ -43,14 +43,14 @@ void ThreadPool::run(Index count, void* context, Call call) {
   busy_workers_.store(static_cast<int>(workers_.size()), std::memory_order_relaxed);
   generation_.fetch_add(1, std::memory_order_release);
   generation_.notify_all();
-  take_iterations();
+  take_iterations(0);
   for (int busy; (busy = busy_workers_.load(std::memory_order_acquire)) != 0;) busy_workers_.wait(busy);
   if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
 }
 
-void ThreadPool::take_iterations() {
+void ThreadPool::take_iterations(int thread) {
   try {
-    for (Index i; (i = next_.fetch_add(1, std::memory_order_relaxed)) < count_;) call_(context_, i);
+    for (Index i; (i = next_.fetch_add(1, std::memory_order_relaxed)) < count_;) call_(context_, i, thread);
   } catch (...) {
     next_.store(count_, std::memory_order_relaxed);
     const std::lock_guard lock(failure_mutex_);
@@ -58,12 +58,13 @@ void ThreadPool::take_iterations() {
   }
 }
 
-void ThreadPool::work(std::uint32_t seen) {
+void ThreadPool::work(int thread) {
+  std::uint32_t seen = 0;
   for (;;) {
     generation_.wait(seen, std::memory_order_acquire);
     seen = generation_.load(std::memory_order_acquire);
     if (stop_) return;
-    take_iterations();
+    take_iterations(thread);
     if (busy_workers_.fetch_sub(1, std::memory_order_release) == 1) busy_workers_.notify_one();
   }
 }

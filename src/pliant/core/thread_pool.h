@@ -23,26 +23,35 @@ class ThreadPool {
 
   int thread_count() const { return static_cast<int>(workers_.size()) + 1; }
 
-  /// Calls body(i) once for every i in [0, count), and returns when all are done. Never allocates. The first exception
-  /// that a body throws is thrown again here.
+  /// Calls body(i), or body(i, thread) with thread in [0, thread_count()), once for every i in [0, count), and returns
+  /// when all are done. Never allocates. The first exception that a body throws is thrown again here.
   template <class Body>
   void parallel_for(Index count, Body&& body) {
     if (workers_.empty() || count <= 1) {
-      for (Index i = 0; i < count; ++i) body(i);
+      for (Index i = 0; i < count; ++i) invoke(body, i, 0);
       return;
     }
     using Plain = std::remove_reference_t<Body>;
     run(count, const_cast<void*>(static_cast<const void*>(&body)),
-        [](void* context, Index i) { (*static_cast<Plain*>(context))(i); });
+        [](void* context, Index i, int thread) { invoke(*static_cast<Plain*>(context), i, thread); });
   }
 
  private:
-  using Call = void (*)(void* context, Index i);
+  using Call = void (*)(void* context, Index i, int thread);
+
+  template <class Body>
+  static void invoke(Body& body, Index i, int thread) {
+    if constexpr (std::is_invocable_v<Body&, Index, int>) {
+      body(i, thread);
+    } else {
+      body(i);
+    }
+  }
 
   void stop();
   void run(Index count, void* context, Call call);
-  void take_iterations();
-  void work(std::uint32_t seen);
+  void take_iterations(int thread);
+  void work(int thread);
 
   std::vector<std::thread> workers_;
   std::atomic<std::uint32_t> generation_{0};  // one more for every loop, and once more to stop

@@ -37,7 +37,7 @@ void Solver::report_divergence(const State& state) const {
     if (!is_held_[static_cast<std::size_t>(i)] && is_far(s_.row(i))) fail(state, h, i, force_reason(state, i));
   }
   for (std::size_t g = 0; g < groups_.size(); ++g) {
-    const Index constraint = local_step_.first_not_finite(g);
+    const Index constraint = local_step_.first_not_finite(g, q_);
     if (constraint < 0) continue;
     const auto first = static_cast<std::size_t>(constraint) * static_cast<std::size_t>(groups_[g]->shape().vertices);
     fail(state, h, groups_[g]->stencil()[first],

@@ -1,7 +1,9 @@
 #include "pliant/solver/local_step.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include "pliant/core/error.h"
 #include "pliant/core/stopwatch.h"
@@ -9,10 +11,18 @@
 namespace pliant {
 namespace {
 
-// Large enough to hide the cost of handing out work, small enough for what a chunk reads and writes to stay in the
-// second-level cache: about 200 kB for tetrahedra.
-constexpr Index constraints_per_chunk = 1024;
+// Slots of a chunk: as many as there are for 64 chunks, but enough to hide the cost of handing out work, and few enough
+// to stay in the second-level cache (100 kB). The size of the problem alone decides, so that the bits do.
+constexpr std::size_t most_chunk_slots = max_reduction_rows;
+constexpr std::size_t fewest_chunk_slots = 1024;
+constexpr std::size_t chunks_wanted = 64;
 constexpr Index vertices_per_chunk = 1024;
+constexpr Index constraints_together = 64;  // that kernels take at once
+
+/// Of a constraint.
+std::size_t slots_of(const ConstraintGroup& group) {
+  return static_cast<std::size_t>(takes_forces(group) ? group.shape().vertices : group.shape().rows);
+}
 
 /// The larger one; NaN when one is NaN, so that no tolerance is ever reached with it.
 Real larger(Real a, Real b) {
@@ -21,57 +31,116 @@ Real larger(Real a, Real b) {
 
 }  // namespace
 
+/// Finds the partials of one chunk after the other.
+class LocalStep::Layout {
+ public:
+  Layout(LocalStep& step, Index vertex_count) : step_(step), entry_counts_(static_cast<std::size_t>(vertex_count), 0) {}
+
+  void add(Chunk& chunk) {
+    chunk.first_partial = step_.partial_ends_.size();
+    chunk.first_entry = step_.entries_.size();
+    chunk.first_coefficient = step_.coefficients_.size();
+    chunk.has_units = true;
+    touched_.clear();
+    for_each_entry(chunk, [&](Index vertex, std::size_t, Real coefficient) {
+      if (entry_counts_[static_cast<std::size_t>(vertex)]++ == 0) touched_.push_back(vertex);
+      chunk.has_units &= std::abs(coefficient) == 1;
+    });
+    std::ranges::sort(touched_);
+    place_entries(chunk);
+    for (const Index vertex : touched_) entry_counts_[static_cast<std::size_t>(vertex)] = 0;
+    partial_vertices_.insert(partial_vertices_.end(), touched_.begin(), touched_.end());
+    chunk.last_partial = step_.partial_ends_.size();
+  }
+  std::span<const Index> partial_vertices() const { return partial_vertices_; }
+
+ private:
+  template <class Visit>
+  void for_each_entry(const Chunk& chunk, Visit&& visit) const {
+    const ConstraintGroup& group = *step_.groups_[chunk.group];
+    const auto n = static_cast<std::size_t>(group.shape().vertices);
+    const auto rows = static_cast<std::size_t>(group.shape().rows);
+    const auto first = static_cast<std::size_t>(chunk.begin);
+    const auto count = static_cast<std::size_t>(chunk.end - chunk.begin);
+    const std::span<const Index> stencil = group.stencil().subspan(first * n, count * n);
+    const std::span<const Real> reduction = group.reduction().subspan(first * n * rows, count * n * rows);
+    if (takes_forces(group)) {
+      for (std::size_t place = 0; place < stencil.size(); ++place) visit(stencil[place], place, 1);
+      return;
+    }
+    for (std::size_t place = 0; place < reduction.size(); ++place) {
+      const std::size_t slot = place / n;
+      if (reduction[place] != 0) visit(stencil[slot / rows * n + place % n], slot, reduction[place]);
+    }
+  }
+
+  void place_entries(const Chunk& chunk) {
+    std::uint32_t end = 0;
+    for (const Index vertex : touched_) {
+      std::uint32_t& count = entry_counts_[static_cast<std::size_t>(vertex)];
+      const std::uint32_t begin = end;
+      end += count;
+      count = begin;  // from now on the place of its next entry
+      step_.partial_ends_.push_back(end);
+    }
+    step_.entries_.resize(chunk.first_entry + end);
+    if (!chunk.has_units) step_.coefficients_.resize(chunk.first_coefficient + end);
+    for_each_entry(chunk, [&](Index vertex, std::size_t slot, Real coefficient) {
+      const std::size_t place = entry_counts_[static_cast<std::size_t>(vertex)]++;
+      const bool is_negative = chunk.has_units && coefficient < 0;
+      step_.entries_[chunk.first_entry + place] = static_cast<std::uint16_t>(2 * slot + is_negative);
+      if (!chunk.has_units) step_.coefficients_[chunk.first_coefficient + place] = coefficient;
+    });
+  }
+
+  LocalStep& step_;
+  std::vector<std::uint32_t> entry_counts_;  // of each vertex in the chunk at hand; then, where the next one goes
+  std::vector<Index> touched_;
+  std::vector<Index> partial_vertices_;
+};
+
 void LocalStep::set_groups(Index vertex_count, std::span<ConstraintGroup* const> groups) {
-  lay_out_slots(groups);
-  lay_out_gathers(vertex_count);
+  groups_.assign(groups.begin(), groups.end());
+  lay_out_chunks();
+  partial_ends_.clear();
+  entries_.clear();
+  coefficients_.clear();
+  Layout layout(*this, vertex_count);
+  for (Chunk& chunk : chunks_) layout.add(chunk);
+  lay_out_vertices(vertex_count, layout.partial_vertices());
 }
 
-void LocalStep::lay_out_slots(std::span<ConstraintGroup* const> groups) {
-  groups_.assign(groups.begin(), groups.end());
-  group_slots_.clear();
+void LocalStep::lay_out_chunks() {
+  slot_count_ = 0;
+  for (const ConstraintGroup* group : groups_) {
+    slot_count_ += static_cast<std::size_t>(group->shape().count) * slots_of(*group);
+  }
+  const std::size_t wanted = std::clamp(slot_count_ / chunks_wanted, fewest_chunk_slots, most_chunk_slots);
   chunks_.clear();
-  std::size_t slots = 0;
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const GroupShape shape = groups_[g]->shape();
-    const auto rows = static_cast<std::size_t>(shape.rows);
-    group_slots_.push_back(slots);
-    for (Index begin = 0; begin < shape.count; begin += constraints_per_chunk) {
-      const Index end = std::min(shape.count, begin + constraints_per_chunk);
-      chunks_.push_back({g, begin, end, slots + static_cast<std::size_t>(begin) * rows});
+    auto count = static_cast<Index>(std::max<std::size_t>(1, wanted / slots_of(*groups_[g])));
+    if (count > constraints_together) count -= count % constraints_together;
+    for (Index begin = 0; begin < shape.count; begin += count) {
+      chunks_.push_back({.group = g, .begin = begin, .end = std::min(shape.count, begin + count)});
     }
-    slots += static_cast<std::size_t>(shape.count) * rows;
   }
-  if (slots > std::numeric_limits<std::uint32_t>::max()) {
-    fail_input("the constraints have more than 2^32 - 1 rows; use a coarser mesh");
-  }
-  slots_.assign(3 * slots, 0);
   chunk_energies_.assign(chunks_.size(), 0);
 }
 
-void LocalStep::lay_out_gathers(Index vertex_count) {
-  const auto for_each_entry = [this](auto&& visit) {
-    for (std::size_t g = 0; g < groups_.size(); ++g) {
-      const auto n = static_cast<std::size_t>(groups_[g]->shape().vertices);
-      const auto rows = static_cast<std::size_t>(groups_[g]->shape().rows);
-      const std::span<const Index> stencil = groups_[g]->stencil();
-      const std::span<const Real> reduction = groups_[g]->reduction();
-      for (std::size_t place = 0; place < reduction.size(); ++place) {
-        const std::size_t row = place / n;  // within the group
-        if (reduction[place] != 0) visit(stencil[row / rows * n + place % n], group_slots_[g] + row, reduction[place]);
-      }
-    }
-  };
-  gather_offsets_.assign(static_cast<std::size_t>(vertex_count) + 1, 0);
-  for_each_entry([this](Index vertex, std::size_t, Real) { ++gather_offsets_[static_cast<std::size_t>(vertex) + 1]; });
-  for (std::size_t i = 1; i < gather_offsets_.size(); ++i) gather_offsets_[i] += gather_offsets_[i - 1];
-  gather_slots_.resize(gather_offsets_.back());
-  gather_coefficients_.resize(gather_offsets_.back());
-  std::vector<std::size_t> next(gather_offsets_.begin(), gather_offsets_.end() - 1);
-  for_each_entry([&](Index vertex, std::size_t slot, Real coefficient) {
-    const std::size_t place = next[static_cast<std::size_t>(vertex)]++;
-    gather_slots_[place] = static_cast<std::uint32_t>(slot);
-    gather_coefficients_[place] = coefficient;
-  });
+void LocalStep::lay_out_vertices(Index vertex_count, std::span<const Index> partial_vertices) {
+  if (partial_vertices.size() > std::numeric_limits<std::uint32_t>::max()) {
+    fail_input("the constraints touch more than 2^32 - 1 vertices; use a coarser mesh");
+  }
+  partials_.assign(3 * partial_vertices.size(), 0);
+  vertex_offsets_.assign(static_cast<std::size_t>(vertex_count) + 1, 0);
+  for (const Index vertex : partial_vertices) ++vertex_offsets_[static_cast<std::size_t>(vertex) + 1];
+  for (std::size_t i = 1; i < vertex_offsets_.size(); ++i) vertex_offsets_[i] += vertex_offsets_[i - 1];
+  vertex_partials_.resize(partial_vertices.size());
+  std::vector<std::size_t> next(vertex_offsets_.begin(), vertex_offsets_.end() - 1);
+  for (std::size_t i = 0; i < partial_vertices.size(); ++i) {
+    vertex_partials_[next[static_cast<std::size_t>(partial_vertices[i])]++] = static_cast<std::uint32_t>(i);
+  }
   vertex_sums_.resize(static_cast<std::size_t>((vertex_count + vertices_per_chunk - 1) / vertices_per_chunk));
 }
 
@@ -79,10 +148,11 @@ LocalResult LocalStep::run(const Positions& q, const Positions& s, std::span<con
                            std::span<const char> is_held, Positions& r, ThreadPool& threads) {
   LocalResult result;
   const Stopwatch projections;
-  threads.parallel_for(static_cast<Index>(chunks_.size()), [&](Index i) {
-    const Chunk& chunk = chunks_[static_cast<std::size_t>(i)];
-    chunk_energies_[static_cast<std::size_t>(i)] =
-        groups_[chunk.group]->project(q, std::span<Real>(slots_).subspan(3 * chunk.first_slot), chunk.begin, chunk.end);
+  slots_.resize(static_cast<std::size_t>(threads.thread_count()));
+  for (std::vector<Real>& slots : slots_) slots.resize(3 * most_chunk_slots);
+  threads.parallel_for(static_cast<Index>(chunks_.size()), [&](Index i, int thread) {
+    const auto chunk = static_cast<std::size_t>(i);
+    chunk_energies_[chunk] = project(chunks_[chunk], q, slots_[static_cast<std::size_t>(thread)]);
   });
   result.seconds_projections = projections.seconds();
   const auto vertex_count = static_cast<Index>(q.rows());
@@ -100,6 +170,34 @@ LocalResult LocalStep::run(const Positions& q, const Positions& s, std::span<con
   return result;
 }
 
+Real LocalStep::project(const Chunk& chunk, const Positions& q, std::vector<Real>& slots) {
+  const ConstraintGroup& group = *groups_[chunk.group];
+  const Real energy = project_to_slots(group, q, slots, chunk.begin, chunk.end);
+  chunk.has_units ? collect<true>(chunk, slots.data()) : collect<false>(chunk, slots.data());
+  return energy;
+}
+
+template <bool units>
+void LocalStep::collect(const Chunk& chunk, const Real* slots) {
+  constexpr std::array<Real, 2> signs = {1, -1};
+  const std::uint16_t* const entries = entries_.data() + chunk.first_entry;
+  const Real* const coefficients = coefficients_.data() + chunk.first_coefficient;
+  std::uint32_t entry = 0;
+  for (std::size_t partial = chunk.first_partial; partial < chunk.last_partial; ++partial) {
+    Real x = 0, y = 0, z = 0;
+    for (; entry < partial_ends_[partial]; ++entry) {
+      const std::uint16_t code = entries[entry];
+      const Real* slot = slots + 3 * (code / 2);
+      const Real coefficient = units ? signs[code % 2] : coefficients[entry];
+      x += coefficient * slot[0];
+      y += coefficient * slot[1];
+      z += coefficient * slot[2];
+    }
+    Real* out = partials_.data() + 3 * partial;
+    out[0] = x, out[1] = y, out[2] = z;
+  }
+}
+
 LocalStep::VertexSums LocalStep::gather(Index begin, Index end, const Positions& q, const Positions& s,
                                         std::span<const Real> inertia_weights, std::span<const char> is_held,
                                         Positions& r) const {
@@ -111,12 +209,11 @@ LocalStep::VertexSums LocalStep::gather(Index begin, Index end, const Positions&
       continue;
     }
     Real x = 0, y = 0, z = 0;
-    for (std::size_t entry = gather_offsets_[i]; entry < gather_offsets_[i + 1]; ++entry) {
-      const Real* slot = slots_.data() + 3 * static_cast<std::size_t>(gather_slots_[entry]);
-      const Real coefficient = gather_coefficients_[entry];
-      x += coefficient * slot[0];
-      y += coefficient * slot[1];
-      z += coefficient * slot[2];
+    for (std::size_t place = vertex_offsets_[i]; place < vertex_offsets_[i + 1]; ++place) {
+      const Real* partial = partials_.data() + 3 * static_cast<std::size_t>(vertex_partials_[place]);
+      x += partial[0];
+      y += partial[1];
+      z += partial[2];
     }
     const Real* from = q.data() + 3 * i;
     const Real* to = s.data() + 3 * i;
@@ -139,12 +236,23 @@ Real LocalStep::elastic_energy(std::size_t group) const {
   return energy;
 }
 
-Index LocalStep::first_not_finite(std::size_t group) const {
-  const GroupShape shape = groups_[group]->shape();
-  const auto size = static_cast<std::size_t>(3 * shape.rows);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(shape.count); ++i) {
-    const std::span<const Real> slot = std::span<const Real>(slots_).subspan(3 * group_slots_[group] + i * size, size);
-    if (!std::ranges::all_of(slot, [](Real x) { return std::isfinite(x); })) return static_cast<Index>(i);
+void LocalStep::describe(SystemInfo& info) const {
+  const auto bytes = [](const auto& list) { return static_cast<std::int64_t>(std::span(list).size_bytes()); };
+  info.local_list_bytes = bytes(entries_) + bytes(coefficients_) + bytes(partial_ends_);
+  info.partial_bytes = bytes(partials_);
+  info.partial_list_bytes = bytes(vertex_offsets_) + bytes(vertex_partials_);
+}
+
+Index LocalStep::first_not_finite(std::size_t group, const Positions& q) const {
+  const ConstraintGroup& constraints = *groups_[group];
+  const GroupShape shape = constraints.shape();
+  const auto n = static_cast<std::size_t>(shape.vertices);
+  std::vector<Real> slot(static_cast<std::size_t>(3 * shape.rows));
+  for (Index i = 0; i < shape.count; ++i) {
+    const std::span<const Index> stencil = constraints.stencil().subspan(static_cast<std::size_t>(i) * n, n);
+    if (!std::ranges::all_of(stencil, [&](Index vertex) { return q.row(vertex).allFinite(); })) continue;
+    constraints.project(q, slot, i, i + 1);
+    if (!std::ranges::all_of(slot, [](Real x) { return std::isfinite(x); })) return i;
   }
   return -1;
 }

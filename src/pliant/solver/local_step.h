@@ -1,13 +1,15 @@
 #pragma once
 // The local step: every constraint projects by itself, then every vertex collects what its constraints want of it.
 //
-//   1. constraints, in chunks:   slots ← w (p − z), k rows a constraint        (each writes only its own slots)
-//   2. vertices, in chunks:      r ← M/h² (s − q) + Σ Aᵀ slots                 (each reads its slots in a fixed order)
+//   1. constraints, in chunks:   slots ← w (p − z), k rows a constraint, which stay in the cache,
+//                                partials ← Aᵀ slots, one for each vertex that the chunk touches
+//   2. vertices, in chunks:      r ← M/h² (s − q) + Σ partials, those of one to three chunks as a rule
 //
-// So no two threads write to one place, no sum depends on who came first, and the bits are the same for any number of
+// So no two threads write to one place, every sum has its fixed order, and the bits are the same for any number of
 // threads. r is minus the gradient of the objective: the true residual, for free.
 #include "pliant/constraints/constraint_group.h"
 #include "pliant/core/thread_pool.h"
+#include "pliant/solver/system_info.h"
 
 namespace pliant {
 
@@ -30,37 +32,51 @@ class LocalStep {
 
   /// Elastic energy of a group in the last run [J].
   Real elastic_energy(std::size_t group) const;
-  /// Index of the first constraint of a group whose force was not finite in the last run, or -1.
-  Index first_not_finite(std::size_t group) const;
+  /// Index of the first constraint of a group whose force at finite q is not finite, or -1.
+  Index first_not_finite(std::size_t group, const Positions& q) const;
+  /// Fills in what the local step reads and writes.
+  void describe(SystemInfo& info) const;
   /// Rows of all reductions together: a measure of the work.
-  std::size_t slot_count() const { return slots_.size() / 3; }
+  std::size_t slot_count() const { return slot_count_; }
 
  private:
   struct Chunk {
     std::size_t group;
     Index begin;  // constraints of the group
     Index end;
-    std::size_t first_slot;
+    std::size_t first_partial = 0;
+    std::size_t last_partial = 0;
+    std::size_t first_entry = 0;
+    std::size_t first_coefficient = 0;
+    bool has_units = false;  // every coefficient is 1 or -1, which its entry says by itself
   };
   struct VertexSums {
     Real squared_residual = 0;
     Real inertia = 0;
   };
+  class Layout;
 
-  void lay_out_slots(std::span<ConstraintGroup* const> groups);
-  void lay_out_gathers(Index vertex_count);
+  void lay_out_chunks();
+  void lay_out_vertices(Index vertex_count, std::span<const Index> partial_vertices);
+  Real project(const Chunk& chunk, const Positions& q, std::vector<Real>& slots);
+  template <bool units>
+  void collect(const Chunk& chunk, const Real* slots);
   VertexSums gather(Index begin, Index end, const Positions& q, const Positions& s,
                     std::span<const Real> inertia_weights, std::span<const char> is_held, Positions& r) const;
 
   std::vector<ConstraintGroup*> groups_;
-  std::vector<std::size_t> group_slots_;  // first slot of each group
+  std::size_t slot_count_ = 0;
   std::vector<Chunk> chunks_;
   std::vector<Real> chunk_energies_;
-  std::vector<VertexSums> vertex_sums_;      // of each chunk of vertices
-  std::vector<Real> slots_;                  // rows × 3
-  std::vector<std::size_t> gather_offsets_;  // vertex i gathers [offsets[i], offsets[i + 1])
-  std::vector<std::uint32_t> gather_slots_;  // which slot,
-  std::vector<Real> gather_coefficients_;    // times which entry of A
+  std::vector<VertexSums> vertex_sums_;   // of each chunk of vertices
+  std::vector<std::vector<Real>> slots_;  // of the chunk at hand of each thread
+
+  std::vector<Real> partials_;               // count × 3, chunk after chunk
+  std::vector<std::uint32_t> partial_ends_;  // entries of the partial, counted from the first of its chunk
+  std::vector<std::uint16_t> entries_;       // twice the slot of the chunk, plus one where a unit is negative
+  std::vector<Real> coefficients_;           // of the entries of chunks that have others than units
+  std::vector<std::size_t> vertex_offsets_;  // vertex i has the partials [offsets[i], offsets[i + 1]) of
+  std::vector<std::uint32_t> vertex_partials_;
 };
 
 }  // namespace pliant

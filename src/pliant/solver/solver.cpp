@@ -9,13 +9,14 @@
 namespace pliant {
 namespace {
 
-/// Slots for which another thread is worth waking, when the number of threads is left to us.
-constexpr std::size_t slots_per_thread = 8192;
+/// Slots for which another thread is worth waking: below, handing out the work takes longer than the work, and so even
+/// who asks for threads is given fewer. Where their number is left to us, twice as many are asked of each.
+constexpr std::size_t slots_per_thread = 4096;
 
 int useful_threads(Index asked, std::size_t slots) {
-  if (asked > 0) return asked;
   const auto processors = static_cast<std::size_t>(std::max(1U, std::thread::hardware_concurrency()));
-  return static_cast<int>(std::clamp<std::size_t>(slots / slots_per_thread, 1, processors));
+  const std::size_t most = asked > 0 ? static_cast<std::size_t>(asked) : processors;
+  return static_cast<int>(std::clamp<std::size_t>(slots / (asked > 0 ? 1 : 2) / slots_per_thread, 1, most));
 }
 
 }  // namespace

@@ -71,6 +71,7 @@ SystemInfo Solver::system_info(const State& state) {
   const LowerMatrix& matrix = system_matrix_.matrix();
   info.matrix_entries = static_cast<std::int64_t>(matrix.rows.size());
   global_step_.describe(info);
+  local_step_.describe(info);
   constexpr auto entry_bytes = static_cast<std::int64_t>(sizeof(Real) + sizeof(Index));
   info.bytes = info.matrix_entries * entry_bytes + info.sweep_bytes;
   info.held_vertices = static_cast<Index>(std::ranges::count_if(is_held_, [](char held) { return held != 0; }));

@@ -15,6 +15,9 @@ struct SystemInfo {
   std::int64_t factor_entries = 0;           ///< of L, the zeros that panels carry along included
   std::int64_t supernodes = 0;               ///< panels of L
   std::int64_t sweep_bytes = 0;              ///< that one of the two sweeps of a solve reads of L
+  std::int64_t local_list_bytes = 0;         ///< of the lists by which chunks of constraints collect for vertices
+  std::int64_t partial_bytes = 0;            ///< that chunks write for vertices, which these then read
+  std::int64_t partial_list_bytes = 0;       ///< of the lists by which vertices read them
   std::int64_t bytes = 0;                    ///< that matrix and factor take
   Precision precision = Precision::double_;  ///< of the panels in use
   Real contraction = 0;     ///< of single precision: the share of an error that a solve leaves; 0 when not asked for

@@ -1,0 +1,147 @@
+#pragma once
+// Several doubles side by side. What includes this is compiled once for each instruction set: one source file for each,
+// under its own compiler flags. Nothing there may call an inline function of another header, whose code the linker
+// might share between instruction sets; hence the nameless namespace and the few functions that others have as well.
+#include <cstddef>
+#include <cstdint>
+#ifdef __FMA__
+#include <immintrin.h>
+#endif
+
+namespace pliant {
+namespace {
+
+using Pair = double __attribute__((vector_size(16)));
+
+template <int width>
+struct Lanes;
+template <>
+struct Lanes<2> {
+  using Number = Pair;
+  using Mask = long long __attribute__((vector_size(16)));
+  template <class P>  // so that the compiler looks at it only where there are registers for it
+  static Number join(const P* pairs) {
+    return pairs[0];
+  }
+};
+template <>
+struct Lanes<4> {
+  using Number = double __attribute__((vector_size(32)));
+  using Mask = long long __attribute__((vector_size(32)));
+  template <class P>  // so that the compiler looks at it only where there are registers for it
+  static Number join(const P* pairs) {
+    return __builtin_shufflevector(pairs[0], pairs[1], 0, 1, 2, 3);
+  }
+};
+template <>
+struct Lanes<8> {
+  using Number = double __attribute__((vector_size(64)));
+  using Mask = long long __attribute__((vector_size(64)));
+  template <class P>  // so that the compiler looks at it only where there are registers for it
+  static Number join(const P* pairs) {
+    return __builtin_shufflevector(Lanes<4>::join(pairs), Lanes<4>::join(pairs + 2), 0, 1, 2, 3, 4, 5, 6, 7);
+  }
+};
+
+template <int width>
+struct LaneMath : Lanes<width> {
+  using typename Lanes<width>::Number;
+  using typename Lanes<width>::Mask;
+  using Lanes<width>::join;
+
+  /// What get(lane) returns in each lane.
+  template <class Get>
+  static Number each(Get get) {
+    Pair pairs[width / 2];
+    for (std::size_t i = 0; i < width / 2; ++i) pairs[i] = Pair{get(2 * i), get(2 * i + 1)};
+    return join(pairs);
+  }
+
+  static Pair load_pair(const double* from) {
+    Pair pair;
+    __builtin_memcpy(&pair, from, sizeof pair);
+    return pair;
+  }
+  static void store_pair(Pair pair, double* to) { __builtin_memcpy(to, &pair, sizeof pair); }
+
+  /// e ← b − a of each lane, points of three numbers: ends(lane, a, b) says where they are.
+  template <class Ends>
+  static void subtract(Ends ends, Number (&e)[3]) {
+    Pair x[width / 2], y[width / 2], z[width / 2];
+    for (std::size_t i = 0; i < width / 2; ++i) {
+      const double *a0, *b0, *a1, *b1;
+      ends(2 * i, a0, b0);
+      ends(2 * i + 1, a1, b1);
+      const Pair first = load_pair(b0) - load_pair(a0);
+      const Pair second = load_pair(b1) - load_pair(a1);
+      x[i] = __builtin_shufflevector(first, second, 0, 2);
+      y[i] = __builtin_shufflevector(first, second, 1, 3);
+      z[i] = Pair{b0[2] - a0[2], b1[2] - a1[2]};
+    }
+    e[0] = join(x), e[1] = join(y), e[2] = join(z);
+  }
+
+  static Number load(const double* from) {
+    Number all;
+    __builtin_memcpy(&all, from, sizeof all);
+    return all;
+  }
+  /// Number a of `size` of each lane, which stand one lane after the other.
+  static Number load(const double* from, std::size_t size, std::size_t a) {
+    return each([&](std::size_t lane) { return from[size * lane + a]; });
+  }
+  template <std::size_t size>
+  static void store(const Number (&numbers)[size], double* to) {
+    for (std::size_t lane = 0; lane < width; ++lane) {
+      for (std::size_t a = 0; a < size; ++a) to[size * lane + a] = numbers[a][lane];
+    }
+  }
+
+  /// The same for points, in pairs.
+  static void store(const Number (&point)[3], double* to) {
+    for (int i = 0; i < width; i += 2, to += 6) {
+      const Pair x = {point[0][i], point[0][i + 1]}, y = {point[1][i], point[1][i + 1]},
+                 z = {point[2][i], point[2][i + 1]};
+      store_pair(__builtin_shufflevector(x, y, 0, 2), to);
+      store_pair(__builtin_shufflevector(z, x, 0, 3), to + 2);
+      store_pair(__builtin_shufflevector(y, z, 1, 3), to + 4);
+    }
+  }
+
+  static Number select(Mask mask, Number yes, Number no) { return mask ? yes : no; }
+  static Number larger(Number a, Number b) { return select(a > b, a, b); }
+  static Number smaller(Number a, Number b) { return select(a < b, a, b); }
+  static Number square_root(Number x) {
+    for (int lane = 0; lane < width; ++lane) x[lane] = __builtin_sqrt(x[lane]);
+    return x;
+  }
+  /// a b + c, rounded once where the processor can.
+  static Number multiply_add(Number a, Number b, Number c) {
+#ifdef __AVX512F__
+    if constexpr (width == 8) return _mm512_fmadd_pd(a, b, c);
+#endif
+#ifdef __FMA__
+    if constexpr (width == 4) return _mm256_fmadd_pd(a, b, c);
+#endif
+    return a * b + c;
+  }
+  static double sum(Number x) {
+    double all = 0;
+    for (int lane = 0; lane < width; ++lane) all += x[lane];
+    return all;
+  }
+  static bool any(Mask mask) {
+    long long both = 0;
+    for (int lane = 0; lane < width; ++lane) both |= mask[lane];
+    return both != 0;
+  }
+  /// One bit a lane.
+  static std::uint64_t bits(Mask mask) {
+    std::uint64_t all = 0;
+    for (int lane = 0; lane < width; ++lane) all |= std::uint64_t{mask[lane] != 0} << lane;
+    return all;
+  }
+};
+
+}  // namespace
+}  // namespace pliant

@@ -1,0 +1,98 @@
+#pragma once
+// Types whose points keep a length: edges and curvature. Compiled as lanes.h says.
+#include "pliant/constraints/kernels/block.h"
+
+namespace pliant {
+namespace {
+
+template <int width>
+struct LengthKernels : Block<width> {
+  using All = Block<width>;
+  using Math = LaneMath<width>;
+  using typename All::Sums;
+  using typename Math::Mask;
+  using typename Math::Number;
+
+  /// Lengths: p = wanted(‖z‖) z/‖z‖. A length of zero, or none at all, is left.
+  template <class Wanted>
+  static void resize(const LocalBlock& block, std::size_t i, Number (&z)[3], Wanted wanted, Sums& sums,
+                     Mask is_left = Mask{}) {
+    constexpr double smallest = All::rounding / 16 * (All::rounding / 16);
+    const Number length = Math::square_root(z[0] * z[0] + z[1] * z[1] + z[2] * z[2]);
+    const Number exact = wanted(length) - length;
+    const Number change = Math::select(exact * exact <= smallest * length * length, Number{}, exact);
+    const Number w = All::weight(block, i * width);
+    const Number factor = w * change / length;
+    for (Number& number : z) number *= factor;
+    Math::store(z, block.out + 3 * i * width);
+    sums.add(i, is_left | ~(length > 0), w / 2 * change * change);
+  }
+
+  static LocalDone edge_spring(const LocalBlock& block) {
+    Sums sums;
+    const std::size_t vectors = block.count / width;
+    for (std::size_t i = 0; i < vectors; ++i) {
+      Number z[3];
+      All::difference(block, 2, i * width, 1, z);
+      const Number rest = Math::load(block.fields + i * width);
+      resize(
+          block, i, z, [&](Number) { return rest; }, sums);
+    }
+    return sums.done(vectors);
+  }
+
+  static LocalDone edge_strain(const LocalBlock& block) {
+    Sums sums;
+    const std::size_t vectors = block.count / width;
+    for (std::size_t i = 0; i < vectors; ++i) {
+      Number z[3];
+      All::template reduce<2, 1>(block, i * width, z);
+      const double* limits = block.fields + 2 * i * width;
+      const Number min = Math::load(limits, 2, 0);
+      const Number max = Math::load(limits, 2, 1);
+      resize(
+          block, i, z, [&](Number length) { return Math::smaller(Math::larger(length, min), max); }, sums);
+    }
+    return sums.done(vectors);
+  }
+
+  /// Curvature: p = 0, or of the length at rest. Summed as the builder of the type summed it at rest, without fusing.
+  /// Fields: none; the length and three more; or also a sign and a normal, where z on its other side is left.
+  template <std::size_t fields>
+  static LocalDone curvature(const LocalBlock& block) {
+    constexpr double no_direction = 1e-12;
+    Sums sums;
+    const std::size_t vectors = block.count / width;
+    for (std::size_t i = 0; i < vectors; ++i) {
+      Number z[3] = {};
+      for (std::size_t j = 1; j < block.vertices; ++j) {
+        Number e[3];
+        All::difference(block, block.vertices, i * width, j, e);
+        const Number c = Math::load(block.reduction + block.vertices * i * width, block.vertices, j);
+        for (std::size_t axis = 0; axis < 3; ++axis) z[axis] += c * e[axis];
+      }
+      if constexpr (fields == 0) {
+        const Number w = All::weight(block, i * width);
+        const Number squares = z[0] * z[0] + z[1] * z[1] + z[2] * z[2];
+        for (Number& number : z) number *= -w;
+        Math::store(z, block.out + 3 * i * width);
+        sums.add(i, Mask{}, w / 2 * squares);
+      } else {
+        const double* of = block.fields + fields * i * width;
+        const Number rest = Math::load(of, fields, 0);
+        Mask is_left = ~(z[0] * z[0] + z[1] * z[1] + z[2] * z[2] >= no_direction * no_direction * rest * rest);
+        if constexpr (fields > 4) {
+          Number height = {};
+          for (std::size_t axis = 0; axis < 3; ++axis) height += z[axis] * Math::load(of, fields, 5 + axis);
+          is_left |= ~(Math::load(of, fields, 4) * height >= 0);
+        }
+        resize(
+            block, i, z, [&](Number) { return rest; }, sums, is_left);
+      }
+    }
+    return sums.done(vectors);
+  }
+};
+
+}  // namespace
+}  // namespace pliant

@@ -1,0 +1,16 @@
+#include "pliant/constraints/kernels/local_kernels.h"
+
+#include "pliant/core/instruction_sets.h"
+
+namespace pliant {
+
+std::span<const LocalKernels* const> local_kernels() {
+#ifdef PLIANT_HAS_X86_KERNELS
+  static constexpr const LocalKernels* all[] = {&portable_kernels, &avx2_kernels, &avx512_kernels};
+#else
+  static constexpr const LocalKernels* all[] = {&portable_kernels};
+#endif
+  return std::span(all).first(instruction_set_count());
+}
+
+}  // namespace pliant

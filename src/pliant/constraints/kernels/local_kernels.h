@@ -1,0 +1,59 @@
+#pragma once
+// The local step for many constraints of one type side by side, for the instruction set of the processor at hand. A
+// type names its kernel (`static constexpr auto kernel = &LocalKernels::edge_spring;`), and Batch does by itself,
+// one after the other, what a kernel leaves: the end of a run that fills no whole vector, and the odd cases.
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace pliant {
+
+/// How many constraints a call takes at most.
+inline constexpr std::size_t local_block = 64;
+
+/// A run of constraints of one batch; all lists begin with its first.
+struct LocalBlock {
+  const double* positions;  ///< of all vertices, m × 3
+  const std::int32_t* stencil;
+  const double* reduction;
+  const double* fields;
+  const double* measure;
+  double stiffness;
+  std::size_t vertices;  ///< of a constraint
+  std::size_t count;
+  double* out;  ///< w (p − z) of a type with one row; else the forces Aᵀ w (p − z) on the vertices, n × 3
+};
+
+struct LocalDone {
+  std::size_t count = 0;   ///< constraints from the first on
+  std::uint64_t left = 0;  ///< bit i: constraint i of these was left all the same, and its `out` may be anything
+  double energy = 0;       ///< of those done
+
+  /// The first constraint from i on that is not done; `count`, or any after it, where all the rest is.
+  std::size_t next(std::size_t i) const {
+    const std::uint64_t rest = i < local_block ? left >> i << i : 0;
+    return rest == 0 ? (i < count ? count : i) : static_cast<std::size_t>(std::countr_zero(rest));
+  }
+};
+
+struct LocalKernels {
+  using Kernel = LocalDone(const LocalBlock& block);
+  Kernel* edge_spring;
+  Kernel* edge_strain;
+  Kernel* triangle_strain;     ///< with one stretch allowed; others are left
+  Kernel* tetrahedron_strain;  ///< the same
+  Kernel* flat_curvature;
+  Kernel* absolute_curvature;
+  Kernel* signed_curvature;
+  const char* instruction_set;
+};
+
+/// All that this processor can run, the fastest last.
+std::span<const LocalKernels* const> local_kernels();
+
+extern const LocalKernels portable_kernels;
+extern const LocalKernels avx2_kernels;  // defined where the compiler has the instruction set
+extern const LocalKernels avx512_kernels;
+
+}  // namespace pliant

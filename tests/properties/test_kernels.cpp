@@ -1,0 +1,230 @@
+// The kernels of the local step against the projections that they stand for, for every instruction set at hand.
+#include <doctest/doctest.h>
+
+#include "pliant/constraints/kernels/local_kernels.h"
+#include "projection_samples.h"
+
+using namespace pliant;
+using namespace pliant_tests;
+
+namespace {
+
+constexpr Real not_a_number = std::numeric_limits<Real>::quiet_NaN();
+
+/// Constraints of one type in lists as a batch has them, each on vertices of its own.
+template <class Type>
+struct Many {
+  static constexpr int n = Type::vertices == dynamic_vertices ? 5 : Type::vertices;
+  static constexpr bool is_fixed = requires { Type::is_difference; };
+  using Reduction = Eigen::Matrix<Real, Type::rows, n, Eigen::RowMajor>;
+
+  Positions positions;
+  std::vector<Index> stencil;
+  std::vector<Real> reduction, fields, measure;
+  Real stiffness = 3;
+
+  std::size_t count() const { return measure.size(); }
+
+  static Reduction random_reduction(Random& random) {
+    Reduction A;
+    for (Real& c : A.reshaped()) c = random.uniform(-1, 1);
+    A.col(0) -= A.rowwise().sum();
+    if (is_fixed) A << -1, 1;
+    return A;
+  }
+
+  void add(Random& random, const Fields& more, Real size, const Vec3& center) {
+    const auto first = static_cast<Index>(positions.rows());
+    positions.conservativeResize(first + n, 3);
+    for (Index j = 0; j < n; ++j) {
+      stencil.push_back(first + (j + 1) % n);
+      positions.row(first + j) = (center + random.vector(size)).transpose();
+    }
+    const Reduction A = random_reduction(random);
+    reduction.insert(reduction.end(), A.data(), A.data() + A.size());
+    fields.insert(fields.end(), more.begin(), more.end());
+    measure.push_back(random.uniform(0.1, 2));
+  }
+
+  /// Constraint `from` once more, at the end.
+  void repeat(std::size_t from) {
+    const auto copy = [from](auto& list, std::size_t size) {
+      for (std::size_t a = 0; a < size; ++a) list.push_back(list[from * size + a]);
+    };
+    copy(stencil, n);
+    copy(reduction, Type::rows * n);
+    copy(fields, Type::fields);
+    copy(measure, 1);
+  }
+
+  const Real* field(std::size_t i) const { return fields.data() + Type::fields * i; }
+  Eigen::Map<const Reduction> A(std::size_t i) const {
+    return Eigen::Map<const Reduction>(reduction.data() + Type::rows * n * i);
+  }
+  Rows<Type> z(std::size_t i) const {
+    const Index* corners = stencil.data() + n * i;
+    Eigen::Matrix<Real, n, 3, Eigen::RowMajor> e;
+    for (Index j = 0; j < n; ++j) e.row(j) = positions.row(corners[j]) - positions.row(corners[0]);
+    return A(i) * e;
+  }
+
+  LocalBlock block(std::size_t first, std::size_t many, Real* out) const {
+    return {positions.data(),
+            stencil.data() + n * first,
+            reduction.data() + Type::rows * n * first,
+            fields.data() + Type::fields * first,
+            measure.data() + first,
+            stiffness,
+            static_cast<std::size_t>(n),
+            many,
+            out};
+  }
+};
+
+/// What a kernel writes for a constraint: its rows where there is one, else forces.
+template <class Type>
+using Written = Eigen::Matrix<Real, Type::rows == 1 ? 1 : Many<Type>::n, 3, Eigen::RowMajor>;
+
+template <class Type>
+struct Outcome {
+  std::vector<Written<Type>> written;
+  std::vector<bool> is_done;
+  Real energy = 0;
+};
+
+template <class Type>
+Outcome<Type> run(const LocalKernels& kernels, const Many<Type>& many) {
+  Outcome<Type> outcome;
+  outcome.written.resize(many.count(), Written<Type>::Constant(not_a_number));
+  outcome.is_done.resize(many.count(), false);
+  for (std::size_t first = 0; first < many.count(); first += local_block) {
+    const std::size_t count = std::min(local_block, many.count() - first);
+    const LocalDone done = (kernels.*Type::kernel)(many.block(first, count, outcome.written[first].data()));
+    CHECK(done.count <= count);
+    outcome.energy += done.energy;
+    std::vector<bool> is_left(count, false);
+    for (std::size_t i = done.next(0); i < count; i = done.next(i + 1)) is_left[i] = true;
+    for (std::size_t i = 0; i < count; ++i) outcome.is_done[first + i] = !is_left[i];
+  }
+  return outcome;
+}
+
+using Kernelled = std::tuple<EdgeSpringProjection, EdgeStrainProjection, TriangleStrainProjection,
+                             TetrahedronStrainProjection, FlatCurvature, AbsoluteCurvature, SignedFanCurvature>;
+
+/// Sizes from far below to far above the rest shape, far from the origin as well.
+template <class Type>
+Many<Type> samples(Random& random, std::size_t count) {
+  Many<Type> many;
+  for (std::size_t i = 0; i < count; ++i) {
+    many.add(random, Samples<Type>::fields(random), std::pow(10, random.uniform(-3, 3)), random.vector(100));
+  }
+  return many;
+}
+
+}  // namespace
+
+TEST_CASE_TEMPLATE_DEFINE("a kernel writes what the projection says", Type, as_projected) {
+  for (const LocalKernels* kernels : local_kernels()) {
+    CAPTURE(kernels->instruction_set);
+    Random random;
+    const Many<Type> many = samples<Type>(random, 1000);
+    const Outcome<Type> outcome = run(*kernels, many);
+    Real energy = 0;
+    for (std::size_t i = 0; i < many.count(); ++i) {
+      if (!outcome.is_done[i]) continue;
+      CAPTURE(i);
+      const Rows<Type> z = many.z(i);
+      Rows<Type> p;
+      Type::project(many.field(i), z.data(), p.data());
+      const Real weight = many.stiffness * many.measure[i];
+      energy += weight / 2 * (p - z).squaredNorm();
+      Written<Type> expected;
+      if constexpr (Type::rows == 1) {
+        expected = weight * (p - z);
+      } else {
+        expected = many.A(i).transpose() * (weight * (p - z));
+      }
+      const Real scale = weight * (1 + z.norm()) * (1 + many.A(i).norm());
+      // A triangle or tetrahedron that is nearly flat: how far p is from it is known less well.
+      CHECK((outcome.written[i] - expected).cwiseAbs().maxCoeff() < (Type::rows > 1 ? 1e-9 : 1e-13) * scale);
+    }
+    CHECK(outcome.energy == doctest::Approx(energy).epsilon(1e-12));
+  }
+}
+TEST_CASE_TEMPLATE_APPLY(as_projected, Kernelled);
+
+TEST_CASE_TEMPLATE_DEFINE("a kernel leaves only what is not for it, and the end of a run", Type, leaves) {
+  for (const LocalKernels* kernels : local_kernels()) {
+    CAPTURE(kernels->instruction_set);
+    Random random;
+    Many<Type> many = samples<Type>(random, 300);
+    const Outcome<Type> outcome = run(*kernels, many);
+    int left = 0;
+    for (std::size_t i = 0; i < 296; ++i) {  // a vector has eight lanes at most
+      if (outcome.is_done[i]) continue;
+      ++left;
+      const Rows<Type> z = many.z(i);
+      CAPTURE(z);
+      if constexpr (Type::rows == 3) {
+        const bool is_clamped = many.field(i)[0] != many.field(i)[1];
+        CHECK((is_clamped || z.determinant() < 1e-3 * std::pow(z.norm(), 3)));
+      } else if constexpr (Type::rows == 2) {
+        const bool is_clamped = many.field(i)[0] != many.field(i)[1];
+        CHECK((is_clamped || z.row(0).cross(z.row(1)).norm() < 2e-3 * z.squaredNorm()));
+      } else {
+        REQUIRE(Type::fields == 8);  // on the other side of its normal
+        CHECK(z.dot(Eigen::Map<const Eigen::RowVector3d>(many.field(i) + 5)) * many.field(i)[4] < 0);
+      }
+    }
+    CHECK(left < 296);
+  }
+}
+TEST_CASE_TEMPLATE_APPLY(leaves, Kernelled);
+
+TEST_CASE_TEMPLATE_DEFINE("what stands beside a constraint does not matter to it", Type, alone) {
+  for (const LocalKernels* kernels : local_kernels()) {
+    CAPTURE(kernels->instruction_set);
+    Random random;
+    Many<Type> many = samples<Type>(random, 64);
+    for (const std::size_t odd : std::array<std::size_t, 3>{3, 21, 40}) {  // not finite, or a point
+      for (Index j = 0; j < Many<Type>::n; ++j) {
+        const Index vertex = many.stencil[Many<Type>::n * odd + static_cast<std::size_t>(j)];
+        many.positions.row(vertex).setConstant(odd == 40 ? 1 : not_a_number);
+      }
+    }
+    const std::size_t count = many.count();
+    for (std::size_t i = 0; i < count; ++i) many.repeat((7 * i + 5) % count);
+    const Outcome<Type> outcome = run(*kernels, many);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t from = (7 * i + 5) % count;
+      CHECK(outcome.is_done[count + i] == outcome.is_done[from]);
+      if (outcome.is_done[from] && from != 3 && from != 21) {
+        CHECK(outcome.written[count + i] == outcome.written[from]);
+      }
+      if (Type::fields > 0 && (from == 3 || from == 21)) CHECK_FALSE(outcome.is_done[from]);
+    }
+    if (Type::fields > 0) CHECK(std::isfinite(outcome.energy));
+  }
+}
+TEST_CASE_TEMPLATE_APPLY(alone, Kernelled);
+
+TEST_CASE("a batch takes from a kernel what it does, and does the rest by itself") {
+  Random random;
+  const Many<TetrahedronStrainProjection> many = samples<TetrahedronStrainProjection>(random, 203);
+  Batch<TetrahedronStrainProjection> batch(many.stiffness);
+  for (std::size_t i = 0; i < many.count(); ++i) {
+    batch.add(std::span(many.stencil).subspan(4 * i, 4), std::span(many.reduction).subspan(12 * i, 12), many.measure[i],
+              {many.field(i), 2});
+  }
+  const auto count = static_cast<Index>(many.count());
+  std::vector<Real> forces(12 * many.count());
+  std::vector<Real> one_by_one(12 * many.count());
+  const Real energy = batch.project_to_forces(many.positions, forces, 0, count);
+  const Real expected = batch.ConstraintGroup::project_to_forces(many.positions, one_by_one, 0, count);
+  CHECK(energy == doctest::Approx(expected).epsilon(1e-12));
+  for (std::size_t i = 0; i < many.count(); ++i) {
+    const Real scale = many.stiffness * many.measure[i] * (1 + many.z(i).norm()) * (1 + many.A(i).norm());
+    for (std::size_t a = 12 * i; a < 12 * i + 12; ++a) CHECK(std::abs(forces[a] - one_by_one[a]) < 1e-9 * scale);
+  }
+}
