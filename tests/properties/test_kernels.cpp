@@ -58,14 +58,14 @@ struct Many {
   }
 
   const Real* field(std::size_t i) const { return fields.data() + Type::fields * i; }
-  Eigen::Map<const Reduction> A(std::size_t i) const {
+  Eigen::Map<const Reduction> reduction_of(std::size_t i) const {
     return Eigen::Map<const Reduction>(reduction.data() + Type::rows * n * i);
   }
   Rows<Type> z(std::size_t i) const {
     const Index* corners = stencil.data() + n * i;
     Eigen::Matrix<Real, n, 3, Eigen::RowMajor> e;
     for (Index j = 0; j < n; ++j) e.row(j) = positions.row(corners[j]) - positions.row(corners[0]);
-    return A(i) * e;
+    return reduction_of(i) * e;
   }
 
   LocalBlock block(std::size_t first, std::size_t many, Real* out) const {
@@ -143,9 +143,9 @@ TEST_CASE_TEMPLATE_DEFINE("a kernel writes what the projection says", Type, as_p
       if constexpr (Type::rows == 1) {
         expected = weight * (p - z);
       } else {
-        expected = many.A(i).transpose() * (weight * (p - z));
+        expected = many.reduction_of(i).transpose() * (weight * (p - z));
       }
-      const Real scale = weight * (1 + z.norm()) * (1 + many.A(i).norm());
+      const Real scale = weight * (1 + z.norm()) * (1 + many.reduction_of(i).norm());
       // A triangle or tetrahedron that is nearly flat: how far p is from it is known less well.
       CHECK((outcome.written[i] - expected).cwiseAbs().maxCoeff() < (Type::rows > 1 ? 1e-9 : 1e-13) * scale);
     }
@@ -224,7 +224,7 @@ TEST_CASE("a batch takes from a kernel what it does, and does the rest by itself
   const Real expected = batch.ConstraintGroup::project_to_forces(many.positions, one_by_one, 0, count);
   CHECK(energy == doctest::Approx(expected).epsilon(1e-12));
   for (std::size_t i = 0; i < many.count(); ++i) {
-    const Real scale = many.stiffness * many.measure[i] * (1 + many.z(i).norm()) * (1 + many.A(i).norm());
+    const Real scale = many.stiffness * many.measure[i] * (1 + many.z(i).norm()) * (1 + many.reduction_of(i).norm());
     for (std::size_t a = 12 * i; a < 12 * i + 12; ++a) CHECK(std::abs(forces[a] - one_by_one[a]) < 1e-9 * scale);
   }
 }
