@@ -10,6 +10,7 @@
 #include "pliant/core/error.h"
 #include "pliant/solver/factorization/factorization.h"
 #include "pliant/solver/factorization/panel_factor.h"
+#include "pliant/solver/factorization/panel_values.h"
 
 using namespace pliant;
 using namespace pliant_tests;
@@ -61,7 +62,7 @@ void check_panels(const Factorization& factorization, const Eigen::MatrixXd& den
     CAPTURE(sweeps->instruction_set);
     PanelFactor<T> panels(*sweeps);
     panels.lay_out(factorization.factor());
-    panels.fill(factorization.factor(), dense.diagonal().maxCoeff());
+    panels.fill(factorization.factor(), dense.diagonal().maxCoeff(), threads);
     CHECK(panels.entry_count() >= static_cast<std::size_t>(dense.rows()));
     const Positions b = random.positions(dense.rows(), 1);
     Positions x = random.positions(dense.rows(), 1);  // to be overwritten
@@ -127,6 +128,25 @@ TEST_CASE("a matrix that is not positive definite is refused, and the next good 
     CHECK(contains(message, "not positive definite"));
     check_solve(factorization, good, random);
   });
+}
+
+TEST_CASE("a lower triangle is inverted in place, and what is above it stays") {
+  Random random;
+  for (const Index size : {1, 2, 5, 23, 24, 25, 26, 49, 130}) {
+    CAPTURE(size);
+    Eigen::MatrixXd L = Eigen::MatrixXd::Zero(size, size);
+    for (Index c = 0; c < size; ++c) {
+      for (Index r = 0; r < size; ++r) L(r, c) = random.uniform(-1, 1);
+      L(c, c) = random.uniform(1, 2) * std::sqrt(static_cast<Real>(size));
+    }
+    Eigen::MatrixXd inverse = L;
+    invert_lower_triangle(inverse.data(), size);
+    const Eigen::MatrixXd lower = L.triangularView<Eigen::Lower>();
+    const Eigen::MatrixXd found = inverse.triangularView<Eigen::Lower>();
+    CHECK((lower * found - Eigen::MatrixXd::Identity(size, size)).cwiseAbs().maxCoeff() < 1e-12);
+    const Eigen::MatrixXd above = (inverse - L).triangularView<Eigen::StrictlyUpper>();
+    CHECK(above.isZero(0));
+  }
 }
 
 TEST_CASE("the system matrix is M/h² plus the sum of w SᵀAᵀAS") {

@@ -48,15 +48,20 @@ Positions multiply(const LowerMatrix& Y, const Positions& x) {
   return y;
 }
 
+struct Divided {
+  Index tasks = 0;
+  Index stages = 0;
+};
+
 template <class T>
-Positions solution(const Factorization& factorization, const Positions& b, int threads, Index* tasks = nullptr) {
+Positions solution(const Factorization& factorization, const Positions& b, int threads, Divided* divided = nullptr) {
   PanelFactor<T> panels;
   panels.lay_out(factorization.factor());
-  panels.fill(factorization.factor(), 1e3);
   ThreadPool pool(threads);
+  panels.fill(factorization.factor(), 1e3, pool);
   Positions x(b.rows(), 3);
   panels.solve(b, 1, x, pool);
-  if (tasks != nullptr) *tasks = panels.task_count();
+  if (divided != nullptr) *divided = {panels.task_count(), panels.stage_count()};
   return x;
 }
 
@@ -86,17 +91,21 @@ struct Trial {
 
 }  // namespace
 
-TEST_CASE("subtrees are swept by any number of threads to the same bits") {
-  const LowerMatrix matrix = grid_matrix(90, 10, 100);
-  for (const Backend backend : {Backend::automatic, Backend::eigen}) {
+TEST_CASE("subtrees are swept by any number of threads to the same bits, in one stage or in several") {
+  for (const auto& [size, backend] :
+       {std::pair(90, Backend::automatic), std::pair(90, Backend::eigen), std::pair(260, Backend::automatic)}) {
+    const LowerMatrix matrix = grid_matrix(size, 10, 100);
     const auto factorization = make_factorization(backend);
     factorization->analyze(matrix);
     factorization->factorize(matrix);
     Random random;
     const Positions b = random.positions(matrix.size(), 1);
-    Index tasks = 0;
-    const Positions once = solution<double>(*factorization, b, 1, &tasks);
-    if (factorization->name() == "cholmod") CHECK(tasks > 4);
+    Divided divided;
+    const Positions once = solution<double>(*factorization, b, 1, &divided);
+    if (factorization->name() == "cholmod") {
+      CHECK(divided.tasks > 4);
+      CHECK((divided.stages > 1) == (size > 90));
+    }
     CHECK((multiply(matrix, once) - b).cwiseAbs().maxCoeff() < 1e-12);
     const Positions once_single = solution<float>(*factorization, b, 1);
     CHECK((multiply(matrix, once_single) - b).cwiseAbs().maxCoeff() < 1e-4);
@@ -108,39 +117,72 @@ TEST_CASE("subtrees are swept by any number of threads to the same bits") {
   }
 }
 
-TEST_CASE("tasks are subtrees that follow each other, and the rest is above them") {
-  // A complete binary tree of panels in postorder.
+namespace {
+
+/// A complete binary tree of panels in postorder.
+std::vector<PanelShape> binary_tree(int depth, std::int64_t weight) {
   std::vector<PanelShape> panels;
-  const auto add = [&](auto&& self, int depth) -> Index {
+  const auto add = [&](auto&& self, int below) -> Index {
     std::array<Index, 2> children = {-1, -1};
-    if (depth > 0) {
-      for (Index& child : children) child = self(self, depth - 1);
+    if (below > 0) {
+      for (Index& child : children) child = self(self, below - 1);
     }
     const auto place = static_cast<Index>(panels.size());
-    panels.push_back({-1, 1000});
+    panels.push_back({-1, weight});
     for (const Index child : children) {
       if (child >= 0) panels[static_cast<std::size_t>(child)].parent = place;
     }
     return place;
   };
-  add(add, 9);
-  const std::vector<PanelTask> tasks = divide(panels);
-  CHECK(tasks.size() >= 16);
-  CHECK(tasks.size() <= 128);
-  Index last = 0;
-  for (const PanelTask& task : tasks) {
-    CHECK(task.begin >= last);
-    CHECK(task.end > task.begin);
-    last = task.end;
-    for (Index p = task.begin; p < task.end; ++p) {
-      const Index parent = panels[static_cast<std::size_t>(p)].parent;
-      const bool is_inside = parent >= task.begin && parent < task.end;
-      const bool is_in_another = std::ranges::any_of(
-          tasks, [&](const PanelTask& other) { return parent >= other.begin && parent < other.end; });
-      CHECK((is_inside || !is_in_another));
+  add(add, depth);
+  return panels;
+}
+
+/// Which stage and task each panel is in, by numbers that grow with the stage; the rest comes last.
+std::vector<std::size_t> places(const std::vector<PanelStage>& stages, std::size_t panel_count) {
+  std::vector<std::size_t> place(panel_count, 1000 * stages.size());
+  for (std::size_t s = 0; s < stages.size(); ++s) {
+    Index last = 0;
+    for (std::size_t i = 0; i < stages[s].size(); ++i) {
+      const PanelTask& task = stages[s][i];
+      CHECK(task.begin >= last);
+      last = task.end;
+      REQUIRE(!task.ranges.empty());
+      Index next = task.begin;
+      for (const PanelRange& range : task.ranges) {
+        CHECK(range.begin >= next);
+        REQUIRE(range.end > range.begin);
+        next = range.end;
+        for (Index p = range.begin; p < range.end; ++p) {
+          CHECK(place[static_cast<std::size_t>(p)] == 1000 * stages.size());  // in no other task
+          place[static_cast<std::size_t>(p)] = 1000 * s + i;
+        }
+      }
+      CHECK(next == task.end);
     }
   }
-  CHECK(last < static_cast<Index>(panels.size()));
+  return place;
+}
+
+}  // namespace
+
+TEST_CASE("tasks are subtrees, and what is above them is in later stages and the rest") {
+  for (const std::int64_t weight : {1000, 100'000}) {
+    const std::vector<PanelShape> panels = binary_tree(9, weight);
+    const std::vector<PanelStage> stages = divide(panels);
+    CHECK(stages.size() == (weight == 1000 ? 1 : 3));  // where panels are small, later stages are not worth it
+    CHECK(stages[0].size() >= 16);
+    CHECK(stages[0].size() <= 128);
+    const std::vector<std::size_t> place = places(stages, panels.size());
+    for (std::size_t p = 0; p < panels.size(); ++p) {
+      if (panels[p].parent < 0) continue;
+      const std::size_t above = place[static_cast<std::size_t>(panels[p].parent)];
+      CHECK((above == place[p] || above / 1000 > place[p] / 1000));
+    }
+    CHECK(place.back() == 1000 * stages.size());
+    CHECK(std::ranges::count(place, 1000 * stages.size()) < (weight == 1000 ? 128 : 8));
+  }
+  std::vector<PanelShape> panels = binary_tree(9, 1000);
   std::swap(panels[0].parent, panels[1].parent);
   panels[3].parent = 1;  // no tree in postorder
   CHECK(divide(panels).empty());

@@ -61,23 +61,23 @@ void GlobalStep::factorize(const LowerMatrix& matrix, Precision precision, std::
   contraction_ = 0;
   factorization_->factorize(matrix);
   times.numeric = watch.lap();
-  fill(matrix, precision);
+  fill(matrix, precision, threads);
   times.repack = watch.lap();
   if (precision == Precision::double_) return;
   contraction_ = estimate_contraction(matrix, threads);
   times.estimate = watch.lap();
   if (contraction_ <= largest_contraction) return;
-  fill(matrix, Precision::double_);
+  fill(matrix, Precision::double_, threads);
   times.repack += watch.lap();
 }
 
 /// The other panels go: both would take half as much memory again.
-void GlobalStep::fill(const LowerMatrix& matrix, Precision precision) {
+void GlobalStep::fill(const LowerMatrix& matrix, Precision precision, ThreadPool& threads) {
   const FactorView factor = factorization_->factor();
   const auto fill_one = [&](auto& panels, auto& others) {
     others.clear();
     if (!panels.is_laid_out()) panels.lay_out(factor);
-    panels.fill(factor, largest_diagonal(matrix));
+    panels.fill(factor, largest_diagonal(matrix), threads);
   };
   precision_ = precision;
   if (precision == Precision::double_) {

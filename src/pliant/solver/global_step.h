@@ -35,7 +35,7 @@ class GlobalStep {
   void describe(SystemInfo& info) const;
 
  private:
-  void fill(const LowerMatrix& matrix, Precision precision);
+  void fill(const LowerMatrix& matrix, Precision precision, ThreadPool& threads);
   Real estimate_contraction(const LowerMatrix& matrix, ThreadPool& threads);
   void correct_means(const Positions& r, Positions& x) const;
 

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Dense>
-
 #include "pliant/core/stopwatch.h"
+#include "pliant/solver/factorization/panel_values.h"
 
 namespace pliant {
 namespace {
@@ -15,6 +14,9 @@ constexpr std::size_t lanes = panel_lanes;
 /// Factors smaller than this are swept by one thread: there is less to gain than handing out costs.
 constexpr std::size_t min_parallel_entries = 60'000;
 
+/// Panels whose values a thread writes in one go.
+constexpr std::size_t panels_together = 8;
+
 std::size_t blocks_of(std::size_t rows) {
   return (rows + lanes - 1) / lanes;
 }
@@ -22,38 +24,6 @@ std::size_t blocks_of(std::size_t rows) {
 std::size_t inverse_size(std::size_t columns) {
   const std::size_t last = blocks_of(columns) - 1;
   return 2 * lanes * last * (last + 1) + lanes * columns;
-}
-
-using Dense = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor>;
-
-/// The inverse of the diagonal block, in the order of the panels.
-template <class T>
-T* write_inverse(const Supernode& s, Real unit, Dense& block, Dense& inverse, T* out) {
-  const Index n = s.columns;
-  block.setZero(n, n);
-  for (Index c = 0; c < n; ++c) std::copy_n(s.column(c), n - c, block.data() + static_cast<std::ptrdiff_t>(c) * n + c);
-  inverse.setIdentity(n, n);
-  block.template triangularView<Eigen::Lower>().solveInPlace(inverse);
-  for (Index first = 0; first < n; first += panel_lanes) {
-    for (Index c = 0; c < std::min(n, first + panel_lanes); ++c) {
-      for (Index r = first; r < first + panel_lanes; ++r) *out++ = r < n && c <= r ? T(inverse(r, c) * unit) : T(0);
-    }
-  }
-  return out;
-}
-
-template <class T>
-T* write_below(const Supernode& s, Real unit, T* out) {
-  const auto below = static_cast<Index>(s.rows_below.size());
-  for (Index first = 0; first < below; first += panel_lanes) {
-    const Index count = std::min<Index>(panel_lanes, below - first);
-    for (Index c = 0; c < s.columns; ++c) {
-      const Real* from = s.column(c) + (s.columns - c) + first;
-      for (Index r = 0; r < count; ++r) *out++ = T(from[r] / unit);
-      for (Index r = count; r < panel_lanes; ++r) *out++ = T(0);
-    }
-  }
-  return out;
 }
 
 /// A power of two about as large as x.
@@ -69,7 +39,8 @@ void PanelFactor<T>::clear() {
   panels_ = {};
   rows_ = {};
   values_ = {};
-  tasks_ = rest_ = {};
+  stages_ = {};
+  rest_ = {};
   outer_rows_ = {};
   x_ = {};
 }
@@ -100,7 +71,7 @@ void PanelFactor<T>::lay_out_panels(const FactorView& factor) {
 }
 
 template <class T>
-void PanelFactor<T>::lay_out_parts(const FactorView& factor) {
+std::vector<PanelShape> PanelFactor<T>::shapes_of(const FactorView& factor) const {
   std::vector<Index> panel_of_column(permutation_.size());
   std::vector<PanelShape> shapes(panels_.size());
   for (std::size_t p = 0; p < panels_.size(); ++p) {
@@ -113,25 +84,49 @@ void PanelFactor<T>::lay_out_parts(const FactorView& factor) {
     const auto& below = factor.supernodes[p].rows_below;
     if (!below.empty()) shapes[p].parent = panel_of_column[static_cast<std::size_t>(below.front())];
   }
-  const auto part_of = [this](std::size_t begin, std::size_t end) {
-    Part part{begin, end};
-    part.column_begin = static_cast<std::size_t>(panels_[begin].first_column);
-    part.column_end = static_cast<std::size_t>(panels_[end - 1].first_column + panels_[end - 1].columns);
-    return part;
-  };
-  std::size_t next = 0;
-  for (const PanelTask& task : divide(shapes)) {
-    const auto begin = static_cast<std::size_t>(task.begin);
-    if (next < begin) rest_.push_back(part_of(next, begin));
-    next = static_cast<std::size_t>(task.end);
-    tasks_.push_back(part_of(begin, next));
+  return shapes;
+}
+
+template <class T>
+typename PanelFactor<T>::Part PanelFactor<T>::part_of(std::size_t begin, std::size_t end) const {
+  const Panel& last = panels_[end - 1];
+  return {begin, end, static_cast<std::size_t>(panels_[begin].first_column),
+          static_cast<std::size_t>(last.first_column + last.columns)};
+}
+
+template <class T>
+void PanelFactor<T>::lay_out_parts(const FactorView& factor) {
+  std::vector<char> is_in_task(panels_.size(), 0);
+  for (const PanelStage& from : divide(shapes_of(factor))) {
+    Stage& stage = stages_.emplace_back();
+    for (const PanelTask& panels : from) {
+      Task& task = stage.emplace_back();
+      for (const PanelRange& range : panels.ranges) {
+        task.parts.push_back(part_of(static_cast<std::size_t>(range.begin), static_cast<std::size_t>(range.end)));
+        std::fill(is_in_task.begin() + range.begin, is_in_task.begin() + range.end, char{1});
+      }
+      task.column_end = static_cast<Index>(task.parts.back().column_end);
+    }
   }
-  if (next < panels_.size()) rest_.push_back(part_of(next, panels_.size()));
+  for (std::size_t begin = 0, end; begin < panels_.size(); begin = end) {
+    for (end = begin; end < panels_.size() && is_in_task[end] == is_in_task[begin];) ++end;
+    if (!is_in_task[begin]) rest_.push_back(part_of(begin, end));
+  }
   std::vector<Index> place_of_row(permutation_.size());
-  for (Part& part : tasks_) lay_out_task_rows(factor, part, place_of_row);
-  const auto nobodys = static_cast<Index>(permutation_.size() + outer_rows_.size() + tasks_.size());
+  std::size_t tasks = 0;
+  for (Stage& stage : stages_) {
+    for (Task& task : stage) lay_out_task_rows(factor, task, tasks++, place_of_row);
+  }
+  const auto nobodys = static_cast<Index>(permutation_.size() + outer_rows_.size() + tasks);
   for (const Part& part : rest_) lay_out_rows(factor, part, nobodys, [](Index row) { return row; });
   x_.assign(lanes * (static_cast<std::size_t>(nobodys) + 1), T(0));
+}
+
+template <class T>
+Index PanelFactor<T>::task_count() const {
+  std::size_t count = 0;
+  for (const Stage& stage : stages_) count += stage.size();
+  return static_cast<Index>(count);
 }
 
 /// Writes the rows of x for the panels of a part: those that `place_of` gives, and one that fills up blocks.
@@ -146,36 +141,42 @@ void PanelFactor<T>::lay_out_rows(const FactorView& factor, const Part& part, In
 }
 
 template <class T>
-void PanelFactor<T>::lay_out_task_rows(const FactorView& factor, Part& part, std::vector<Index>& place_of_row) {
-  const auto end = static_cast<Index>(part.column_end);
-  part.outer_begin = outer_rows_.size();
-  for (std::size_t p = part.panel_begin; p < part.panel_end; ++p) {
-    const auto& below = factor.supernodes[p].rows_below;
-    outer_rows_.insert(outer_rows_.end(), std::ranges::lower_bound(below, end), below.end());
+void PanelFactor<T>::lay_out_task_rows(const FactorView& factor, Task& task, std::size_t tasks_before,
+                                       std::vector<Index>& place_of_row) {
+  const Index end = task.column_end;
+  task.outer_begin = outer_rows_.size();
+  for (const Part& part : task.parts) {
+    for (std::size_t p = part.panel_begin; p < part.panel_end; ++p) {
+      const auto& below = factor.supernodes[p].rows_below;
+      outer_rows_.insert(outer_rows_.end(), std::ranges::lower_bound(below, end), below.end());
+    }
   }
-  const auto first = outer_rows_.begin() + static_cast<std::ptrdiff_t>(part.outer_begin);
+  const auto first = outer_rows_.begin() + static_cast<std::ptrdiff_t>(task.outer_begin);
   std::sort(first, outer_rows_.end());
   outer_rows_.erase(std::unique(first, outer_rows_.end()), outer_rows_.end());
-  part.outer_end = outer_rows_.size();
-  const auto tasks_before = static_cast<std::size_t>(&part - tasks_.data());
-  part.own_rows = permutation_.size() + part.outer_begin + tasks_before;
-  for (std::size_t k = part.outer_begin; k < part.outer_end; ++k) {
-    place_of_row[static_cast<std::size_t>(outer_rows_[k])] = static_cast<Index>(part.own_rows + k - part.outer_begin);
+  task.outer_end = outer_rows_.size();
+  task.own_rows = permutation_.size() + task.outer_begin + tasks_before;
+  for (std::size_t k = task.outer_begin; k < task.outer_end; ++k) {
+    place_of_row[static_cast<std::size_t>(outer_rows_[k])] = static_cast<Index>(task.own_rows + k - task.outer_begin);
   }
-  const auto nobodys = static_cast<Index>(part.own_rows + part.outer_end - part.outer_begin);
-  lay_out_rows(factor, part, nobodys,
-               [&](Index row) { return row < end ? row : place_of_row[static_cast<std::size_t>(row)]; });
+  const auto nobodys = static_cast<Index>(task.own_rows + task.outer_end - task.outer_begin);
+  const auto place_of = [&](Index row) { return row < end ? row : place_of_row[static_cast<std::size_t>(row)]; };
+  for (const Part& part : task.parts) lay_out_rows(factor, part, nobodys, place_of);
 }
 
 template <class T>
-void PanelFactor<T>::fill(const FactorView& factor, Real largest_diagonal) {
+void PanelFactor<T>::fill(const FactorView& factor, Real largest_diagonal, ThreadPool& threads) {
   unit_ = power_of_two(std::sqrt(largest_diagonal));
-  Dense block, inverse;
-  for (std::size_t p = 0; p < panels_.size(); ++p) {
-    const Supernode& s = factor.supernodes[p];
-    T* out = values_.data() + panels_[p].first_value;
-    write_below(s, unit_, write_inverse(s, unit_, block, inverse, out));
-  }
+  std::vector<std::vector<Real>> work(static_cast<std::size_t>(threads.thread_count()));
+  // From the last panels, the largest, down, so that no thread is left with a large one at the end.
+  const auto runs = static_cast<Index>((panels_.size() + panels_together - 1) / panels_together);
+  threads.parallel_for(runs, [&](Index run, int thread) {
+    const std::size_t begin = panels_together * static_cast<std::size_t>(runs - 1 - run);
+    for (std::size_t p = begin; p < std::min(panels_.size(), begin + panels_together); ++p) {
+      T* const out = values_.data() + panels_[p].first_value;
+      write_panel(factor.supernodes[p], unit_, work[static_cast<std::size_t>(thread)], out);
+    }
+  });
 }
 
 template <class T>
@@ -186,33 +187,49 @@ SolveTimes PanelFactor<T>::solve(const Positions& b, Real scale, Positions& x, T
     return times;
   }
   Stopwatch watch;
-  const auto for_each_task = [&](auto&& body) {
-    const auto count = static_cast<Index>(tasks_.size());
-    const auto run = [&](Index i) { body(tasks_[static_cast<std::size_t>(i)]); };
-    if (values_.size() >= min_parallel_entries) {
-      threads.parallel_for(count, run);
-    } else {
-      for (Index i = 0; i < count; ++i) run(i);
-    }
-  };
   const Real unit = power_of_two(scale);
-  for_each_task([&](const Part& part) {
-    load(part, b, 1 / unit);
-    forward(part);
-  });
-  for (const Part& part : rest_) load(part, b, 1 / unit);
-  for (const Part& part : tasks_) add_outer_rows(part);
-  for (const Part& part : rest_) forward(part);
+  const auto load_all = [&](const std::vector<Part>& parts) {
+    for (const Part& part : parts) load(part, b, 1 / unit);
+  };
+  for (std::size_t s = 0; s < stages_.size(); ++s) {
+    for_each_task(stages_[s], threads, [&](const Task& task) {
+      if (s == 0) load_all(task.parts);
+      forward(task);
+    });
+    for (std::size_t later = 1; s == 0 && later < stages_.size(); ++later) {
+      for (const Task& task : stages_[later]) load_all(task.parts);
+    }
+    if (s == 0) load_all(rest_);
+    for (const Task& task : stages_[s]) add_outer_rows(task);
+  }
+  if (stages_.empty()) load_all(rest_);
+  for (const Part& part : rest_) sweeps_.forward(sweep_data(), part.panel_begin, part.panel_end);
   times.forward = watch.lap();
   const Real factor = unit / (unit_ * unit_);
-  for (std::size_t i = rest_.size(); i-- > 0;) backward(rest_[i]);
+  for (auto part = rest_.rbegin(); part != rest_.rend(); ++part) {
+    sweeps_.backward(sweep_data(), part->panel_begin, part->panel_end);
+  }
   for (const Part& part : rest_) store(part, x, factor);
-  for_each_task([&](const Part& part) {
-    backward(part);
-    store(part, x, factor);
-  });
+  for (std::size_t s = stages_.size(); s-- > 0;) {
+    for_each_task(stages_[s], threads, [&](const Task& task) {
+      backward(task);
+      for (const Part& part : task.parts) store(part, x, factor);
+    });
+  }
   times.backward = watch.lap();
   return times;
+}
+
+template <class T>
+template <class Body>
+void PanelFactor<T>::for_each_task(const Stage& stage, ThreadPool& threads, Body&& body) {
+  const auto count = static_cast<Index>(stage.size());
+  const auto run = [&](Index i) { body(stage[static_cast<std::size_t>(i)]); };
+  if (values_.size() >= min_parallel_entries) {
+    threads.parallel_for(count, run);
+  } else {
+    for (Index i = 0; i < count; ++i) run(i);
+  }
 }
 
 template <class T>
@@ -234,30 +251,31 @@ void PanelFactor<T>::store(const Part& part, Positions& x, Real factor) const {
 }
 
 template <class T>
-void PanelFactor<T>::forward(const Part& part) {
-  const std::size_t outer_count = part.outer_end - part.outer_begin;
-  if (part.own_rows > 0)
-    std::fill_n(x_.begin() + static_cast<std::ptrdiff_t>(lanes * part.own_rows), lanes * outer_count, T(0));
-  sweeps_.forward({panels_.data(), rows_.data(), values_.data(), x_.data()}, part.panel_begin, part.panel_end);
+void PanelFactor<T>::forward(const Task& task) {
+  const auto own = x_.begin() + static_cast<std::ptrdiff_t>(lanes * task.own_rows);
+  std::fill_n(own, lanes * (task.outer_end - task.outer_begin), T(0));
+  for (const Part& part : task.parts) sweeps_.forward(sweep_data(), part.panel_begin, part.panel_end);
 }
 
 template <class T>
-void PanelFactor<T>::add_outer_rows(const Part& part) {
-  const T* from = x_.data() + lanes * part.own_rows;
-  for (std::size_t k = part.outer_begin; k < part.outer_end; ++k) {
+void PanelFactor<T>::add_outer_rows(const Task& task) {
+  const T* from = x_.data() + lanes * task.own_rows;
+  for (std::size_t k = task.outer_begin; k < task.outer_end; ++k) {
     T* to = x_.data() + lanes * static_cast<std::size_t>(outer_rows_[k]);
     for (std::size_t lane = 0; lane < lanes; ++lane) to[lane] += *from++;
   }
 }
 
 template <class T>
-void PanelFactor<T>::backward(const Part& part) {
-  T* to = x_.data() + lanes * part.own_rows;
-  for (std::size_t k = part.outer_begin; k < part.outer_end; ++k) {
+void PanelFactor<T>::backward(const Task& task) {
+  T* to = x_.data() + lanes * task.own_rows;
+  for (std::size_t k = task.outer_begin; k < task.outer_end; ++k) {
     const T* from = x_.data() + lanes * static_cast<std::size_t>(outer_rows_[k]);
     for (std::size_t lane = 0; lane < lanes; ++lane) *to++ = from[lane];
   }
-  sweeps_.backward({panels_.data(), rows_.data(), values_.data(), x_.data()}, part.panel_begin, part.panel_end);
+  for (auto part = task.parts.rbegin(); part != task.parts.rend(); ++part) {
+    sweeps_.backward(sweep_data(), part->panel_begin, part->panel_end);
+  }
 }
 
 template class PanelFactor<float>;

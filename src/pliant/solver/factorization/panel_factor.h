@@ -14,9 +14,9 @@
 // read the values of a panel from the first to the last. All three coordinates of a vertex, and a zero, go through a
 // sweep together in four lanes, so each value is read once a sweep and serves three right-hand sides.
 //
-// Subtrees of the elimination tree (panel_tasks.h) are swept at the same time. What one of them subtracts from rows
-// that are not its own goes to rows of x that it has for itself, and is added afterwards in the order of the subtrees:
-// the bits do not depend on the number of threads.
+// Subtrees of the elimination tree (panel_tasks.h) are swept at the same time, in stages. What one of them subtracts
+// from rows that are not its own goes to rows of x that it has for itself, and is added after its stage in the order of
+// the subtrees: the bits do not depend on the number of threads.
 #include "pliant/core/aligned.h"
 #include "pliant/core/thread_pool.h"
 #include "pliant/solver/factorization/panel_tasks.h"
@@ -37,7 +37,7 @@ class PanelFactor {
   /// Finds where everything goes; the values of the factor do not matter.
   void lay_out(const FactorView& factor);
   /// Takes over the values of a factor with the same supernodes. They are at most √largest_diagonal.
-  void fill(const FactorView& factor, Real largest_diagonal);
+  void fill(const FactorView& factor, Real largest_diagonal, ThreadPool& threads);
   /// Gives all memory back.
   void clear();
 
@@ -47,7 +47,9 @@ class PanelFactor {
 
   bool is_laid_out() const { return !panels_.empty(); }
   Index panel_count() const { return static_cast<Index>(panels_.size()); }
-  Index task_count() const { return static_cast<Index>(tasks_.size()); }
+  Index stage_count() const { return static_cast<Index>(stages_.size()); }
+  /// Of all stages.
+  Index task_count() const;
   /// Stored entries of L, the zeros that panels carry along included.
   std::size_t entry_count() const { return values_.size(); }
   /// What one sweep reads besides x: values, rows and panels.
@@ -56,32 +58,44 @@ class PanelFactor {
   }
 
  private:
-  /// Panels that are swept in one go, and their part of x.
+  /// Panels that follow each other, and their columns.
   struct Part {
     std::size_t panel_begin = 0, panel_end = 0;
     std::size_t column_begin = 0, column_end = 0;
+  };
+  /// What is swept in one go. Rows of other tasks, of later stages or the rest, it has for itself.
+  struct Task {
+    std::vector<Part> parts;
+    Index column_end = 0;                        // of its subtrees: rows below belong to others from here on
     std::size_t outer_begin = 0, outer_end = 0;  // in outer_rows_
     std::size_t own_rows = 0;                    // of x: one for each outer row, then one that nobody reads
   };
+  using Stage = std::vector<Task>;
 
   void lay_out_panels(const FactorView& factor);
   void lay_out_parts(const FactorView& factor);
+  Part part_of(std::size_t begin, std::size_t end) const;
+  std::vector<PanelShape> shapes_of(const FactorView& factor) const;
   template <class PlaceOf>
   void lay_out_rows(const FactorView& factor, const Part& part, Index nobodys, PlaceOf&& place_of);
-  void lay_out_task_rows(const FactorView& factor, Part& part, std::vector<Index>& place_of_row);
+  void lay_out_task_rows(const FactorView& factor, Task& task, std::size_t tasks_before,
+                         std::vector<Index>& place_of_row);
+  template <class Body>
+  void for_each_task(const Stage& stage, ThreadPool& threads, Body&& body);
   void load(const Part& part, const Positions& b, Real factor);
   void store(const Part& part, Positions& x, Real factor) const;
-  void forward(const Part& part);
-  void add_outer_rows(const Part& part);
-  void backward(const Part& part);
+  void forward(const Task& task);
+  void add_outer_rows(const Task& task);
+  void backward(const Task& task);
+  SweepData<T> sweep_data() { return {panels_.data(), rows_.data(), values_.data(), x_.data()}; }
 
   const Sweeps<T>& sweeps_;
   std::vector<Index> permutation_;
   std::vector<Panel> panels_;
   std::vector<Index> rows_;  // of x, in blocks of four
   AlignedVector<T> values_;
-  Real unit_ = 1;  // L is stored as L / unit_, a power of two
-  std::vector<Part> tasks_;
+  Real unit_ = 1;                  // L is stored as L / unit_, a power of two
+  std::vector<Stage> stages_;      // each swept after the one before it, on the way forward
   std::vector<Part> rest_;         // runs of panels that belong to no task
   std::vector<Index> outer_rows_;  // of all tasks
   AlignedVector<T> x_;

@@ -1,15 +1,20 @@
 #include "pliant/solver/factorization/panel_tasks.h"
 
 #include <algorithm>
+#include <array>
 #include <queue>
+#include <utility>
 
 namespace pliant {
 namespace {
 
 // A task shall take several times as long as handing it out (a microsecond), and there shall be enough of them for
-// many threads to be busy all the time.
+// many threads to be busy all the time. Each level of a dissection has about as many entries as any other, so the
+// levels above 64 subtrees hold a good part of a factor; they are taken on in stages with fewer and larger subtrees,
+// where a stage is worth the wait for all threads that lies before it.
 constexpr std::int64_t min_task_weight = 20'000;
-constexpr std::int64_t wanted_tasks = 64;
+constexpr std::array<std::int64_t, 3> tasks_wanted = {64, 16, 4};
+constexpr std::int64_t min_stage_weight = 400'000;
 
 /// Subtrees of panels in postorder.
 struct Subtrees {
@@ -40,8 +45,9 @@ Subtrees find_subtrees(const std::vector<PanelShape>& panels) {
   return trees;
 }
 
-/// The roots of the subtrees that are left when the heaviest ones are taken apart, in ascending order.
-std::vector<Index> choose_roots(const std::vector<PanelShape>& panels, const Subtrees& trees) {
+/// The roots of the subtrees that are left when the heaviest ones are taken apart until each has at most its share of
+/// the whole, in ascending order.
+std::vector<Index> choose_roots(const std::vector<PanelShape>& panels, const Subtrees& trees, std::int64_t shares) {
   std::vector<std::vector<Index>> children(panels.size());
   const auto lighter = [&](Index a, Index b) {
     return std::pair(trees.weight[static_cast<std::size_t>(a)], -a) <
@@ -57,7 +63,7 @@ std::vector<Index> choose_roots(const std::vector<PanelShape>& panels, const Sub
       children[static_cast<std::size_t>(panels[p].parent)].push_back(static_cast<Index>(p));
     }
   }
-  const std::int64_t small_enough = std::max(min_task_weight, total / wanted_tasks);
+  const std::int64_t small_enough = std::max(min_task_weight, total / shares);
   while (!queue.empty() && trees.weight[static_cast<std::size_t>(queue.top())] > small_enough) {
     const Index root = queue.top();
     queue.pop();
@@ -69,26 +75,69 @@ std::vector<Index> choose_roots(const std::vector<PanelShape>& panels, const Sub
   return roots;
 }
 
-}  // namespace
-
-std::vector<PanelTask> divide(const std::vector<PanelShape>& panels) {
-  const Subtrees trees = find_subtrees(panels);
-  if (!trees.is_postordered) return {};
-  std::vector<PanelTask> tasks;
-  std::int64_t weight = 0;  // of the last task
-  for (const Index root : choose_roots(panels, trees)) {
-    const auto place = static_cast<std::size_t>(root);
-    const PanelTask task{trees.first[place], root + 1};
-    const bool is_next = !tasks.empty() && tasks.back().end == task.begin;
-    if (is_next && weight + trees.weight[place] <= min_task_weight) {
-      tasks.back().end = task.end;
-      weight += trees.weight[place];
+/// The panels of [begin, end) that are not taken; takes them.
+std::vector<PanelRange> take(Index begin, Index end, std::vector<char>& is_taken) {
+  std::vector<PanelRange> ranges;
+  for (Index p = begin; p < end; ++p) {
+    char& taken = is_taken[static_cast<std::size_t>(p)];
+    if (taken != 0) continue;
+    taken = 1;
+    if (!ranges.empty() && ranges.back().end == p) {
+      ++ranges.back().end;
     } else {
-      tasks.push_back(task);
-      weight = trees.weight[place];
+      ranges.push_back({p, p + 1});
     }
   }
-  return tasks;
+  return ranges;
+}
+
+std::int64_t weight_of(const std::vector<PanelShape>& panels, const std::vector<PanelRange>& ranges) {
+  std::int64_t weight = 0;
+  for (const PanelRange& range : ranges) {
+    for (Index p = range.begin; p < range.end; ++p) weight += panels[static_cast<std::size_t>(p)].weight;
+  }
+  return weight;
+}
+
+/// Tasks of the subtrees below these roots, small neighbours in one. Takes their panels; returns their weight as well.
+std::pair<PanelStage, std::int64_t> make_stage(const std::vector<PanelShape>& panels, const Subtrees& trees,
+                                               const std::vector<Index>& roots, std::vector<char>& is_taken) {
+  PanelStage stage;
+  std::int64_t last = 0;  // weight of the last task
+  std::int64_t all = 0;
+  for (const Index root : roots) {
+    PanelTask task{trees.first[static_cast<std::size_t>(root)], root + 1, {}};
+    task.ranges = take(task.begin, task.end, is_taken);
+    if (task.ranges.empty()) continue;
+    const std::int64_t weight = weight_of(panels, task.ranges);
+    all += weight;
+    if (!stage.empty() && stage.back().end == task.begin && last + weight <= min_task_weight) {
+      last += weight;
+      stage.back().end = task.end;
+      stage.back().ranges.insert(stage.back().ranges.end(), task.ranges.begin(), task.ranges.end());
+    } else {
+      last = weight;
+      stage.push_back(std::move(task));
+    }
+  }
+  return {std::move(stage), all};
+}
+
+}  // namespace
+
+std::vector<PanelStage> divide(const std::vector<PanelShape>& panels) {
+  const Subtrees trees = find_subtrees(panels);
+  if (!trees.is_postordered) return {};
+  std::vector<PanelStage> stages;
+  std::vector<char> is_taken(panels.size(), 0);
+  for (const std::int64_t shares : tasks_wanted) {
+    std::vector<char> taken = is_taken;
+    auto [stage, weight] = make_stage(panels, trees, choose_roots(panels, trees, shares), taken);
+    if (stage.empty() || (!stages.empty() && (stage.size() < 2 || weight < min_stage_weight))) continue;
+    is_taken = std::move(taken);
+    stages.push_back(std::move(stage));
+  }
+  return stages;
 }
 
 }  // namespace pliant

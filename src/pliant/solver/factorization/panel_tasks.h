@@ -13,15 +13,26 @@ struct PanelShape {
   std::int64_t weight = 0;
 };
 
-/// Panels [begin, end): subtrees that follow each other. Their rows below that are not their own belong to the rest.
-struct PanelTask {
+/// Panels [begin, end).
+struct PanelRange {
   Index begin = 0;
   Index end = 0;
 };
 
-/// Divides the panels into tasks and a rest, which comes after them on the way forward and before them on the way back.
-/// Depends on the factor alone, never on the number of threads. Where panels do not stand in postorder, there are no
-/// tasks.
-std::vector<PanelTask> divide(const std::vector<PanelShape>& panels);
+/// Subtrees that follow each other, panels [begin, end) in all, without what tasks of earlier stages have of them. Rows
+/// below that are not in the subtrees belong to later stages and to the rest.
+struct PanelTask {
+  Index begin = 0;
+  Index end = 0;
+  std::vector<PanelRange> ranges;
+};
+
+/// Tasks that can be swept at the same time.
+using PanelStage = std::vector<PanelTask>;
+
+/// Divides the panels into stages and a rest. On the way forward each stage comes after the one before it, and the rest
+/// after them all; on the way back it is the other way round. Depends on the factor alone, never on the number of
+/// threads. Where panels do not stand in postorder, there are no stages.
+std::vector<PanelStage> divide(const std::vector<PanelShape>& panels);
 
 }  // namespace pliant
