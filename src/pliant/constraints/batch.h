@@ -30,9 +30,6 @@ namespace pliant {
 
 inline constexpr int dynamic_vertices = -1;
 
-/// The system matrix has an entry for every two vertices of a constraint.
-inline constexpr int max_stencil = 4096;
-
 /// Throws Error(input) on coefficients that do not sum to zero, of a type that says that they do.
 void check_sum_of_row(std::string_view type, std::span<const Real> coefficients);
 

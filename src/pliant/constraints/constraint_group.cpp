@@ -63,6 +63,10 @@ void check_lengths(const ConstraintGroup& group, const std::string& where) {
   if (shape.count < 0 || shape.vertices < 1 || shape.rows < 1) {
     fail_input(where + ": its shape has no vertices, no rows or a negative count; mend shape()");
   }
+  if (shape.vertices > max_stencil) {
+    fail_input(fmt::format("{}: its constraints have {} vertices, of {} at most; split them", where, shape.vertices,
+                           max_stencil));
+  }
   if (shape.rows > max_reduction_rows) {
     fail_input(fmt::format("{}: its reductions have {} rows, of {} at most; split the constraint", where, shape.rows,
                            max_reduction_rows));

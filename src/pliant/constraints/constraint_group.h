@@ -12,12 +12,14 @@
 
 namespace pliant {
 
+/// The system matrix has an entry for every two vertices of a constraint.
+inline constexpr int max_stencil = 4096;
 /// The local step holds the rows of a constraint in the cache.
 inline constexpr int max_reduction_rows = 4096;
 
 struct GroupShape {
   Index count = 0;   ///< constraints
-  int vertices = 1;  ///< n, the size of a stencil
+  int vertices = 1;  ///< n, the size of a stencil, at most max_stencil
   int rows = 1;      ///< k, the rows of a reduction, at most max_reduction_rows
 };
 

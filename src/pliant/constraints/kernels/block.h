@@ -29,9 +29,7 @@ struct Block : LaneMath<width> {
       energy += Math::select(is_left, Number{}, more);
     }
     LocalDone done(std::size_t vectors) const {
-      LocalDone result;
-      result.count = vectors * width;
-      result.energy = Math::sum(energy);
+      LocalDone result{vectors * width, 0, Math::sum(energy)};
       if (!Math::any(any_left)) return result;
       for (std::size_t i = 0; i < vectors; ++i) result.left |= Math::bits(left[i]) << (i * width);
       return result;
