@@ -15,6 +15,7 @@ ThreadPool::ThreadPool(int threads) {
   }
   if (threads == 0) threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   workers_.reserve(static_cast<std::size_t>(threads - 1));
+  shares_ = std::vector<Share>(static_cast<std::size_t>(threads));
   try {
     for (int i = 1; i < threads; ++i) workers_.emplace_back([this, i] { work(i); });
   } catch (const std::system_error&) {
@@ -39,7 +40,12 @@ void ThreadPool::run(Index count, void* context, Call call) {
   count_ = count;
   context_ = context;
   call_ = call;
-  next_.store(0, std::memory_order_relaxed);
+  const auto share_count = static_cast<std::int64_t>(shares_.size());
+  for (std::int64_t t = 0; t < share_count; ++t) {
+    Share& share = shares_[static_cast<std::size_t>(t)];
+    share.next.store(static_cast<Index>(count * t / share_count), std::memory_order_relaxed);
+    share.end = static_cast<Index>(count * (t + 1) / share_count);
+  }
   busy_workers_.store(static_cast<int>(workers_.size()), std::memory_order_relaxed);
   generation_.fetch_add(1, std::memory_order_release);
   generation_.notify_all();
@@ -50,9 +56,15 @@ void ThreadPool::run(Index count, void* context, Call call) {
 
 void ThreadPool::take_iterations(int thread) {
   try {
-    for (Index i; (i = next_.fetch_add(1, std::memory_order_relaxed)) < count_;) call_(context_, i, thread);
+    for (std::size_t k = 0; k < shares_.size(); ++k) {
+      Share& share = shares_[(static_cast<std::size_t>(thread) + k) % shares_.size()];
+      while (share.next.load(std::memory_order_relaxed) < share.end) {
+        const Index i = share.next.fetch_add(1, std::memory_order_relaxed);
+        if (i < share.end) call_(context_, i, thread);
+      }
+    }
   } catch (...) {
-    next_.store(count_, std::memory_order_relaxed);
+    for (Share& share : shares_) share.next.store(share.end, std::memory_order_relaxed);
     const std::lock_guard lock(failure_mutex_);
     if (!failure_) failure_ = std::current_exception();
   }

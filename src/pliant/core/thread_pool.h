@@ -1,6 +1,7 @@
 #pragma once
 // Threads for loops whose iterations write to places of their own. Which thread runs which iteration is left open, so
-// a loop body must not depend on it; sums are made afterwards, in the order of the iterations.
+// a loop body must not depend on it; sums are made afterwards, in the order of the iterations. Every thread begins with
+// the same share of a loop each time, so that what it reads again and again stays in its cache, and then helps others.
 #include <atomic>
 #include <exception>
 #include <mutex>
@@ -38,6 +39,11 @@ class ThreadPool {
 
  private:
   using Call = void (*)(void* context, Index i, int thread);
+  /// The iterations that a thread begins with, on a cache line of its own.
+  struct alignas(64) Share {
+    std::atomic<Index> next{0};
+    Index end = 0;
+  };
 
   template <class Body>
   static void invoke(Body& body, Index i, int thread) {
@@ -55,7 +61,7 @@ class ThreadPool {
 
   std::vector<std::thread> workers_;
   std::atomic<std::uint32_t> generation_{0};  // one more for every loop, and once more to stop
-  std::atomic<Index> next_{0};
+  std::vector<Share> shares_;
   std::atomic<int> busy_workers_{0};
   bool stop_ = false;  // this and the rest are written before generation_ is raised
   Index count_ = 0;

@@ -58,6 +58,7 @@ void GlobalStep::factorize(const LowerMatrix& matrix, Precision precision, std::
   Stopwatch watch;
   weights_ = weights;
   parts_ = &parts;
+  correction_.resize(parts.count() == 0 ? 0 : matrix.size(), 3);
   contraction_ = 0;
   factorization_->factorize(matrix);
   times.numeric = watch.lap();
@@ -87,10 +88,23 @@ void GlobalStep::fill(const LowerMatrix& matrix, Precision precision, ThreadPool
   }
 }
 
+template <class Visit>
+auto GlobalStep::visit_panels(Visit&& visit) {
+  return precision_ == Precision::double_ ? visit(double_) : visit(single_);
+}
+
 SolveTimes GlobalStep::solve(const Positions& r, Real largest, Positions& x, ThreadPool& threads) {
-  const SolveTimes times =
-      precision_ == Precision::double_ ? double_.solve(r, largest, x, threads) : single_.solve(r, largest, x, threads);
+  const SolveTimes times = visit_panels([&](auto& panels) { return panels.solve(r, largest, x, threads); });
   correct_means(r, x);
+  return times;
+}
+
+SolveTimes GlobalStep::move(const Positions& r, Real largest, Positions& q, ThreadPool& threads) {
+  if (parts_->count() == 0) {
+    return visit_panels([&](auto& panels) { return panels.solve(r, largest, q, threads, Store::onto); });
+  }
+  const SolveTimes times = solve(r, largest, correction_, threads);
+  q += correction_;
   return times;
 }
 

@@ -26,6 +26,8 @@ class GlobalStep {
 
   /// r, x: m × 3. largest: about the largest number in r. Never allocates.
   SolveTimes solve(const Positions& r, Real largest, Positions& x, ThreadPool& threads);
+  /// q ← q + x, the same.
+  SolveTimes move(const Positions& r, Real largest, Positions& q, ThreadPool& threads);
 
   /// Of the panels in use: `double_` when those in single precision would not do.
   Precision precision() const { return precision_; }
@@ -37,6 +39,8 @@ class GlobalStep {
  private:
   void fill(const LowerMatrix& matrix, Precision precision, ThreadPool& threads);
   Real estimate_contraction(const LowerMatrix& matrix, ThreadPool& threads);
+  template <class Visit>
+  auto visit_panels(Visit&& visit);
   void correct_means(const Positions& r, Positions& x) const;
 
   std::unique_ptr<Factorization> factorization_;
@@ -46,6 +50,7 @@ class GlobalStep {
   Real contraction_ = 0;
   std::span<const Real> weights_;
   const FreeParts* parts_ = nullptr;
+  Positions correction_;              // of free parts
   Positions trial_, image_, solved_;  // of the estimate
 };
 

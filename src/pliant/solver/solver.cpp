@@ -51,7 +51,7 @@ void Solver::set_groups(Index vertex_count, std::vector<ConstraintGroup*> groups
   groups_ = std::move(groups);
   groups_laid_out_ = false;
   if (s_.rows() == vertex_count) return;
-  for (Positions* x : {&force_, &s_, &q_, &residual_, &correction_}) x->setZero(vertex_count, 3);
+  for (Positions* x : {&force_, &s_, &q_, &residual_}) x->setZero(vertex_count, 3);
   predicted_time_step_ = 0;
 }
 

@@ -95,7 +95,7 @@ class Solver {
   FreeParts free_parts_;
   std::vector<Real> inertia_weights_;  // M/h², 0 at held vertices
   Real predicted_time_step_ = 0;       // h of s_; 0: s_ does not belong to the state
-  Positions force_, s_, q_, residual_, correction_;
+  Positions force_, s_, q_, residual_;
   std::vector<Real> history_;
 };
 

@@ -33,8 +33,7 @@ StepReport Solver::step(State& state) {
     if (report.reached_tolerance) break;
 
     const Stopwatch global;
-    /* 6 */ report.solves += global_step_.solve(residual_, found.residual, correction_, *threads_);
-    q_ += correction_;
+    /* 6 */ report.solves += global_step_.move(residual_, found.residual, q_, *threads_);
     ++report.iterations;
     report.seconds_global += global.seconds();
   }

@@ -180,10 +180,10 @@ void PanelFactor<T>::fill(const FactorView& factor, Real largest_diagonal, Threa
 }
 
 template <class T>
-SolveTimes PanelFactor<T>::solve(const Positions& b, Real scale, Positions& x, ThreadPool& threads) {
+SolveTimes PanelFactor<T>::solve(const Positions& b, Real scale, Positions& x, ThreadPool& threads, Store how) {
   SolveTimes times;
   if (!(scale > 0)) {
-    x.setZero();
+    if (how == Store::over) x.setZero();
     return times;
   }
   Stopwatch watch;
@@ -209,11 +209,11 @@ SolveTimes PanelFactor<T>::solve(const Positions& b, Real scale, Positions& x, T
   for (auto part = rest_.rbegin(); part != rest_.rend(); ++part) {
     sweeps_.backward(sweep_data(), part->panel_begin, part->panel_end);
   }
-  for (const Part& part : rest_) store(part, x, factor);
+  for (const Part& part : rest_) store(part, x, factor, how);
   for (std::size_t s = stages_.size(); s-- > 0;) {
     for_each_task(stages_[s], threads, [&](const Task& task) {
       backward(task);
-      for (const Part& part : task.parts) store(part, x, factor);
+      for (const Part& part : task.parts) store(part, x, factor, how);
     });
   }
   times.backward = watch.lap();
@@ -242,11 +242,14 @@ void PanelFactor<T>::load(const Part& part, const Positions& b, Real factor) {
 }
 
 template <class T>
-void PanelFactor<T>::store(const Part& part, Positions& x, Real factor) const {
+void PanelFactor<T>::store(const Part& part, Positions& x, Real factor, Store how) const {
   for (std::size_t i = part.column_begin; i < part.column_end; ++i) {
     const T* from = x_.data() + lanes * i;
     Real* to = x.data() + 3 * static_cast<std::ptrdiff_t>(permutation_[i]);
-    for (std::size_t axis = 0; axis < 3; ++axis) to[axis] = static_cast<Real>(from[axis]) * factor;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const Real number = static_cast<Real>(from[axis]) * factor;
+      to[axis] = how == Store::over ? number : to[axis] + number;
+    }
   }
 }
 

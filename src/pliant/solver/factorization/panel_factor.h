@@ -27,6 +27,9 @@
 namespace pliant {
 
 /// Panels of `T`, float or double.
+/// What becomes of the numbers that a solution is stored to.
+enum class Store { over, onto };
+
 template <class T>
 class PanelFactor {
  public:
@@ -41,9 +44,9 @@ class PanelFactor {
   /// Gives all memory back.
   void clear();
 
-  /// Solves L Lᵀ x = b in the order of the vertices (m × 3 each). `scale`: about the largest number in b; x is zero
-  /// where that is zero. Never allocates.
-  SolveTimes solve(const Positions& b, Real scale, Positions& x, ThreadPool& threads);
+  /// Solves L Lᵀ x = b in the order of the vertices (m × 3 each), or adds that x to what `x` holds. `scale`: about the
+  /// largest number in b; the solution is zero where that is zero. Never allocates.
+  SolveTimes solve(const Positions& b, Real scale, Positions& x, ThreadPool& threads, Store how = Store::over);
 
   bool is_laid_out() const { return !panels_.empty(); }
   Index panel_count() const { return static_cast<Index>(panels_.size()); }
@@ -83,7 +86,7 @@ class PanelFactor {
   template <class Body>
   void for_each_task(const Stage& stage, ThreadPool& threads, Body&& body);
   void load(const Part& part, const Positions& b, Real factor);
-  void store(const Part& part, Positions& x, Real factor) const;
+  void store(const Part& part, Positions& x, Real factor, Store how) const;
   void forward(const Task& task);
   void add_outer_rows(const Task& task);
   void backward(const Task& task);
