@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <random>
 
 #include "pliant/core/printable.h"
 #include "pliant/pliant.h"
@@ -34,10 +36,52 @@ Positions deformed(const Positions& rest, Real extent) {
   return x;
 }
 
+/// The number that each vertex of a mesh gets: a permutation that is the same on every machine.
+std::vector<Index> shuffled_numbers(Index count) {
+  std::vector<Index> numbers(static_cast<std::size_t>(count));
+  std::iota(numbers.begin(), numbers.end(), 0);
+  std::mt19937 random(1);
+  for (std::size_t i = numbers.size(); i > 1; --i) std::swap(numbers[i - 1], numbers[random() % i]);
+  return numbers;
+}
+
+template <class Element>
+void shuffle_elements(std::vector<Element>& elements, const std::vector<Index>& numbers) {
+  const std::vector<Index> places = shuffled_numbers(static_cast<Index>(elements.size()));
+  const std::vector<Element> before = elements;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    Element& element = elements[static_cast<std::size_t>(places[i])];
+    element = before[i];
+    for (Index& vertex : element) vertex = numbers[static_cast<std::size_t>(vertex)];
+  }
+}
+
+/// The shape alone, without faces and names.
+Mesh shuffled(const Mesh& mesh) {
+  const std::vector<Index> numbers = shuffled_numbers(mesh.vertex_count());
+  Mesh result;
+  result.vertices.resize(mesh.vertices.rows(), 3);
+  for (Index i = 0; i < mesh.vertex_count(); ++i) {
+    result.vertices.row(numbers[static_cast<std::size_t>(i)]) = mesh.vertices.row(i);
+  }
+  result.triangles = mesh.triangles;
+  result.tetrahedra = mesh.tetrahedra;
+  shuffle_elements(result.triangles, numbers);
+  shuffle_elements(result.tetrahedra, numbers);
+  return result;
+}
+
 /// Those whose x, or z where the body is a curtain, is at the end that is pinned.
 std::vector<Index> pinned_vertices(const Workload& workload, const Mesh& mesh) {
   const Index count = mesh.vertex_count();
-  if (workload.kind != Kind::bar) return {count - workload.size, count - 1};
+  if (workload.kind != Kind::bar) {
+    std::vector<Index> corners = {count - workload.size, count - 1};
+    if (workload.order == MeshOrder::shuffled) {
+      const std::vector<Index> numbers = shuffled_numbers(count);
+      for (Index& corner : corners) corner = numbers[static_cast<std::size_t>(corner)];
+    }
+    return corners;
+  }
   std::vector<Index> end;
   for (Index i = 0; i < count; ++i) {
     if (mesh.vertices(i, 0) == 0) end.push_back(i);
@@ -85,8 +129,10 @@ std::vector<Workload> choose_workloads(const std::vector<std::string>& names, st
 
 Mesh make_mesh(const Workload& workload) {
   const Index n = workload.size;
-  if (workload.kind != Kind::bar) return grid({.columns = n, .rows = n, .size = {1, 1}});
-  return bar({.cells = {4 * n, n, n}, .size = {4, 1, 1}, .cut = TetrahedronCut::five});
+  Mesh mesh = workload.kind != Kind::bar
+                  ? grid({.columns = n, .rows = n, .size = {1, 1}})
+                  : bar({.cells = {4 * n, n, n}, .size = {4, 1, 1}, .cut = TetrahedronCut::five});
+  return workload.order == MeshOrder::shuffled ? shuffled(mesh) : mesh;
 }
 
 Simulation make_simulation(const Workload& workload, Mesh mesh, SolverSettings settings) {

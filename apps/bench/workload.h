@@ -1,5 +1,6 @@
 #pragma once
 // The standard workloads: what is simulated, from where. All with h = 1/60 s, gravity, 1 kg a vertex and soft pins.
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,11 +16,21 @@ enum class Kind {
   bar               ///< n × n × 4n cells of five tetrahedra each, as rigid as possible, one end pinned
 };
 
+/// How vertices and elements are numbered.
+enum class MeshOrder {
+  rows,     ///< row by row
+  shuffled  ///< at random, as meshes come from some programs
+};
+constexpr std::array<std::string_view, 2> choice_names(MeshOrder) {
+  return {"rows", "shuffled"};
+}
+
 struct Workload {
   std::string name;
   Kind kind = Kind::curtain;
   pliant::Index size = 2;  ///< n
   pliant::Index iterations = 10;
+  MeshOrder order = MeshOrder::rows;
 };
 
 /// W1, W1b, ..., W4 with their own sizes.

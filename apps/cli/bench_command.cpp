@@ -27,6 +27,7 @@ using pliant::Index;
 struct BenchArguments {
   std::vector<std::string> workloads;
   std::optional<Index> size;
+  MeshOrder order = MeshOrder::rows;
   std::optional<Index> repeats;
   std::vector<std::string> threads;
   std::vector<std::string> baselines = {"all"};
@@ -85,6 +86,10 @@ BenchOptions check(const BenchArguments& arguments) {
     pliant::fail_input(fmt::format("--repeats: {} is out of range; give 1 to {}", *arguments.repeats, most_repeats));
   }
   if (arguments.repeats) options.repeats = *arguments.repeats;
+  for (Workload& workload : options.workloads) {
+    workload.order = arguments.order;
+    if (workload.order == MeshOrder::shuffled) workload.name += "-shuffled";
+  }
   if (arguments.json == "-" && arguments.csv == "-") {
     pliant::fail_input("--json and --csv both to the standard output; give one of them a file");
   }
@@ -129,6 +134,7 @@ void add_bench_command(CLI::App& program) {
       ->delimiter(',');
   add_number(*command, "--size", arguments->size,
              "Vertices along a side of a square curtain, cells across a bar that is four times as long");
+  add_choice(*command, "--order", arguments->order, "Vertices and elements numbered row by row, or at random");
   add_number(*command, "--repeats", arguments->repeats, "Of everything; default: 5 to 200, about 3 s a workload");
   command->add_option("--threads", arguments->threads, "Default: 1,2; the phases are those of the first")
       ->delimiter(',');

@@ -15,15 +15,14 @@
 //     static constexpr auto kernel = &LocalKernels::edge_spring;   // does many at once, in place of project
 //     static constexpr bool is_difference = true;     // A is (−1, 1), which its kernel need not read
 //     static void begin_step(const Positions& q, std::span<const Index> stencil, Real* fields);
-//
-// z of a translation-invariant type is summed over differences to the first vertex of the stencil: far from the origin
-// this keeps the digits that the sum over positions would lose.
 #include <array>
 #include <cmath>
 #include <string>
 
 #include "pliant/constraints/constraint_group.h"
 #include "pliant/constraints/kernels/local_kernels.h"
+#include "pliant/constraints/reorder.h"
+#include "pliant/constraints/stencil_sum.h"
 #include "pliant/core/error.h"
 
 namespace pliant {
@@ -32,6 +31,10 @@ inline constexpr int dynamic_vertices = -1;
 
 /// Throws Error(input) on coefficients that do not sum to zero, of a type that says that they do.
 void check_sum_of_row(std::string_view type, std::span<const Real> coefficients);
+
+/// Throws Error(input) on a constraint of the wrong number of vertices, coefficients or fields.
+void check_numbers(std::string_view type, const GroupShape& shape, std::size_t fields, std::size_t stencil_size,
+                   std::size_t reduction_size, std::size_t field_count);
 
 template <class Type>
 class Batch final : public ConstraintGroup {
@@ -82,6 +85,22 @@ class Batch final : public ConstraintGroup {
   }
   std::span<Real> mutable_numbers() override { return fields_; }
 
+  std::unique_ptr<ConstraintGroup> reordered(std::span<const Index> order,
+                                             std::span<const Index> numbers) const override {
+    const auto n = static_cast<std::size_t>(vertices());
+    auto batch = std::make_unique<Batch>(stiffness(), vertices_);
+    batch->stencil_ = in_order(stencil(), order, n);
+    for (Index& vertex : batch->stencil_) vertex = numbers[static_cast<std::size_t>(vertex)];
+    batch->reduction_ = in_order(reduction(), order, n * Type::rows);
+    batch->measure_ = in_order(measure(), order, 1);
+    batch->fields_ = in_order(fields(), order, Type::fields);
+    return batch;
+  }
+  void take_numbers(const ConstraintGroup& from, std::span<const Index> order) override {
+    ConstraintGroup::take_numbers(from, order);
+    take_in_order(dynamic_cast<const Batch&>(from).fields(), order, Type::fields, std::span<Real>(fields_));
+  }
+
   void begin_step(const StateView& state, Real) override {
     if constexpr (requires { &Type::begin_step; }) {
       const auto n = static_cast<std::size_t>(vertices());
@@ -113,7 +132,9 @@ class Batch final : public ConstraintGroup {
   Real project_one(const Real* positions, std::size_t i, Real* to) const {
     std::array<Real, size> z;
     std::array<Real, size> p;
-    reduce(positions, i, z.data());
+    const auto n = static_cast<std::size_t>(vertices());
+    sum_stencil<Type::rows, Type::translation_invariant>(positions, std::span<const Index>(stencil_).subspan(i * n, n),
+                                                         reduction_.data() + i * n * Type::rows, z.data());
     Type::project(field(i), z.data(), p.data());
     const Real weight = stiffness() * measure_[i];
     Real squared = 0;
@@ -152,10 +173,7 @@ class Batch final : public ConstraintGroup {
 
   void check(std::size_t stencil_size, std::span<const Real> reduction, std::size_t field_count) const {
     const auto n = static_cast<std::size_t>(vertices());
-    if (stencil_size != n || reduction.size() != Type::rows * n || field_count != Type::fields) {
-      fail_input(std::string(Type::name) + ": a constraint takes " + std::to_string(n) + " vertices, " +
-                 std::to_string(Type::rows * n) + " coefficients and " + std::to_string(Type::fields) + " fields");
-    }
+    check_numbers(Type::name, shape(), Type::fields, stencil_size, reduction.size(), field_count);
     if constexpr (requires { Type::is_difference; }) {
       if (reduction[0] != -1 || reduction[1] != 1) fail_input(std::string(Type::name) + ": its coefficients are -1, 1");
     }
@@ -166,25 +184,6 @@ class Batch final : public ConstraintGroup {
   int vertices() const { return Type::vertices == dynamic_vertices ? vertices_ : Type::vertices; }
   Real* field(std::size_t i) { return fields_.data() + i * Type::fields; }
   const Real* field(std::size_t i) const { return fields_.data() + i * Type::fields; }
-
-  /// z = A S q of constraint i.
-  void reduce(const Real* positions, std::size_t i, Real* z) const {
-    const auto n = static_cast<std::size_t>(vertices());
-    const Index* stencil = stencil_.data() + i * n;
-    const Real* coefficient = reduction_.data() + i * n * Type::rows;
-    const auto corner = [&](std::size_t j) { return positions + 3 * static_cast<std::ptrdiff_t>(stencil[j]); };
-    std::fill_n(z, Type::rows * 3, Real(0));
-    const Real* origin = corner(0);
-    for (std::size_t j = Type::translation_invariant ? 1 : 0; j < n; ++j) {
-      const Real* x = corner(j);
-      std::array<Real, 3> e = {x[0], x[1], x[2]};
-      if constexpr (Type::translation_invariant) e = {x[0] - origin[0], x[1] - origin[1], x[2] - origin[2]};
-      for (std::size_t row = 0; row < Type::rows; ++row) {
-        const Real c = coefficient[row * n + j];
-        for (std::size_t axis = 0; axis < 3; ++axis) z[row * 3 + axis] += c * e[axis];
-      }
-    }
-  }
 
   int vertices_;
   std::vector<Index> stencil_;

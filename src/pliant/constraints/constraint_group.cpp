@@ -15,10 +15,8 @@ void ConstraintGroup::begin_step(const StateView&, Real) {}
 Real ConstraintGroup::project_to_forces(const Positions& positions, std::span<Real> out, Index begin, Index end) const {
   const auto n = static_cast<std::size_t>(shape().vertices);
   const auto rows = static_cast<std::size_t>(shape().rows);
-  // Room for the rows is there where they are few; else a constraint at a time takes its own.
-  std::array<Real, 3 * 64> few;
-  std::vector<Real> many(rows > few.size() / 3 ? 3 * rows : 0);
-  const std::span<Real> slots = many.empty() ? std::span<Real>(few).first(3 * rows) : std::span<Real>(many);
+  std::array<Real, 3 * max_force_rows> room;
+  const std::span<Real> slots = std::span<Real>(room).first(3 * rows);
   Real energy = 0;
   for (Index i = begin; i < end; ++i) {
     energy += project(positions, slots, i, i + 1);
@@ -49,6 +47,14 @@ std::span<Real> ConstraintGroup::anchor(Index i) {
 
 std::span<Real> ConstraintGroup::mutable_numbers() {
   return targets();
+}
+
+std::unique_ptr<ConstraintGroup> ConstraintGroup::reordered(std::span<const Index>, std::span<const Index>) const {
+  return nullptr;
+}
+
+void ConstraintGroup::take_numbers(const ConstraintGroup& from, std::span<const Index>) {
+  stiffness_ = from.stiffness_;
 }
 
 namespace {

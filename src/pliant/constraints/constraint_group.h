@@ -5,6 +5,7 @@
 // pᵢ the point of its set nearest to zᵢ (Bouaziz et al. 2014, Eq. 7; thesis Eq. 3.7). Sᵢ selects n vertices (the
 // stencil), Aᵢ is k × n (the reduction, the same for x, y and z), wᵢ = stiffness × measure. S, A and w are data at
 // rest; only the projection z → p is non-linear. So gathering, assembly, energies and threads are written once.
+#include <memory>
 #include <span>
 #include <string_view>
 
@@ -45,7 +46,7 @@ class ConstraintGroup {
 
   /// The same as forces Σ_rows Aᵀ w (p − z) [N] on the vertices of each constraint, n × 3 numbers a constraint: what
   /// the local step asks of groups with more than one row, since a vertex then has one number to collect and no
-  /// coefficient.
+  /// coefficient. For groups with at most max_force_rows rows.
   virtual Real project_to_forces(const Positions& positions, std::span<Real> out, Index begin, Index end) const;
 
   /// Vertices that the group holds exactly (hard pins). They leave the system of equations; vertex i of them stands at
@@ -60,6 +61,15 @@ class ConstraintGroup {
   /// Every number by which this group may differ from one that was made anew of the same options: what a checkpoint
   /// must hold of it, besides the stiffness. A type that keeps others than its targets says so here.
   virtual std::span<Real> mutable_numbers();
+
+  /// The same constraints in another order, on renumbered vertices: constraint i of it is constraint order[i] of this
+  /// group, vertex v has the number numbers[v]. Its projections are the same to the bit. Null from a group that cannot:
+  /// a mesh in random order is then left so, at the cost of some speed.
+  virtual std::unique_ptr<ConstraintGroup> reordered(std::span<const Index> order,
+                                                     std::span<const Index> numbers) const;
+  /// For what reordered() returns: takes the stiffness and all numbers that may have changed from the group that it was
+  /// made of. Never allocates.
+  virtual void take_numbers(const ConstraintGroup& from, std::span<const Index> order);
 
   /// Common factor of all weights; 1 where each constraint has a stiffness of its own.
   Real stiffness() const { return stiffness_; }
@@ -78,10 +88,13 @@ class ConstraintGroup {
   std::uint64_t revision_ = 0;
 };
 
-/// Of a group with several rows a vertex collects one force of each of its constraints; of others the row, times its
-/// coefficient.
+/// Rows of a constraint that are turned into forces at once.
+inline constexpr int max_force_rows = 64;
+
+/// Of a group with several rows a vertex collects one force of each of its constraints; of others, and where the rows
+/// are many, the rows, times their coefficients.
 inline bool takes_forces(const ConstraintGroup& group) {
-  return group.shape().rows > 1;
+  return group.shape().rows > 1 && group.shape().rows <= max_force_rows;
 }
 
 /// What the local step asks of a group: its forces or its rows, three numbers each.

@@ -7,6 +7,18 @@
 
 namespace pliant {
 
+std::unique_ptr<ConstraintGroup> HardPins::reordered(std::span<const Index>, std::span<const Index> numbers) const {
+  auto pins = std::make_unique<HardPins>();
+  for (const Index vertex : held_) pins->held_.push_back(numbers[static_cast<std::size_t>(vertex)]);
+  pins->targets_ = targets_;
+  return pins;
+}
+
+void HardPins::take_numbers(const ConstraintGroup& from, std::span<const Index> order) {
+  ConstraintGroup::take_numbers(from, order);
+  std::ranges::copy(dynamic_cast<const HardPins&>(from).targets_, targets_.begin());
+}
+
 void HardPins::add(Index vertex, const Vec3& target) {
   held_.push_back(vertex);
   targets_.insert(targets_.end(), target.begin(), target.end());

@@ -60,6 +60,9 @@ class HardPins final : public ConstraintGroup {
   Real project(const Positions&, std::span<Real>, Index, Index) const override { return 0; }
   std::span<const Index> held_vertices() const override { return held_; }
   std::span<Real> targets() override { return targets_; }
+  std::unique_ptr<ConstraintGroup> reordered(std::span<const Index> order,
+                                             std::span<const Index> numbers) const override;
+  void take_numbers(const ConstraintGroup& from, std::span<const Index> order) override;
 
  private:
   std::vector<Index> held_;

@@ -34,11 +34,14 @@ void Solver::report_divergence(const State& state) const {
   const Real h = settings_.time_step;
   // In the order of the step. One solve takes the whole body along, so the cause is looked for before that.
   for (Index i = 0; i < vertex_count_; ++i) {
-    if (!is_held_[static_cast<std::size_t>(i)] && is_far(s_.row(i))) fail(state, h, i, force_reason(state, i));
+    if (!is_held_[static_cast<std::size_t>(i)] && is_far(s_.row(i))) {
+      fail(state, h, local_groups_.vertex(i), force_reason(state, local_groups_.vertex(i)));
+    }
   }
   for (std::size_t g = 0; g < groups_.size(); ++g) {
-    const Index constraint = local_step_.first_not_finite(g, q_);
-    if (constraint < 0) continue;
+    const Index local = local_step_.first_not_finite(g, q_);
+    if (local < 0) continue;
+    const Index constraint = local_groups_.constraint(g, local);
     const auto first = static_cast<std::size_t>(constraint) * static_cast<std::size_t>(groups_[g]->shape().vertices);
     fail(state, h, groups_[g]->stencil()[first],
          fmt::format("constraint {} of type {} has a force that is not finite; lessen its stiffness", constraint,
@@ -46,10 +49,11 @@ void Solver::report_divergence(const State& state) const {
   }
   for (Index i = 0; i < vertex_count_; ++i) {
     if (!std::isfinite(inertia_weights_[static_cast<std::size_t>(i)])) {
-      fail(state, h, i, "its m/h² is not finite; give a larger time step");
+      fail(state, h, local_groups_.vertex(i), "its m/h² is not finite; give a larger time step");
     }
     if (is_far(q_.row(i)) || !residual_.row(i).allFinite()) {
-      fail(state, h, i, "the system of equations is too badly conditioned; lessen the ratio of stiffness to m/h²");
+      fail(state, h, local_groups_.vertex(i),
+           "the system of equations is too badly conditioned; lessen the ratio of stiffness to m/h²");
     }
   }
   fail(state, h, 0, "the residual has grown past all numbers; lessen the forces or the stiffness");

@@ -34,7 +34,10 @@ Real larger(Real a, Real b) {
 /// Finds the partials of one chunk after the other.
 class LocalStep::Layout {
  public:
-  Layout(LocalStep& step, Index vertex_count) : step_(step), entry_counts_(static_cast<std::size_t>(vertex_count), 0) {}
+  Layout(LocalStep& step, Index vertex_count)
+      : step_(step),
+        entry_counts_(static_cast<std::size_t>(vertex_count), 0),
+        after_last_group_(entry_counts_.size(), 0) {}
 
   void add(Chunk& chunk) {
     chunk.first_partial = step_.partial_ends_.size();
@@ -48,11 +51,19 @@ class LocalStep::Layout {
     });
     std::ranges::sort(touched_);
     place_entries(chunk);
-    for (const Index vertex : touched_) entry_counts_[static_cast<std::size_t>(vertex)] = 0;
+    for (const Index vertex : touched_) {
+      entry_counts_[static_cast<std::size_t>(vertex)] = 0;
+      std::size_t& after = after_last_group_[static_cast<std::size_t>(vertex)];
+      vertices_met_ += after != chunk.group + 1;
+      after = chunk.group + 1;
+    }
     partial_vertices_.insert(partial_vertices_.end(), touched_.begin(), touched_.end());
     chunk.last_partial = step_.partial_ends_.size();
   }
   std::span<const Index> partial_vertices() const { return partial_vertices_; }
+  Real chunks_of_vertex() const {
+    return vertices_met_ == 0 ? 0 : static_cast<Real>(partial_vertices_.size()) / static_cast<Real>(vertices_met_);
+  }
 
  private:
   template <class Visit>
@@ -96,6 +107,8 @@ class LocalStep::Layout {
   LocalStep& step_;
   std::vector<std::uint32_t> entry_counts_;  // of each vertex in the chunk at hand; then, where the next one goes
   std::vector<Index> touched_;
+  std::vector<std::size_t> after_last_group_;  // that met each vertex; 0: none
+  std::size_t vertices_met_ = 0;               // by all groups together
   std::vector<Index> partial_vertices_;
 };
 
@@ -107,6 +120,7 @@ void LocalStep::set_groups(Index vertex_count, std::span<ConstraintGroup* const>
   coefficients_.clear();
   Layout layout(*this, vertex_count);
   for (Chunk& chunk : chunks_) layout.add(chunk);
+  chunks_of_vertex_ = layout.chunks_of_vertex();
   lay_out_vertices(vertex_count, layout.partial_vertices());
 }
 

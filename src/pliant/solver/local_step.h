@@ -36,6 +36,8 @@ class LocalStep {
   Index first_not_finite(std::size_t group, const Positions& q) const;
   /// Fills in what the local step reads and writes.
   void describe(SystemInfo& info) const;
+  /// Chunks of a group that a vertex is in, on the average: little above 1 where neighbours stand near each other.
+  Real chunks_of_vertex() const { return chunks_of_vertex_; }
   /// Rows of all reductions together: a measure of the work.
   std::size_t slot_count() const { return slot_count_; }
 
@@ -66,6 +68,7 @@ class LocalStep {
 
   std::vector<ConstraintGroup*> groups_;
   std::size_t slot_count_ = 0;
+  Real chunks_of_vertex_ = 0;
   std::vector<Chunk> chunks_;
   std::vector<Real> chunk_energies_;
   std::vector<VertexSums> vertex_sums_;   // of each chunk of vertices

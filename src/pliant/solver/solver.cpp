@@ -13,6 +13,11 @@ namespace {
 /// who asks for threads is given fewer. Where their number is left to us, twice as many are asked of each.
 constexpr std::size_t slots_per_thread = 4096;
 
+/// Chunks of a vertex from which another order is tried, and the share of them that it must leave at most to be taken:
+/// a box that is numbered row by row has many as well, and is none the slower.
+constexpr Real scattered_chunks = 2;
+constexpr Real better_order = 0.6;
+
 int useful_threads(Index asked, std::size_t slots) {
   const auto processors = static_cast<std::size_t>(std::max(1U, std::thread::hardware_concurrency()));
   const std::size_t most = asked > 0 ? static_cast<std::size_t>(asked) : processors;
@@ -51,6 +56,7 @@ void Solver::set_groups(Index vertex_count, std::vector<ConstraintGroup*> groups
   groups_ = std::move(groups);
   groups_laid_out_ = false;
   if (s_.rows() == vertex_count) return;
+  local_groups_.set({});
   for (Positions* x : {&force_, &s_, &q_, &residual_}) x->setZero(vertex_count, 3);
   predicted_time_step_ = 0;
 }
@@ -71,21 +77,42 @@ bool Solver::stiffness_changed() const {
 
 SetUpTimes Solver::prepare(const State& state) {
   SetUpTimes times;
-  for (ConstraintGroup* group : groups_) group->begin_step(state.view(), settings_.time_step);
+  begin_groups(state);
   const Stopwatch watch;
   if (!groups_laid_out_ || groups_changed()) {
     lay_out_groups();
     times.layout = watch.seconds();
+  } else {
+    local_groups_.take_numbers();
   }
   if (factor_time_step_ != settings_.time_step || stiffness_changed()) factorize(state, times);
   history_.clear();
   return times;
 }
 
-void Solver::lay_out_groups() {
+void Solver::begin_groups(const State& state) {
+  for (ConstraintGroup* group : groups_) group->begin_step(state.view(), settings_.time_step);
+}
+
+/// That of the simulation, unless its constraints are scattered and an order of our own is much better.
+void Solver::choose_order() {
+  local_groups_.set(groups_);
   local_step_.set_groups(vertex_count_, groups_);
+  const Real chunks = local_step_.chunks_of_vertex();
+  if (chunks <= scattered_chunks || !local_groups_.reorder(vertex_count_)) return;
+  local_step_.set_groups(vertex_count_, local_groups_.in_use());
+  if (local_step_.chunks_of_vertex() <= better_order * chunks) return;
+  local_groups_.set(groups_);
+  local_step_.set_groups(vertex_count_, groups_);
+}
+
+void Solver::lay_out_groups() {
+  s_ = local_groups_.in_simulation_order(s_);
+  choose_order();
+  s_ = local_groups_.in_local_order(s_);
+  const std::span<ConstraintGroup* const> groups = local_groups_.in_use();
   start_threads(settings_.threads);
-  if (system_matrix_.set_groups(vertex_count_, groups_)) pattern_analyzed_ = false;
+  if (system_matrix_.set_groups(vertex_count_, groups)) pattern_analyzed_ = false;
   stamps_.clear();
   places_.clear();
   for (const ConstraintGroup* group : groups_) {
@@ -93,18 +120,20 @@ void Solver::lay_out_groups() {
     stamps_.push_back({group->revision(), group->stiffness()});
   }
   is_held_.assign(static_cast<std::size_t>(vertex_count_), 0);
-  for (const ConstraintGroup* group : groups_) {
+  for (const ConstraintGroup* group : groups) {
     for (const Index vertex : group->held_vertices()) is_held_[static_cast<std::size_t>(vertex)] = 1;
   }
-  free_parts_ = find_free_parts(system_matrix_.matrix(), groups_, is_held_);
+  free_parts_ = find_free_parts(system_matrix_.matrix(), groups, is_held_);
   groups_laid_out_ = true;
   factor_time_step_ = 0;
 }
 
 void Solver::weigh_inertia(const State& state, Real time_step) {
+  masses_.resize(state.masses.size());
   inertia_weights_.resize(state.masses.size());
   for (std::size_t i = 0; i < inertia_weights_.size(); ++i) {
-    inertia_weights_[i] = is_held_[i] ? 0 : state.masses[i] / (time_step * time_step);
+    masses_[i] = state.masses[static_cast<std::size_t>(local_groups_.vertex(static_cast<Index>(i)))];
+    inertia_weights_[i] = is_held_[i] ? 0 : masses_[i] / (time_step * time_step);
   }
 }
 
@@ -113,12 +142,12 @@ void Solver::factorize(const State& state, SetUpTimes& times) {
   const Real h = settings_.time_step;
   for (std::size_t g = 0; g < groups_.size(); ++g) stamps_[g].stiffness = groups_[g]->stiffness();
   factor_time_step_ = 0;  // until this succeeds
-  system_matrix_.sum(state.masses, h, groups_, is_held_);
+  weigh_inertia(state, h);
+  system_matrix_.sum(masses_, h, local_groups_.in_use(), is_held_);
   times.assembly = watch.lap();
   if (!pattern_analyzed_) global_step_.analyze(system_matrix_.matrix());
   pattern_analyzed_ = true;
   times.symbolic = watch.lap();
-  weigh_inertia(state, h);
   global_step_.factorize(system_matrix_.matrix(), settings_.precision, inertia_weights_, free_parts_, *threads_, times);
   factor_time_step_ = h;
 }

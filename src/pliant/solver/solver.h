@@ -7,6 +7,7 @@
 #include "pliant/forces/force.h"
 #include "pliant/solver/global_step.h"
 #include "pliant/solver/local_step.h"
+#include "pliant/solver/locality.h"
 #include "pliant/solver/state.h"
 #include "pliant/solver/system_info.h"
 
@@ -61,6 +62,8 @@ class Solver {
 
   SetUpTimes prepare(const State& state);
   void lay_out_groups();
+  void choose_order();
+  void begin_groups(const State& state);
   void start_threads(Index asked);
   void weigh_inertia(const State& state, Real time_step);
   void factorize(const State& state, SetUpTimes& times);
@@ -68,6 +71,7 @@ class Solver {
   bool stiffness_changed() const;
   [[noreturn]] void give_up(const State& state) const;
   void predict(const State& state);
+  void start_from_positions(const State& state);
   void place_held_vertices(Positions& q) const;
   void record(const LocalResult& result);
   void check_finite(const State& state) const;
@@ -81,6 +85,8 @@ class Solver {
   std::vector<ConstraintGroup*> groups_;
   std::vector<Force*> forces_;
 
+  // All that follows is in the order of the local groups; groups, forces and state are in that of the simulation.
+  LocalGroups local_groups_;
   std::unique_ptr<ThreadPool> threads_;
   LocalStep local_step_;
   SystemMatrix system_matrix_;
@@ -93,9 +99,11 @@ class Solver {
 
   std::vector<char> is_held_;
   FreeParts free_parts_;
+  std::vector<Real> masses_;
   std::vector<Real> inertia_weights_;  // M/h², 0 at held vertices
   Real predicted_time_step_ = 0;       // h of s_; 0: s_ does not belong to the state
-  Positions force_, s_, q_, residual_;
+  Positions s_, q_, residual_;
+  Positions force_;  // in the order of the simulation
   std::vector<Real> history_;
 };
 

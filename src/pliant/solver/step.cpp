@@ -18,7 +18,7 @@ StepReport Solver::step(State& state) {
   report.seconds_factor = total.seconds();
 
   /* 1-2 */ predict(state);  // s = q + h v + h² M⁻¹ f
-  /* 3   */ q_ = settings_.start == Start::prediction ? s_ : state.positions;
+  /* 3   */ settings_.start == Start::prediction ? void(q_ = s_) : start_from_positions(state);
   place_held_vertices(q_);
   /* 4   */ while (report.iterations < settings_.iterations) {
     if (stop_ && stop_()) give_up(state);
@@ -55,13 +55,18 @@ void Solver::predict(const State& state) {
   for (Force* force : forces_) force->add_to(force_, state.view(), settings_.time_step);
   const Real h = settings_.time_step;
   for (Index i = 0; i < vertex_count_; ++i) {
-    const Real mass = state.masses[static_cast<std::size_t>(i)];
-    s_.row(i) = state.positions.row(i) + h * state.velocities.row(i) + h * h / mass * force_.row(i);
+    const Index v = local_groups_.vertex(i);
+    const Real mass = masses_[static_cast<std::size_t>(i)];
+    s_.row(i) = state.positions.row(v) + h * state.velocities.row(v) + h * h / mass * force_.row(v);
   }
 }
 
+void Solver::start_from_positions(const State& state) {
+  for (Index i = 0; i < vertex_count_; ++i) q_.row(i) = state.positions.row(local_groups_.vertex(i));
+}
+
 void Solver::place_held_vertices(Positions& q) const {
-  for (ConstraintGroup* group : groups_) {
+  for (ConstraintGroup* group : local_groups_.in_use()) {
     const std::span<const Index> held = group->held_vertices();
     const std::span<const Real> targets = group->targets();
     for (std::size_t i = 0; i < held.size(); ++i) {
@@ -77,8 +82,11 @@ void Solver::record(const LocalResult& result) {
 }
 
 void Solver::commit(State& state) {
-  state.velocities = (q_ - state.positions) / settings_.time_step;
-  state.positions = q_;
+  for (Index i = 0; i < vertex_count_; ++i) {
+    const Index v = local_groups_.vertex(i);
+    state.velocities.row(v) = (q_.row(i) - state.positions.row(v)) / settings_.time_step;
+    state.positions.row(v) = q_.row(i);
+  }
   predicted_time_step_ = settings_.time_step;
   ++state.step;
   // Kahan's sum: after n steps of h the time is n h to the last digit.
@@ -91,13 +99,12 @@ void Solver::commit(State& state) {
 Evaluation Solver::evaluate(const State& state) {
   const bool is_new = !groups_laid_out_ || groups_changed();
   const bool is_predicted = predicted_time_step_ > 0;
-  if (!is_predicted) s_ = state.positions;
-  if (!is_predicted || is_new) {
-    for (ConstraintGroup* group : groups_) group->begin_step(state.view(), settings_.time_step);
-  }
-  if (is_new) lay_out_groups();
+  if (!is_predicted || is_new) begin_groups(state);
+  is_new ? lay_out_groups() : local_groups_.take_numbers();
+  start_from_positions(state);
+  if (!is_predicted) s_ = q_;
   weigh_inertia(state, is_predicted ? predicted_time_step_ : settings_.time_step);
-  const LocalResult found = local_step_.run(state.positions, s_, inertia_weights_, is_held_, residual_, *threads_);
+  const LocalResult found = local_step_.run(q_, s_, inertia_weights_, is_held_, residual_, *threads_);
   return {found.residual, found.inertia, found.elastic};
 }
 

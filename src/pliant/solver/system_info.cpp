@@ -78,14 +78,17 @@ SystemInfo Solver::system_info(const State& state) {
 
   for (std::size_t i = 0; i < free_parts_.count(); ++i) {
     const std::span<const Index> part = free_parts_.part(i);
-    info.free_parts.push_back({part.front(), static_cast<Index>(part.size())});
+    Index first = vertex_count_;
+    for (const Index vertex : part) first = std::min(first, local_groups_.vertex(vertex));
+    info.free_parts.push_back({first, static_cast<Index>(part.size())});
   }
 
+  std::ranges::sort(info.free_parts, {}, &FreePart::first_vertex);
+
   SystemMatrix elastic = system_matrix_;
-  const std::vector<const ConstraintGroup*> groups(groups_.begin(), groups_.end());
-  elastic.sum(state.masses, std::numeric_limits<Real>::infinity(), groups, is_held_);  // M/h² vanishes
+  elastic.sum(masses_, std::numeric_limits<Real>::infinity(), local_groups_.in_use(), is_held_);  // M/h² vanishes
   Vector scale(vertex_count_);
-  for (Index i = 0; i < vertex_count_; ++i) scale[i] = is_held_[at(i)] ? 0 : 1 / std::sqrt(state.masses[at(i)]);
+  for (Index i = 0; i < vertex_count_; ++i) scale[i] = is_held_[at(i)] ? 0 : 1 / std::sqrt(masses_[at(i)]);
   info.fastest_frequency = std::sqrt(largest_eigenvalue(elastic.matrix(), scale));
   return info;
 }
