@@ -118,7 +118,7 @@ class BaselineMaker {
   Positions own_solution() const {
     const SolverSettings& settings = reference_.simulation.settings();
     GlobalStep own;
-    own.set_factorization(make_factorization(settings.backend));
+    own.set_factorization(make_factorization(settings.backend, settings.ordering));
     own.analyze(reference_.matrix);
     ThreadPool one_thread(1);
     SetUpTimes times;

@@ -143,6 +143,7 @@ void add_bench_command(CLI::App& program) {
                    "all (default), none, or some of eigen, cholmod, textbook, thesis")
       ->delimiter(',');
   add_choice(*command, "--backend", arguments->options.settings.backend, "Library that factorizes");
+  add_choice(*command, "--ordering", arguments->options.settings.ordering, "Of the elimination, with cholmod");
   add_choice(*command, "--precision", arguments->options.settings.precision, "Of the factor");
   add_choice(*command, "--projections", arguments->options.projections,
              "Measure the constraint types by themselves: with the workloads, not, or alone");

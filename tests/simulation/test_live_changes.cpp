@@ -119,6 +119,9 @@ TEST_CASE("changed settings") {
   SUBCASE("another back end") {
     after.settings.backend = Backend::eigen;
   }
+  SUBCASE("another ordering") {
+    after.settings.ordering = Ordering::minimum_degree;
+  }
   SUBCASE("more threads") {
     after.settings.threads = 3;
   }

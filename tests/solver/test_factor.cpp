@@ -203,3 +203,22 @@ TEST_CASE("the system matrix is M/h² plus the sum of w SᵀAᵀAS") {
   system.sum(masses, time_step, groups, is_held);
   CHECK((dense_of(system.matrix()) - expected).cwiseAbs().maxCoeff() < 1e-12 * expected.maxCoeff());
 }
+
+TEST_CASE("every ordering gives the same solution, and one that a back end does not have is refused") {
+  CHECK(contains(error_of([] { make_factorization(Backend::eigen, Ordering::nested_dissection); }),
+                 "ordering: nested dissection is METIS's"));
+  Random random;
+  const Eigen::MatrixXd dense = random_matrix(random, 120, 0.05);
+  for (const Ordering ordering : {Ordering::minimum_degree, Ordering::nested_dissection}) {
+    try {
+      const auto factorization = make_factorization(Backend::cholmod, ordering);
+      factorization->analyze(lower_of(dense));
+      check_solve(*factorization, dense, random);
+    } catch (const Error& error) {
+      MESSAGE("skipped: ", std::string(error.what()));
+    }
+  }
+  const auto eigen = make_factorization(Backend::eigen, Ordering::minimum_degree);
+  eigen->analyze(lower_of(dense));
+  check_solve(*eigen, dense, random);
+}

@@ -18,6 +18,13 @@ constexpr std::array<std::string_view, 3> choice_names(Backend) {
   return {"automatic", "eigen", "cholmod"};
 }
 
+/// In which order the vertices are eliminated. `automatic`: as the library chooses, by minimum degree as a rule.
+/// `nested_dissection` takes longer to find and leaves a smaller factor of a large mesh.
+enum class Ordering { automatic, minimum_degree, nested_dissection };
+constexpr std::array<std::string_view, 3> choice_names(Ordering) {
+  return {"automatic", "minimum_degree", "nested_dissection"};
+}
+
 /// Precision of the factor; state, differences and sums are double in either. `mixed`: single, where that does.
 enum class Precision { double_, mixed };
 constexpr std::array<std::string_view, 2> choice_names(Precision) {
@@ -30,6 +37,7 @@ struct SolverSettings {
   Real tolerance = 0;
   Start start = Start::prediction;
   Backend backend = Backend::automatic;
+  Ordering ordering = Ordering::automatic;
   Precision precision = Precision::mixed;
   Index threads = 0;
 
@@ -48,6 +56,10 @@ struct SolverSettings {
     field(OptionInfo{"start", "", "iterations begin at the `prediction` s or at the `positions` of the last step"},
           self.start);
     field(OptionInfo{"backend", "", "library that factorizes: `automatic`, `eigen` or `cholmod`"}, self.backend);
+    field(OptionInfo{"ordering", "",
+                     "of the elimination: `automatic`, `minimum_degree`, or `nested_dissection`, which takes longer to "
+                     "find and makes the steps of a large mesh faster; with `cholmod`"},
+          self.ordering);
     field(
         OptionInfo{
             "precision", "",

@@ -33,8 +33,10 @@ Solver::Solver(const SolverSettings& settings) : threads_(std::make_unique<Threa
 void Solver::set_settings(const SolverSettings& settings) {
   check_options("settings", settings);
   std::unique_ptr<Factorization> other;
-  if (!global_step_.has_factorization() || settings.backend != settings_.backend)
-    other = make_factorization(settings.backend);
+  if (!global_step_.has_factorization() || settings.backend != settings_.backend ||
+      settings.ordering != settings_.ordering) {
+    other = make_factorization(settings.backend, settings.ordering);
+  }
   start_threads(settings.threads);  // may fail; nothing has changed until here
   if (other) {
     global_step_.set_factorization(std::move(other));

@@ -29,18 +29,12 @@ void require_library_memory() {
   std::free(memory);
 }
 
-/// One thread inside OpenBLAS while it lives: how OpenBLAS splits a product among threads changes the bits. The number
-/// belongs to the whole process, so simulations that factorize at the same time take turns.
-class OneBlasThread {
+/// Simulations that factorize at the same time, where the libraries keep something that belongs to the whole process.
+class TakeTurns {
  public:
-  OneBlasThread() {
-    static const bool has_memory = (require_library_memory(), true);  // they keep it
-    static_cast<void>(has_memory);
-    openblas_set_num_threads(1);
-  }
-  ~OneBlasThread() { openblas_set_num_threads(threads_); }
-  OneBlasThread(const OneBlasThread&) = delete;
-  OneBlasThread& operator=(const OneBlasThread&) = delete;
+  TakeTurns() = default;
+  TakeTurns(const TakeTurns&) = delete;
+  TakeTurns& operator=(const TakeTurns&) = delete;
 
  private:
   static std::mutex& turn() {
@@ -49,6 +43,20 @@ class OneBlasThread {
   }
 
   std::lock_guard<std::mutex> lock_{turn()};
+};
+
+/// One thread inside OpenBLAS while it lives: how OpenBLAS splits a product among threads changes the bits, and the
+/// number of them belongs to the whole process.
+class OneBlasThread : TakeTurns {
+ public:
+  OneBlasThread() {
+    static const bool has_memory = (require_library_memory(), true);  // they keep it
+    static_cast<void>(has_memory);
+    openblas_set_num_threads(1);
+  }
+  ~OneBlasThread() { openblas_set_num_threads(threads_); }
+
+ private:
   int threads_ = openblas_get_num_threads();
 };
 
@@ -59,12 +67,14 @@ struct FreeFactor {
 
 class CholmodFactorization final : public Factorization {
  public:
-  CholmodFactorization() {
+  explicit CholmodFactorization(Ordering ordering) {
     cholmod_start(&common_);
     common_.supernodal = CHOLMOD_SUPERNODAL;
     common_.print = 0;
     // The first of CHOLMOD's own strategies whose fill is acceptable: AMD, then nested dissection by METIS.
-    common_.nmethods = 0;
+    common_.nmethods = ordering == Ordering::automatic ? 0 : 1;
+    if (ordering == Ordering::minimum_degree) common_.method[0].ordering = CHOLMOD_AMD;
+    if (ordering == Ordering::nested_dissection) common_.method[0].ordering = CHOLMOD_METIS;
     // Which columns are joined into one panel although that stores zeros: up to so many columns always, and more of
     // them for ever smaller shares of zeros (benchmarks/NOTES.md, "Panels").
     std::ranges::copy(std::array{4, 8, 16}, common_.nrelax);
@@ -78,6 +88,7 @@ class CholmodFactorization final : public Factorization {
   std::string_view name() const override { return "cholmod"; }
 
   void analyze(const LowerMatrix& matrix) override {
+    const TakeTurns turn;  // METIS draws random numbers from a source that the process has one of
     cholmod_sparse view = view_of(matrix);
     symbolic_.reset(cholmod_analyze(&view, &common_));
     check(symbolic_ != nullptr);
@@ -140,8 +151,8 @@ class CholmodFactorization final : public Factorization {
 
 }  // namespace
 
-std::unique_ptr<Factorization> make_cholmod_factorization() {
-  return std::make_unique<CholmodFactorization>();
+std::unique_ptr<Factorization> make_cholmod_factorization(Ordering ordering) {
+  return std::make_unique<CholmodFactorization>(ordering);
 }
 
 }  // namespace pliant

@@ -3,6 +3,6 @@
 
 namespace pliant {
 
-std::unique_ptr<Factorization> make_cholmod_factorization();
+std::unique_ptr<Factorization> make_cholmod_factorization(Ordering ordering);
 
 }  // namespace pliant

@@ -16,14 +16,20 @@ constexpr bool has_cholmod = false;
 }  // namespace
 
 #ifndef PLIANT_HAS_CHOLMOD
-std::unique_ptr<Factorization> make_cholmod_factorization() {
+std::unique_ptr<Factorization> make_cholmod_factorization(Ordering) {
   fail_input("backend: this build has no CHOLMOD; build with -DPLIANT_CHOLMOD=ON, or use `eigen`");
 }
 #endif
 
-std::unique_ptr<Factorization> make_factorization(Backend backend) {
+std::unique_ptr<Factorization> make_factorization(Backend backend, Ordering ordering) {
   if (backend == Backend::automatic) backend = has_cholmod ? Backend::cholmod : Backend::eigen;
-  return backend == Backend::cholmod ? make_cholmod_factorization() : make_eigen_factorization();
+  if (backend == Backend::cholmod) return make_cholmod_factorization(ordering);
+  if (ordering == Ordering::nested_dissection) {
+    fail_input(
+        "ordering: nested dissection is METIS's, which the back end `eigen` does not have; give `cholmod`, or "
+        "the ordering `automatic`");
+  }
+  return make_eigen_factorization();
 }
 
 }  // namespace pliant

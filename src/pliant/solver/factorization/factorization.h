@@ -26,7 +26,7 @@ class Factorization {
   virtual FactorView factor() const = 0;
 };
 
-/// Throws Error(input) when this build does not have the back end.
-std::unique_ptr<Factorization> make_factorization(Backend backend);
+/// Throws Error(input) when this build does not have the back end, and when that does not have the ordering.
+std::unique_ptr<Factorization> make_factorization(Backend backend, Ordering ordering = Ordering::automatic);
 
 }  // namespace pliant
