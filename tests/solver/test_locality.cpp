@@ -100,8 +100,9 @@ void check_same(Rig& a, Rig& b) {
   CHECK(of_a.residual == doctest::Approx(of_b.residual).epsilon(1e-6));
   CHECK(of_a.inertia == doctest::Approx(of_b.inertia).epsilon(1e-8));
   CHECK(of_a.elastic == doctest::Approx(of_b.elastic).epsilon(1e-8));
-  for (const auto& [id, group] : a.simulation.groups()) {
-    CAPTURE(group.type);
+  for (const auto& entry : a.simulation.groups()) {
+    const GroupId id = entry.first;
+    CAPTURE(entry.second.type);
     CHECK(a.simulation.elastic_energy(id) == doctest::Approx(b.simulation.elastic_energy(id)).epsilon(1e-8));
   }
 }
