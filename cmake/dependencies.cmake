@@ -25,6 +25,12 @@ find_package(nlohmann_json 3.11 REQUIRED)
 
 if(PLIANT_BUILD_CLI)
   find_package(CLI11 2.1 REQUIRED)
+  # OpenGL, with and without a display, and what is drawn flat on it; stb encodes PNG files.
+  find_package(PkgConfig REQUIRED)
+  pkg_check_modules(EPOXY REQUIRED IMPORTED_TARGET epoxy>=1.5)
+  pkg_check_modules(EGL REQUIRED IMPORTED_TARGET egl)
+  pkg_check_modules(IMGUI REQUIRED IMPORTED_TARGET imgui)
+  pkg_check_modules(STB REQUIRED IMPORTED_TARGET stb)
 endif()
 if(PLIANT_BUILD_TESTS)
   find_package(doctest 2.4 REQUIRED)

@@ -39,6 +39,10 @@ THIRD_PARTY = {
     "CLI/": ["apps"],
     "zlib": ["src/pliant/core"],
     "cholmod": ["src/pliant/solver/factorization", "apps/bench", "benchmarks"],
+    "epoxy/": ["apps/render"],
+    "imgui": ["apps/render"],
+    "backends/imgui": ["apps/render"],
+    "stb/": ["apps/render", "tests"],
     "doctest/": ["tests"],
 }
 IN_PUBLIC_HEADERS = ["Eigen/"]

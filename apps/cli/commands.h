@@ -11,6 +11,7 @@ inline constexpr std::size_t message_limit = 900;  // bytes of a message on the 
 void add_bench_command(CLI::App& program);
 void add_convert_command(CLI::App& program);
 void add_info_command(CLI::App& program);
+void add_render_command(CLI::App& program, int& exit_code);
 void add_resume_command(CLI::App& program, int& exit_code);
 void add_run_command(CLI::App& program, int& exit_code);
 void add_scenes_command(CLI::App& program);

@@ -1,0 +1,101 @@
+#include "render/camera.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace pliant_render {
+namespace {
+
+constexpr float margin = 1.12F;  // of the picture around what is in it
+
+Vec3f to_float(const pliant::Vec3& x) {
+  return x.cast<float>();
+}
+
+/// Any vector at right angles to `direction`, as near to `up` as can be.
+Vec3f upright(const Vec3f& up, const Vec3f& direction) {
+  Vec3f result = up - up.dot(direction) * direction;
+  if (result.norm() < 1e-4F * up.norm()) result = direction.cross(Vec3f(direction.z(), direction.x(), direction.y()));
+  return result.normalized();
+}
+
+/// The nearest eye that sees all corners of the box in this direction: each edge of the picture asks for a distance.
+Vec3f fit(const Bounds& bounds, const Vec3f& forward, const Vec3f& up, float tan_x, float tan_y) {
+  const Vec3f right = forward.cross(up);
+  constexpr float lowest = -std::numeric_limits<float>::infinity();
+  float left_edge = lowest, right_edge = lowest, lower_edge = lowest, upper_edge = lowest;
+  for (int corner = 0; corner < 8; ++corner) {
+    Vec3f p = bounds.low;
+    for (int axis = 0; axis < 3; ++axis) {
+      if ((corner >> axis & 1) != 0) p[axis] = bounds.high[axis];
+    }
+    const float x = p.dot(right), y = p.dot(up), depth = p.dot(forward);
+    right_edge = std::max(right_edge, x - tan_x * depth);
+    left_edge = std::max(left_edge, -x - tan_x * depth);
+    upper_edge = std::max(upper_edge, y - tan_y * depth);
+    lower_edge = std::max(lower_edge, -y - tan_y * depth);
+  }
+  const float depth = std::min(-(right_edge + left_edge) / (2 * tan_x), -(upper_edge + lower_edge) / (2 * tan_y));
+  return (right_edge - left_edge) / 2 * right + (upper_edge - lower_edge) / 2 * up + depth * forward;
+}
+
+}  // namespace
+
+Mat4f Viewpoint::view() const {
+  const Vec3f f = forward();
+  const Vec3f r = f.cross(up);
+  Mat4f m = Mat4f::Identity();
+  m.block<1, 3>(0, 0) = r.transpose();
+  m.block<1, 3>(1, 0) = up.transpose();
+  m.block<1, 3>(2, 0) = -f.transpose();
+  m.block<3, 1>(0, 3) = Vec3f(-r.dot(eye), -up.dot(eye), f.dot(eye));
+  return m;
+}
+
+Mat4f Viewpoint::projection(float aspect) const {
+  const float scale = 1 / std::tan(field_of_view / 2);
+  Mat4f m = Mat4f::Zero();
+  m(0, 0) = scale / aspect;
+  m(0, 2) = inset;  // moves everything to the left
+  m(1, 1) = scale;
+  m(2, 2) = (far + near) / (near - far);
+  m(2, 3) = 2 * far * near / (near - far);
+  m(3, 2) = -1;
+  return m;
+}
+
+Viewpoint place_camera(const pliant::Camera& camera, const Bounds& given, float aspect, float inset) {
+  Bounds bounds = given;
+  if (bounds.is_empty()) bounds.add(Vec3f::Zero());
+  const float radius = std::max(bounds.radius(), 1e-3F);
+  Viewpoint view;
+  view.inset = inset;
+  view.field_of_view = static_cast<float>(camera.field_of_view * std::numbers::pi / 180);
+  view.target = camera.target ? to_float(*camera.target) : bounds.center();
+  const Vec3f up = to_float(camera.up).normalized();
+  if (camera.position) {
+    view.eye = to_float(*camera.position);
+    if ((view.target - view.eye).norm() < 1e-6F * radius) view.target = view.eye + Vec3f(0, 1, 0);
+    view.up = upright(up, view.forward());
+  } else {
+    // From the front and the right and from above, whatever is up.
+    const Vec3f side = upright(std::abs(up.y()) < 0.9F ? Vec3f(0, -1, 0) : Vec3f(0, 0, 1), up);
+    const Vec3f forward = -(side + 0.45F * up.cross(side) + 0.42F * up).normalized();
+    view.up = upright(up, forward);
+    const float tan_y = std::tan(view.field_of_view / 2) / margin;
+    view.eye = fit(bounds, forward, view.up, tan_y * aspect * (1 - inset), tan_y);
+    const float ahead = (bounds.center() - view.eye).dot(forward);
+    if (camera.target) {
+      view.eye = view.target - ahead * forward;
+    } else {
+      view.target = view.eye + ahead * forward;
+    }
+  }
+  const float distance = (bounds.center() - view.eye).norm();
+  view.far = distance + 30 * radius;
+  view.near = std::max(distance - 3 * radius, 1e-3F * std::max(distance, radius));
+  return view;
+}
+
+}  // namespace pliant_render

@@ -1,0 +1,92 @@
+#include "render/gl_objects.h"
+
+#include <array>
+#include <stdexcept>
+#include <string>
+
+namespace pliant_render {
+namespace {
+
+GLuint compile(GLenum stage, std::string_view source) {
+  const GLuint shader = glCreateShader(stage);
+  const char* const text = source.data();
+  const auto length = static_cast<GLint>(source.size());
+  glShaderSource(shader, 1, &text, &length);
+  glCompileShader(shader);
+  GLint succeeded = 0;
+  glGetShaderiv(shader, GL_COMPILE_STATUS, &succeeded);
+  if (succeeded != 0) return shader;
+  std::array<char, 2000> message{};
+  glGetShaderInfoLog(shader, static_cast<GLsizei>(message.size()), nullptr, message.data());
+  glDeleteShader(shader);
+  throw std::logic_error(std::string("a shader does not compile: ") + message.data());
+}
+
+}  // namespace
+
+GLuint BufferKind::make() {
+  GLuint id = 0;
+  glGenBuffers(1, &id);
+  return id;
+}
+void BufferKind::destroy(GLuint id) {
+  glDeleteBuffers(1, &id);
+}
+GLuint VertexArrayKind::make() {
+  GLuint id = 0;
+  glGenVertexArrays(1, &id);
+  return id;
+}
+void VertexArrayKind::destroy(GLuint id) {
+  glDeleteVertexArrays(1, &id);
+}
+GLuint TextureKind::make() {
+  GLuint id = 0;
+  glGenTextures(1, &id);
+  return id;
+}
+void TextureKind::destroy(GLuint id) {
+  glDeleteTextures(1, &id);
+}
+GLuint RenderbufferKind::make() {
+  GLuint id = 0;
+  glGenRenderbuffers(1, &id);
+  return id;
+}
+void RenderbufferKind::destroy(GLuint id) {
+  glDeleteRenderbuffers(1, &id);
+}
+GLuint FramebufferKind::make() {
+  GLuint id = 0;
+  glGenFramebuffers(1, &id);
+  return id;
+}
+void FramebufferKind::destroy(GLuint id) {
+  glDeleteFramebuffers(1, &id);
+}
+
+Program::Program(std::string_view vertex, std::string_view geometry, std::string_view fragment)
+    : id_(glCreateProgram()) {
+  const auto attach = [this](GLenum stage, std::string_view source) {
+    if (source.empty()) return;
+    const GLuint shader = compile(stage, source);
+    glAttachShader(id_, shader);
+    glDeleteShader(shader);  // once the program goes
+  };
+  attach(GL_VERTEX_SHADER, vertex);
+  attach(GL_GEOMETRY_SHADER, geometry);
+  attach(GL_FRAGMENT_SHADER, fragment);
+  glLinkProgram(id_);
+  GLint succeeded = 0;
+  glGetProgramiv(id_, GL_LINK_STATUS, &succeeded);
+  if (succeeded != 0) return;
+  std::array<char, 2000> message{};
+  glGetProgramInfoLog(id_, static_cast<GLsizei>(message.size()), nullptr, message.data());
+  throw std::logic_error(std::string("a program does not link: ") + message.data());
+}
+
+Program::~Program() {
+  glDeleteProgram(id_);
+}
+
+}  // namespace pliant_render

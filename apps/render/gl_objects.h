@@ -1,0 +1,93 @@
+#pragma once
+// OpenGL objects that delete themselves. Their context must be current whenever they are made, used or deleted.
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+#include <epoxy/gl.h>
+
+namespace pliant_render {
+
+using Vec2f = Eigen::Vector2f;
+using Vec3f = Eigen::Vector3f;
+using Mat4f = Eigen::Matrix4f;
+
+/// The name of one object, which `Kind` makes and deletes.
+template <class Kind>
+class GlObject {
+ public:
+  GlObject() : id_(Kind::make()) {}
+  GlObject(GlObject&& other) noexcept : id_(std::exchange(other.id_, 0)) {}
+  GlObject& operator=(GlObject&& other) noexcept {
+    std::swap(id_, other.id_);
+    return *this;
+  }
+  GlObject(const GlObject&) = delete;
+  GlObject& operator=(const GlObject&) = delete;
+  ~GlObject() {
+    if (id_ != 0) Kind::destroy(id_);
+  }
+  GLuint id() const { return id_; }
+
+ private:
+  GLuint id_;
+};
+
+struct BufferKind {
+  static GLuint make();
+  static void destroy(GLuint id);
+};
+struct VertexArrayKind {
+  static GLuint make();
+  static void destroy(GLuint id);
+};
+struct TextureKind {
+  static GLuint make();
+  static void destroy(GLuint id);
+};
+struct RenderbufferKind {
+  static GLuint make();
+  static void destroy(GLuint id);
+};
+struct FramebufferKind {
+  static GLuint make();
+  static void destroy(GLuint id);
+};
+using Buffer = GlObject<BufferKind>;
+using VertexArray = GlObject<VertexArrayKind>;
+using Texture = GlObject<TextureKind>;
+using Renderbuffer = GlObject<RenderbufferKind>;
+using Framebuffer = GlObject<FramebufferKind>;
+
+/// A linked program.
+class Program {
+ public:
+  /// Sources of the stages; an empty one is left out. Throws std::logic_error with the driver's message.
+  Program(std::string_view vertex, std::string_view geometry, std::string_view fragment);
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+  ~Program();
+
+  void use() const { glUseProgram(id_); }
+  /// Of the program in use.
+  void set(const char* name, int value) const { glUniform1i(place(name), value); }
+  void set(const char* name, float value) const { glUniform1f(place(name), value); }
+  void set(const char* name, const Vec2f& value) const { glUniform2fv(place(name), 1, value.data()); }
+  void set(const char* name, const Vec3f& value) const { glUniform3fv(place(name), 1, value.data()); }
+  void set(const char* name, const Mat4f& value) const { glUniformMatrix4fv(place(name), 1, GL_FALSE, value.data()); }
+
+ private:
+  GLint place(const char* name) const { return glGetUniformLocation(id_, name); }
+
+  GLuint id_;
+};
+
+/// Puts the list into the buffer.
+template <class T>
+void upload(const Buffer& buffer, GLenum target, const std::vector<T>& list, GLenum usage) {
+  glBindBuffer(target, buffer.id());
+  glBufferData(target, static_cast<GLsizeiptr>(list.size() * sizeof(T)), list.data(), usage);
+}
+
+}  // namespace pliant_render

@@ -1,0 +1,36 @@
+#include "render/picture_maker.h"
+
+#include "render/quantities.h"
+
+namespace pliant_render {
+
+PictureMaker::PictureMaker(Scenery scenery, PictureOptions options)
+    : options_(std::move(options)),
+      target_(options_.look.size[0], options_.look.size[1], options_.samples),
+      renderer_(std::move(scenery)) {}
+
+Image PictureMaker::draw(const FrameContent& frame, const std::optional<WindSign>& wind) {
+  const float aspect = static_cast<float>(target_.width()) / static_cast<float>(target_.height());
+  DrawOptions options;
+  const std::optional<Legend> colours = legend();
+  options.viewpoint = place_camera(options_.look.camera, options_.bounds, aspect,
+                                   colours ? legend_width(target_.height()) / static_cast<float>(target_.width()) : 0);
+  options.range = options_.range;
+  options.ground_height = options_.ground_height;
+  options.scale = static_cast<float>(target_.height()) / 720;
+  renderer_.set_frame(frame, options_.look.colour);
+  target_.begin();
+  renderer_.draw(options_.look, options, target_.width(), target_.height());
+  target_.resolve();
+  overlay_.draw(options_.look, options.viewpoint, colours, wind, target_.width(), target_.height());
+  return target_.read();
+}
+
+std::optional<Legend> PictureMaker::legend() const {
+  const pliant::ColourBy colour = options_.look.colour;
+  if (!options_.look.legend || colour == pliant::ColourBy::none) return {};
+  return Legend{std::string(quantity_title(colour)), options_.range,
+                colour == pliant::ColourBy::stretch ? 100.0F : 1.0F, colour_map(colour)};
+}
+
+}  // namespace pliant_render

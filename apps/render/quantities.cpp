@@ -1,0 +1,109 @@
+#include "render/quantities.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/LU>
+
+namespace pliant_render {
+namespace {
+
+using pliant::ColourBy;
+using pliant::Real;
+using Rgb = std::array<std::uint8_t, 3>;
+
+constexpr std::size_t map_size = 256;
+
+/// Through these colours at even distances, in straight lines (sRGB).
+std::vector<Rgb> through(std::span<const Rgb> stops) {
+  std::vector<Rgb> map(map_size);
+  for (std::size_t i = 0; i < map_size; ++i) {
+    const double place = static_cast<double>(i) / (map_size - 1) * static_cast<double>(stops.size() - 1);
+    const auto from = std::min(static_cast<std::size_t>(place), stops.size() - 2);
+    const double share = place - static_cast<double>(from);
+    for (std::size_t c = 0; c < 3; ++c) {
+      map[i][c] = static_cast<std::uint8_t>(std::lround((1 - share) * stops[from][c] + share * stops[from + 1][c]));
+    }
+  }
+  return map;
+}
+
+}  // namespace
+
+std::vector<float> vertex_stretch(const Scenery& scenery, std::span<const Vec3f> positions) {
+  std::vector<float> sums(positions.size(), 0);
+  std::vector<float> counts(positions.size(), 0);
+  for (std::size_t e = 0; e < scenery.rest_lengths.size(); ++e) {
+    const std::uint32_t a = scenery.springs[2 * e], b = scenery.springs[2 * e + 1];
+    if (!(scenery.rest_lengths[e] > 0)) continue;
+    const float stretch = (positions[b] - positions[a]).norm() / scenery.rest_lengths[e] - 1;
+    for (const std::uint32_t vertex : {a, b}) {
+      sums[vertex] += stretch;
+      counts[vertex] += 1;
+    }
+  }
+  for (std::size_t i = 0; i < sums.size(); ++i) sums[i] /= std::max(counts[i], 1.0F);
+  return sums;
+}
+
+std::vector<float> vertex_energy(const pliant::Simulation& simulation) {
+  const pliant::Positions& q = simulation.state().positions;
+  std::vector<float> energies(static_cast<std::size_t>(q.rows()), 0);
+  std::vector<Real> slots;
+  for (const auto& [id, group] : simulation.groups()) {
+    for (const auto& part : group.set.parts) {
+      const pliant::GroupShape shape = part->shape();
+      const auto n = static_cast<std::size_t>(shape.vertices);
+      slots.resize(3 * static_cast<std::size_t>(shape.rows));
+      for (Index i = 0; i < shape.count; ++i) {
+        const Real energy = part->project(q, slots, i, i + 1);
+        for (const Index vertex : part->stencil().subspan(static_cast<std::size_t>(i) * n, n)) {
+          energies[static_cast<std::size_t>(vertex)] += static_cast<float>(energy / static_cast<Real>(n));
+        }
+      }
+    }
+  }
+  return energies;
+}
+
+std::vector<float> vertex_speed(const pliant::Positions& velocities) {
+  std::vector<float> speeds(static_cast<std::size_t>(velocities.rows()));
+  for (std::size_t i = 0; i < speeds.size(); ++i) {
+    speeds[i] = static_cast<float>(velocities.row(static_cast<Eigen::Index>(i)).norm());
+  }
+  return speeds;
+}
+
+std::string_view quantity_title(ColourBy colour) {
+  switch (colour) {
+    case ColourBy::stretch:
+      return "stretch [%]";
+    case ColourBy::energy:
+      return "elastic energy [J]";
+    case ColourBy::speed:
+      return "speed [m/s]";
+    case ColourBy::none:
+      break;
+  }
+  return "";
+}
+
+std::array<float, 2> quantity_range(ColourBy colour, std::span<const float> values) {
+  float largest = 0;
+  for (const float value : values) {
+    if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
+  }
+  if (!(largest > 0)) largest = 1;
+  return {colour == ColourBy::stretch ? -largest : 0, largest};
+}
+
+std::vector<Rgb> colour_map(ColourBy colour) {
+  // Lightness rises evenly in the first; the second is as dark at both ends.
+  constexpr std::array<Rgb, 6> rising = {Rgb{24, 28, 74},   Rgb{44, 76, 132},  Rgb{33, 130, 141},
+                                         Rgb{68, 178, 124}, Rgb{158, 215, 98}, Rgb{250, 238, 150}};
+  constexpr std::array<Rgb, 5> both_ways = {Rgb{33, 86, 163}, Rgb{134, 178, 216}, Rgb{240, 238, 233},
+                                            Rgb{231, 151, 119}, Rgb{176, 42, 48}};
+  return colour == ColourBy::stretch ? through(both_ways) : through(rising);
+}
+
+}  // namespace pliant_render

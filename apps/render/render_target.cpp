@@ -1,0 +1,73 @@
+#include "render/render_target.h"
+
+#include <algorithm>
+#include <string>
+
+#include "pliant/core/error.h"
+
+namespace pliant_render {
+namespace {
+
+void attach(const Renderbuffer& buffer, GLenum place, GLenum format, int width, int height, int samples) {
+  glBindRenderbuffer(GL_RENDERBUFFER, buffer.id());
+  glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples > 1 ? samples : 0, format, width, height);
+  glFramebufferRenderbuffer(GL_FRAMEBUFFER, place, GL_RENDERBUFFER, buffer.id());
+}
+
+void check_complete(int width, int height) {
+  if (glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE && glGetError() == GL_NO_ERROR) return;
+  pliant::fail_input("size: the driver draws no picture of " + std::to_string(width) + " x " + std::to_string(height) +
+                     " pixels with so many samples; give a smaller one, or --samples 1");
+}
+
+}  // namespace
+
+RenderTarget::RenderTarget(int width, int height, int samples) : width_(width), height_(height) {
+  GLint most_samples = 1;
+  GLint most_pixels = 0;
+  glGetIntegerv(GL_MAX_SAMPLES, &most_samples);
+  glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &most_pixels);
+  if (std::max(width, height) > most_pixels) {
+    pliant::fail_input("size: " + std::to_string(std::max(width, height)) + " pixels are more than the " +
+                       std::to_string(most_pixels) + " that the driver draws; give a smaller picture");
+  }
+  samples = std::clamp(samples, 1, std::max(1, most_samples));
+  glBindFramebuffer(GL_FRAMEBUFFER, sampled_.id());
+  attach(sampled_colour_, GL_COLOR_ATTACHMENT0, GL_RGBA8, width, height, samples);
+  attach(sampled_depth_, GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT24, width, height, samples);
+  check_complete(width, height);
+  glBindFramebuffer(GL_FRAMEBUFFER, plain_.id());
+  attach(plain_colour_, GL_COLOR_ATTACHMENT0, GL_RGBA8, width, height, 1);
+  check_complete(width, height);
+}
+
+void RenderTarget::begin() const {
+  glBindFramebuffer(GL_FRAMEBUFFER, sampled_.id());
+  glViewport(0, 0, width_, height_);
+}
+
+void RenderTarget::resolve() const {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, sampled_.id());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, plain_.id());
+  glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  glBindFramebuffer(GL_FRAMEBUFFER, plain_.id());
+}
+
+Image RenderTarget::read() const {
+  Image image;
+  image.width = width_;
+  image.height = height_;
+  const auto row = 3 * static_cast<std::size_t>(width_);
+  std::vector<std::uint8_t> upside_down(row * static_cast<std::size_t>(height_));
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, plain_.id());
+  glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  glReadPixels(0, 0, width_, height_, GL_RGB, GL_UNSIGNED_BYTE, upside_down.data());
+  image.pixels.resize(upside_down.size());
+  for (std::size_t y = 0; y < static_cast<std::size_t>(height_); ++y) {
+    const std::size_t from = (static_cast<std::size_t>(height_) - 1 - y) * row;
+    std::copy_n(upside_down.data() + from, row, image.pixels.data() + y * row);
+  }
+  return image;
+}
+
+}  // namespace pliant_render

@@ -1,0 +1,30 @@
+#pragma once
+// Where a picture is drawn when there is no window: a framebuffer with several samples a pixel, and a plain one that
+// can be read.
+#include "render/gl_objects.h"
+#include "render/image.h"
+
+namespace pliant_render {
+
+class RenderTarget {
+ public:
+  /// samples: of a pixel, 1 for none; as many as the driver has at most. Throws Error(input) on a size that the driver
+  /// does not take.
+  RenderTarget(int width, int height, int samples);
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  /// Of the last drawing: first all that needs depth and samples.
+  void begin() const;
+  /// Then, what is drawn flat on top.
+  void resolve() const;
+  Image read() const;
+
+ private:
+  int width_;
+  int height_;
+  Framebuffer sampled_, plain_;
+  Renderbuffer sampled_colour_, sampled_depth_, plain_colour_;
+};
+
+}  // namespace pliant_render

@@ -1,0 +1,252 @@
+#include "render/renderer.h"
+
+#include <cstddef>
+
+#include "render/quantities.h"
+#include "render/shaders.h"
+
+namespace pliant_render {
+namespace {
+
+constexpr int mask_size = 512;
+constexpr float rope_width = 3.5F;  // pixels of a picture of 720 rows
+constexpr float edge_width = 1.0F;
+constexpr float marker_radius = 5.0F;
+constexpr float lift = 2e-4F;  // of depth, so that lines stand before what they lie on
+
+Vec3f tone_of(const pliant::Colour& colour) {
+  return {static_cast<float>(colour.red), static_cast<float>(colour.green), static_cast<float>(colour.blue)};
+}
+
+Vec3f light_of(const pliant::ViewSettings& look) {
+  return look.light.cast<float>().normalized();
+}
+
+void set_up_texture(const Texture& texture, GLenum format, int width, int height, const void* pixels) {
+  const bool is_mask = format == GL_R8;
+  glBindTexture(GL_TEXTURE_2D, texture.id());
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(format), width, height, 0, is_mask ? GL_RED : GL_RGB,
+               GL_UNSIGNED_BYTE, pixels);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, is_mask ? GL_CLAMP_TO_BORDER : GL_CLAMP_TO_EDGE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, is_mask ? GL_CLAMP_TO_BORDER : GL_CLAMP_TO_EDGE);
+}
+
+void set_up_mask(const Texture& texture, const Framebuffer& target) {
+  set_up_texture(texture, GL_R8, mask_size, mask_size, nullptr);
+  glBindFramebuffer(GL_FRAMEBUFFER, target.id());
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture.id(), 0);
+}
+
+GLsizei count_of(const std::vector<std::uint32_t>& list) {
+  return static_cast<GLsizei>(list.size());
+}
+
+}  // namespace
+
+Renderer::Renderer(Scenery scenery)
+    : scenery_(std::move(scenery)),
+      surface_(shaders::surface_vertex, "", shaders::surface_fragment),
+      line_(shaders::stroke_vertex, shaders::line_geometry, shaders::line_fragment),
+      marker_(shaders::stroke_vertex, shaders::marker_geometry, shaders::marker_fragment),
+      flatten_(shaders::flatten_vertex, "", shaders::flatten_fragment),
+      blur_(shaders::screen_vertex, "", shaders::blur_fragment),
+      ground_(shaders::ground_vertex, "", shaders::ground_fragment) {
+  const auto set_up = [this](const VertexArray& array, const Buffer& elements, const std::vector<std::uint32_t>& list) {
+    glBindVertexArray(array.id());
+    set_vertex_layout();
+    upload(elements, GL_ELEMENT_ARRAY_BUFFER, list, GL_STATIC_DRAW);
+  };
+  set_up(triangles_array_, triangles_, scenery_.triangles);
+  set_up(ropes_array_, ropes_, scenery_.ropes);
+  set_up(edges_array_, edges_, scenery_.edges);
+  set_up(markers_array_, markers_, {});
+  glBindVertexArray(0);
+  set_up_mask(mask_, mask_target_);
+  set_up_mask(half_blurred_, half_blurred_target_);
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+void Renderer::set_vertex_layout() const {
+  const auto attribute = [](GLuint place, GLint size, std::size_t offset) {
+    glEnableVertexAttribArray(place);
+    glVertexAttribPointer(place, size, GL_FLOAT, GL_FALSE, sizeof(Vertex),
+                          reinterpret_cast<const void*>(offset));  // NOLINT: as OpenGL wants it
+  };
+  glBindBuffer(GL_ARRAY_BUFFER, vertex_buffer_.id());
+  attribute(0, 3, offsetof(Vertex, position));
+  attribute(1, 3, offsetof(Vertex, normal));
+  attribute(2, 1, offsetof(Vertex, value));
+}
+
+void Renderer::set_frame(const FrameContent& frame, pliant::ColourBy colour) {
+  bounds_ = bounds_of(frame.positions);
+  has_values_ = frame.values.size() == frame.positions.size() && colour != pliant::ColourBy::none;
+  const std::vector<Vec3f> normals = vertex_normals(scenery_, frame.positions);
+  vertices_.resize(frame.positions.size());
+  for (std::size_t i = 0; i < vertices_.size(); ++i) {
+    vertices_[i] = {frame.positions[i], normals[i], has_values_ ? frame.values[i] : 0};
+  }
+  upload(vertex_buffer_, GL_ARRAY_BUFFER, vertices_, GL_STREAM_DRAW);
+  glBindVertexArray(markers_array_.id());
+  upload(markers_, GL_ELEMENT_ARRAY_BUFFER, frame.markers, GL_STREAM_DRAW);
+  glBindVertexArray(0);
+  marker_count_ = count_of(frame.markers);
+  if (!has_values_ || map_of_ == colour) return;
+  map_of_ = colour;
+  const auto map = colour_map(colour);
+  set_up_texture(map_, GL_RGB8, static_cast<int>(map.size()), 1, map.data());
+}
+
+void Renderer::draw(const pliant::ViewSettings& look, const DrawOptions& options, int width, int height) {
+  GLint target = 0;
+  glGetIntegerv(GL_FRAMEBUFFER_BINDING, &target);
+  const Vec2f picture(static_cast<float>(width), static_cast<float>(height));
+  const Mat4f camera = options.viewpoint.projection(picture.x() / picture.y()) * options.viewpoint.view();
+  const Vec3f light = light_of(look);
+  const bool has_shadow = look.ground && look.shadow && light.z() > 0.05F && !bounds_.is_empty();
+  ShadowArea area{Vec2f::Zero(), Vec2f::Ones()};
+  if (has_shadow) area = draw_shadow(light, options.ground_height);
+
+  glBindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(target));
+  glViewport(0, 0, width, height);
+  const Vec3f background = tone_of(look.background);
+  glClearColor(background.x(), background.y(), background.z(), 1);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  glEnable(GL_MULTISAMPLE);
+  if (look.ground) {
+    ground_.use();
+    ground_.set("darkness", has_shadow ? 0.34F : 0.0F);
+    ground_.set("middle", area.middle);
+    ground_.set("reach", area.reach);
+    draw_ground(look, options, camera);
+  }
+  glEnable(GL_DEPTH_TEST);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  draw_surface(look, options, camera);
+  draw_lines(look, options, camera, picture);
+  draw_markers(options, camera, picture);
+  glDisable(GL_BLEND);
+  glDisable(GL_DEPTH_TEST);
+  glBindVertexArray(0);
+}
+
+Renderer::ShadowArea Renderer::draw_shadow(const Vec3f& light, float height) {
+  Bounds flat;
+  for (const Vertex& vertex : vertices_) {
+    const Vec3f p = vertex.position - light * ((vertex.position.z() - height) / light.z());
+    flat.add({p.x(), p.y(), 0});
+  }
+  // The blur reaches seven texels out.
+  const Vec3f half = (flat.high - flat.low) / 2;
+  const float margin = 0.06F * std::max({half.x(), half.y(), 1e-3F});
+  const ShadowArea area{flat.center().head<2>(), half.head<2>().array() + margin};
+  glBindFramebuffer(GL_FRAMEBUFFER, mask_target_.id());
+  glViewport(0, 0, mask_size, mask_size);
+  glClearColor(0, 0, 0, 0);
+  glClear(GL_COLOR_BUFFER_BIT);
+  flatten_.use();
+  flatten_.set("light", light);
+  flatten_.set("height", height);
+  flatten_.set("middle", area.middle);
+  flatten_.set("reach", area.reach);
+  glBindVertexArray(triangles_array_.id());
+  glDrawElements(GL_TRIANGLES, count_of(scenery_.triangles), GL_UNSIGNED_INT, nullptr);
+  glBindVertexArray(ropes_array_.id());
+  glDrawElements(GL_LINES, count_of(scenery_.ropes), GL_UNSIGNED_INT, nullptr);
+  // As wide in both directions on the ground, not in the mask.
+  const float texel = 1.2F * area.reach.maxCoeff() / mask_size;
+  for (int pass = 0; pass < 2; ++pass) {
+    blur(mask_, half_blurred_target_, {texel / area.reach.x(), 0});
+    blur(half_blurred_, mask_target_, {0, texel / area.reach.y()});
+  }
+  return area;
+}
+
+void Renderer::blur(const Texture& from, const Framebuffer& to, const Vec2f& step) const {
+  glBindFramebuffer(GL_FRAMEBUFFER, to.id());
+  blur_.use();
+  blur_.set("mask", 0);
+  blur_.set("step_size", step);
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, from.id());
+  glBindVertexArray(empty_array_.id());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void Renderer::draw_ground(const pliant::ViewSettings& look, const DrawOptions& options, const Mat4f& camera) {
+  const Vec3f background = tone_of(look.background);
+  const Vec3f center = bounds_.is_empty() ? Vec3f::Zero().eval() : bounds_.center();
+  ground_.set("camera", camera);
+  ground_.set("center", Vec3f(center.x(), center.y(), options.ground_height));
+  ground_.set("extent", std::max(12 * bounds_.radius(), 1.0F));
+  ground_.set("tone", Vec3f(0.86F * background));
+  ground_.set("background", background);
+  ground_.set("mask", 0);
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, mask_.id());
+  glBindVertexArray(empty_array_.id());
+  glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+}
+
+void Renderer::draw_surface(const pliant::ViewSettings& look, const DrawOptions& options, const Mat4f& camera) const {
+  if (scenery_.triangles.empty()) return;
+  surface_.use();
+  surface_.set("camera", camera);
+  surface_.set("eye", options.viewpoint.eye);
+  surface_.set("light", light_of(look));
+  surface_.set("front", tone_of(look.front));
+  surface_.set("back", tone_of(look.back));
+  surface_.set("is_flat", look.shading == pliant::Shading::flat ? 1 : 0);
+  surface_.set("is_coloured", is_coloured() ? 1 : 0);
+  surface_.set("low", options.range[0]);
+  surface_.set("high", options.range[1]);
+  surface_.set("colours", 0);
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, map_.id());
+  glBindVertexArray(triangles_array_.id());
+  glDrawElements(GL_TRIANGLES, count_of(scenery_.triangles), GL_UNSIGNED_INT, nullptr);
+}
+
+void Renderer::draw_lines(const pliant::ViewSettings& look, const DrawOptions& options, const Mat4f& camera,
+                          const Vec2f& picture) const {
+  line_.use();
+  line_.set("camera", camera);
+  line_.set("picture", picture);
+  line_.set("lift", lift);
+  line_.set("low", options.range[0]);
+  line_.set("high", options.range[1]);
+  line_.set("colours", 0);
+  const auto draw_list = [&](const VertexArray& array, GLsizei count, float width, float opacity, const Vec3f& tone,
+                             bool is_rope) {
+    if (count == 0) return;
+    line_.set("width", width * options.scale);
+    line_.set("opacity", opacity);
+    line_.set("tone", tone);
+    line_.set("is_round", is_rope ? 1 : 0);
+    line_.set("is_coloured", is_rope && is_coloured() ? 1 : 0);
+    glBindVertexArray(array.id());
+    glDrawElements(GL_LINES, count, GL_UNSIGNED_INT, nullptr);
+  };
+  draw_list(ropes_array_, count_of(scenery_.ropes), rope_width, 1, tone_of(look.front), true);
+  if (look.wireframe) {
+    draw_list(edges_array_, count_of(scenery_.edges), edge_width, 0.55F, Vec3f(0.10F, 0.11F, 0.14F), false);
+  }
+}
+
+void Renderer::draw_markers(const DrawOptions& options, const Mat4f& camera, const Vec2f& picture) const {
+  if (marker_count_ == 0) return;
+  marker_.use();
+  marker_.set("camera", camera);
+  marker_.set("picture", picture);
+  marker_.set("lift", 4 * lift);
+  marker_.set("radius", marker_radius * options.scale);
+  marker_.set("tone", Vec3f(0.86F, 0.10F, 0.13F));
+  glBindVertexArray(markers_array_.id());
+  glDrawElements(GL_POINTS, marker_count_, GL_UNSIGNED_INT, nullptr);
+}
+
+}  // namespace pliant_render

@@ -1,0 +1,62 @@
+#include "render/scenery.h"
+
+#include "pliant/mesh/topology.h"
+
+namespace pliant_render {
+namespace {
+
+template <class Element>
+void append(std::vector<std::uint32_t>& list, std::span<const Element> elements, Index first_vertex) {
+  for (const Element& element : elements) {
+    for (const Index vertex : element) list.push_back(static_cast<std::uint32_t>(first_vertex + vertex));
+  }
+}
+
+}  // namespace
+
+Scenery make_scenery(const std::vector<pliant::Body>& bodies) {
+  Scenery scenery;
+  for (const pliant::Body& body : bodies) {
+    const pliant::Mesh& mesh = body.mesh;
+    scenery.vertex_count = std::max(scenery.vertex_count, body.first_vertex + mesh.vertex_count());
+    pliant::Mesh surface;
+    surface.vertices = mesh.vertices;
+    surface.triangles = mesh.triangles;
+    if (!mesh.tetrahedra.empty()) {
+      const std::vector<pliant::Triangle> skin = pliant::boundary_triangles(mesh.tetrahedra);
+      surface.triangles.insert(surface.triangles.end(), skin.begin(), skin.end());
+    }
+    append<pliant::Triangle>(scenery.triangles, surface.triangles, body.first_vertex);
+    append<pliant::Edge>(scenery.ropes, mesh.edges, body.first_vertex);
+    append<pliant::Edge>(scenery.edges, pliant::unique_edges(surface), body.first_vertex);
+    const std::vector<pliant::Edge> springs = pliant::unique_edges(mesh);
+    append<pliant::Edge>(scenery.springs, springs, body.first_vertex);
+    for (const pliant::Edge& edge : springs) {
+      scenery.rest_lengths.push_back(
+          static_cast<float>((mesh.vertices.row(edge[1]) - mesh.vertices.row(edge[0])).norm()));
+    }
+  }
+  return scenery;
+}
+
+Bounds bounds_of(std::span<const Vec3f> positions) {
+  Bounds bounds;
+  for (const Vec3f& p : positions) bounds.add(p);
+  return bounds;
+}
+
+std::vector<Vec3f> vertex_normals(const Scenery& scenery, std::span<const Vec3f> positions) {
+  std::vector<Vec3f> normals(positions.size(), Vec3f::Zero());
+  for (std::size_t t = 0; t + 2 < scenery.triangles.size(); t += 3) {
+    const std::uint32_t a = scenery.triangles[t], b = scenery.triangles[t + 1], c = scenery.triangles[t + 2];
+    const Vec3f normal = (positions[b] - positions[a]).cross(positions[c] - positions[a]);
+    for (const std::uint32_t vertex : {a, b, c}) normals[vertex] += normal;
+  }
+  for (Vec3f& normal : normals) {
+    const float length = normal.norm();
+    if (length > 0) normal /= length;
+  }
+  return normals;
+}
+
+}  // namespace pliant_render

@@ -1,0 +1,217 @@
+#include "render/shaders.h"
+
+namespace pliant_render::shaders {
+
+const std::string_view surface_vertex = R"(#version 330 core
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in float value;
+uniform mat4 camera;
+out vec3 world;
+out vec3 smooth_normal;
+out float value_here;
+void main() {
+  world = position;
+  smooth_normal = normal;
+  value_here = value;
+  gl_Position = camera * vec4(position, 1);
+})";
+
+// Colours are mixed in linear light. A key light, the sky above and the ground below, and a little from the eye, so
+// that nothing is black; the back of a sheet is lit as its front.
+const std::string_view surface_fragment = R"(#version 330 core
+in vec3 world;
+in vec3 smooth_normal;
+in float value_here;
+uniform vec3 eye, light, front, back;
+uniform int is_flat, is_coloured;
+uniform float low, high;
+uniform sampler2D colours;
+out vec4 colour;
+vec3 to_linear(vec3 c) { return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), step(0.04045, c)); }
+vec3 to_srgb(vec3 c) {
+  c = clamp(c, 0.0, 1.0);
+  return mix(c * 12.92, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c));
+}
+void main() {
+  vec3 view = normalize(eye - world);
+  vec3 n = cross(dFdx(world), dFdy(world));  // towards the eye
+  if (is_flat == 0 && dot(smooth_normal, smooth_normal) > 0.0) n = gl_FrontFacing ? smooth_normal : -smooth_normal;
+  n = normalize(n);
+  vec3 base = gl_FrontFacing ? front : back;
+  if (is_coloured != 0) base = texture(colours, vec2(clamp((value_here - low) / (high - low), 0.002, 0.998), 0.5)).rgb;
+  base = to_linear(base);
+  float key = max(dot(n, light), 0.0);
+  float wrapped = max((dot(n, light) + 0.4) / 1.4, 0.0);
+  float sky = 0.5 + 0.5 * n.z;
+  float fill = max(dot(n, view), 0.0);
+  vec3 halfway = normalize(light + view);
+  float shine = pow(max(dot(n, halfway), 0.0), 40.0);
+  vec3 lit = base * (0.26 + 0.18 * sky + 0.26 * fill + 0.38 * key + 0.14 * wrapped) + vec3(0.035) * shine;
+  colour = vec4(to_srgb(lit), 1);
+})";
+
+const std::string_view stroke_vertex = R"(#version 330 core
+layout(location = 0) in vec3 position;
+layout(location = 2) in float value;
+uniform mat4 camera;
+out float value_at;
+void main() {
+  value_at = value;
+  gl_Position = camera * vec4(position, 1);
+})";
+
+const std::string_view line_geometry = R"(#version 330 core
+layout(lines) in;
+layout(triangle_strip, max_vertices = 4) out;
+in float value_at[];
+uniform vec2 picture;  // pixels
+uniform float width, lift;
+out float across, value_here;
+out vec2 sideways;
+void main() {
+  vec4 a = gl_in[0].gl_Position, b = gl_in[1].gl_Position;
+  float va = value_at[0], vb = value_at[1];
+  const float least = 1e-4;
+  if (a.w < least && b.w < least) return;
+  if (a.w < least) { float s = (least - a.w) / (b.w - a.w); a = mix(a, b, s); va = mix(va, vb, s); }
+  if (b.w < least) { float s = (least - b.w) / (a.w - b.w); b = mix(b, a, s); vb = mix(vb, va, s); }
+  vec2 along = (b.xy / b.w - a.xy / a.w) * picture;
+  float size = length(along);
+  along = size > 1e-6 ? along / size : vec2(1, 0);
+  sideways = vec2(-along.y, along.x);
+  float reach = width / 2.0 + 0.75;  // half a pixel and some for the soft edge
+  vec2 side = sideways * 2.0 * reach / picture;
+  for (int end = 0; end < 2; ++end) {
+    vec4 p = end == 0 ? a : b;
+    p.z -= lift * p.w;
+    for (int s = -1; s <= 1; s += 2) {
+      across = float(s) * reach;
+      value_here = end == 0 ? va : vb;
+      gl_Position = p + vec4(float(s) * side * p.w, 0, 0);
+      EmitVertex();
+    }
+  }
+  EndPrimitive();
+})";
+
+const std::string_view line_fragment = R"(#version 330 core
+in float across, value_here;
+in vec2 sideways;
+uniform float width, opacity, low, high;
+uniform vec3 tone;
+uniform int is_round, is_coloured;
+uniform sampler2D colours;
+out vec4 colour;
+void main() {
+  float edge = clamp(width / 2.0 + 0.5 - abs(across), 0.0, 1.0);
+  vec3 base = tone;
+  if (is_coloured != 0) base = texture(colours, vec2(clamp((value_here - low) / (high - low), 0.002, 0.998), 0.5)).rgb;
+  if (is_round != 0) {
+    float t = clamp(across / (width / 2.0), -1.0, 1.0);
+    vec3 n = vec3(sideways * t, sqrt(max(0.0, 1.0 - t * t)));  // of a tube that faces the eye
+    base *= 0.62 + 0.40 * max(dot(n, normalize(vec3(-0.3, 0.7, 0.7))), 0.0);
+  }
+  if (edge * opacity < 0.01) discard;
+  colour = vec4(base, edge * opacity);
+})";
+
+const std::string_view marker_geometry = R"(#version 330 core
+layout(points) in;
+layout(triangle_strip, max_vertices = 4) out;
+uniform vec2 picture;
+uniform float radius, lift;
+out vec2 at;
+void main() {
+  vec4 p = gl_in[0].gl_Position;
+  if (p.w < 1e-4) return;
+  p.z -= lift * p.w;
+  float reach = radius + 1.0;
+  for (int x = -1; x <= 1; x += 2) {
+    for (int y = -1; y <= 1; y += 2) {
+      at = vec2(x, y) * reach;
+      gl_Position = p + vec4(at * 2.0 / picture * p.w, 0, 0);
+      EmitVertex();
+    }
+  }
+  EndPrimitive();
+})";
+
+const std::string_view marker_fragment = R"(#version 330 core
+in vec2 at;
+uniform float radius;
+uniform vec3 tone;
+out vec4 colour;
+void main() {
+  float distance = length(at);
+  float inside = clamp(radius + 0.5 - distance, 0.0, 1.0);
+  if (inside < 0.01) discard;
+  vec2 t = at / radius;
+  vec3 n = vec3(t, sqrt(max(0.0, 1.0 - dot(t, t))));
+  float rim = clamp(radius - 0.5 - distance, 0.0, 1.0);
+  float lit = 0.68 + 0.42 * max(dot(n, normalize(vec3(-0.35, 0.6, 0.72))), 0.0);
+  colour = vec4(tone * mix(0.45, lit, rim), inside);
+})";
+
+const std::string_view flatten_vertex = R"(#version 330 core
+layout(location = 0) in vec3 position;
+uniform vec3 light;
+uniform float height;
+uniform vec2 middle, reach;
+void main() {
+  vec3 p = position - light * ((position.z - height) / light.z);
+  gl_Position = vec4((p.xy - middle) / reach, 0, 1);
+})";
+
+const std::string_view flatten_fragment = R"(#version 330 core
+out vec4 colour;
+void main() { colour = vec4(1); })";
+
+const std::string_view screen_vertex = R"(#version 330 core
+out vec2 place;
+void main() {
+  place = vec2(gl_VertexID & 1, gl_VertexID >> 1);
+  gl_Position = vec4(4.0 * place - 1.0, 0, 1);
+  place *= 2.0;
+})";
+
+const std::string_view blur_fragment = R"(#version 330 core
+in vec2 place;
+uniform sampler2D mask;
+uniform vec2 step_size;
+out vec4 colour;
+void main() {
+  const float weights[7] = float[](0.1585, 0.1465, 0.1158, 0.0782, 0.0452, 0.0223, 0.0128);
+  float sum = weights[0] * texture(mask, place).r;
+  for (int i = 1; i < 7; ++i) {
+    sum += weights[i] * (texture(mask, place + float(i) * step_size).r + texture(mask, place - float(i) * step_size).r);
+  }
+  colour = vec4(sum, 0, 0, 1);
+})";
+
+const std::string_view ground_vertex = R"(#version 330 core
+uniform mat4 camera;
+uniform vec3 center;
+uniform float extent;
+out vec2 ground;
+void main() {
+  ground = center.xy + extent * (2.0 * vec2(gl_VertexID & 1, gl_VertexID >> 1) - 1.0);
+  gl_Position = camera * vec4(ground, center.z, 1);
+})";
+
+const std::string_view ground_fragment = R"(#version 330 core
+in vec2 ground;
+uniform vec3 center, tone, background;
+uniform float extent, darkness;
+uniform vec2 middle, reach;
+uniform sampler2D mask;
+out vec4 colour;
+void main() {
+  float shadow = texture(mask, (ground - middle) / reach * 0.5 + 0.5).r;
+  float far = clamp(length(ground - center.xy) / extent, 0.0, 1.0);
+  float share = 1.0 - smoothstep(0.12, 1.0, far);
+  vec3 c = mix(background, tone, share) * (1.0 - darkness * shadow);
+  colour = vec4(c, 1);
+})";
+
+}  // namespace pliant_render::shaders

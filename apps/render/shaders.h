@@ -1,0 +1,28 @@
+#pragma once
+// The programs of the renderer, in GLSL 3.30.
+#include <string_view>
+
+namespace pliant_render::shaders {
+
+// Surfaces in two tones, or coloured by a value.
+extern const std::string_view surface_vertex;
+extern const std::string_view surface_fragment;
+
+// Lines as ribbons of a width in pixels, and points as discs.
+extern const std::string_view stroke_vertex;
+extern const std::string_view line_geometry;
+extern const std::string_view line_fragment;
+extern const std::string_view marker_geometry;
+extern const std::string_view marker_fragment;
+
+// The shadow: everything flattened onto the ground along the light, then blurred.
+extern const std::string_view flatten_vertex;
+extern const std::string_view flatten_fragment;
+extern const std::string_view screen_vertex;
+extern const std::string_view blur_fragment;
+
+// The ground, which fades into the background.
+extern const std::string_view ground_vertex;
+extern const std::string_view ground_fragment;
+
+}  // namespace pliant_render::shaders

@@ -1,0 +1,176 @@
+#include "render/take.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "pliant/core/error.h"
+#include "pliant/forces/test_force.h"
+#include "pliant/forces/wind.h"
+#include "render/quantities.h"
+
+namespace pliant_render {
+namespace {
+
+using pliant::ColourBy;
+using pliant::Real;
+
+constexpr std::int64_t most_bytes = std::int64_t{4} << 30U;
+
+void check_size(std::int64_t frames, Index vertices) {
+  const auto bytes = static_cast<std::int64_t>(sizeof(Vec3f) + sizeof(float));
+  if (vertices == 0 || frames <= most_bytes / bytes / vertices) return;
+  pliant::fail_input(
+      fmt::format("{} frames of {} vertices would take {} GB; film fewer steps, or fewer frames a second", frames,
+                  vertices, frames / 1'000'000 * vertices * bytes / 1000));
+}
+
+std::vector<Vec3f> to_floats(const pliant::Positions& x) {
+  std::vector<Vec3f> result(static_cast<std::size_t>(x.rows()));
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    result[i] = x.row(static_cast<Eigen::Index>(i)).transpose().cast<float>();
+  }
+  return result;
+}
+
+void sort_and_trim(std::vector<std::uint32_t>& list) {
+  std::ranges::sort(list);
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+}
+
+/// Pinned vertices, and those under a test force now.
+std::vector<std::uint32_t> find_markers(const pliant::Simulation& simulation) {
+  std::vector<std::uint32_t> markers;
+  const auto add = [&markers](std::span<const Index> vertices) {
+    for (const Index vertex : vertices) markers.push_back(static_cast<std::uint32_t>(vertex));
+  };
+  for (const auto& [id, group] : simulation.groups()) {
+    if (group.type != "position") continue;
+    for (const auto& part : group.set.parts) {
+      add(part->held_vertices());
+      add(part->stencil());
+    }
+  }
+  for (const auto& [id, force] : simulation.forces()) {
+    const auto* test = dynamic_cast<const pliant::TestForce*>(force.get());
+    if (test != nullptr && test->is_active(simulation.state().step)) add(test->vertices());
+  }
+  sort_and_trim(markers);
+  return markers;
+}
+
+/// Of the first wind that blows.
+std::optional<WindSign> find_wind(const pliant::Simulation& simulation) {
+  for (const auto& [id, force] : simulation.forces()) {
+    const auto* wind = dynamic_cast<const pliant::Wind*>(force.get());
+    if (wind == nullptr) continue;
+    const Vec3f velocity = wind->options().velocity.cast<float>();
+    if (!(velocity.norm() > 0)) continue;
+    const bool is_relative = wind->options().model == pliant::WindModel::relative;
+    return WindSign{velocity, fmt::format("wind {:.3g} {}", velocity.norm(), is_relative ? "m/s" : "N/m²")};
+  }
+  return {};
+}
+
+std::vector<float> find_values(const pliant::Simulation& simulation, const Scenery& scenery,
+                               std::span<const Vec3f> positions, ColourBy colour) {
+  switch (colour) {
+    case ColourBy::stretch:
+      return vertex_stretch(scenery, positions);
+    case ColourBy::energy:
+      return vertex_energy(simulation);
+    case ColourBy::speed:
+      return vertex_speed(simulation.state().velocities);
+    case ColourBy::none:
+      break;
+  }
+  return {};
+}
+
+}  // namespace
+
+TakeFrame take_frame(const pliant::Simulation& simulation, const Scenery& scenery, ColourBy colour) {
+  TakeFrame frame;
+  frame.time = simulation.state().time;
+  frame.content.positions = to_floats(simulation.state().positions);
+  frame.content.values = find_values(simulation, scenery, frame.content.positions, colour);
+  frame.content.markers = find_markers(simulation);
+  frame.wind = find_wind(simulation);
+  return frame;
+}
+
+Take take_scene(pliant::Scene& scene, std::int64_t every, const std::function<bool(std::int64_t)>& go_on) {
+  Take take{make_scenery(scene.simulation.bodies()), scene.view, {}};
+  check_size((scene.steps - scene.simulation.state().step) / every + 1, take.scenery.vertex_count);
+  const auto keep = [&] { take.frames.push_back(take_frame(scene.simulation, take.scenery, scene.view.colour)); };
+  keep();
+  for (std::int64_t step = scene.simulation.state().step; step < scene.steps && go_on(step);) {
+    scene.step();
+    if (++step % every == 0) keep();
+  }
+  return take;
+}
+
+Take take_animation(const pliant::Animation& animation, const pliant::ViewSettings& look) {
+  if (animation.bodies.empty()) {
+    pliant::fail_input(animation.name + ": only points are known; a picture needs their mesh");
+  }
+  if (look.colour == ColourBy::energy) {
+    pliant::fail_input("colour: a run does not say the energy of its vertices; give its scene, or another colour");
+  }
+  Take take{make_scenery(animation.bodies), look, {}};
+  check_size(static_cast<std::int64_t>(animation.times.size()), take.scenery.vertex_count);
+  pliant::Positions x;
+  animation.cache.sample(animation.times.front(), x);
+  for (std::size_t e = 0; e < take.scenery.rest_lengths.size(); ++e) {
+    const auto a = static_cast<Index>(take.scenery.springs[2 * e]),
+               b = static_cast<Index>(take.scenery.springs[2 * e + 1]);
+    take.scenery.rest_lengths[e] = static_cast<float>((x.row(a) - x.row(b)).norm());
+  }
+  pliant::Positions before = x;
+  Real last = animation.times.front();
+  for (const Real time : animation.times) {
+    animation.cache.sample(time, x);
+    TakeFrame frame{time, {to_floats(x), {}, {}}, {}};
+    if (look.colour == ColourBy::stretch) frame.content.values = vertex_stretch(take.scenery, frame.content.positions);
+    if (look.colour == ColourBy::speed) {
+      const pliant::Positions velocities = time > last ? ((x - before) / (time - last)).eval() : (0 * x).eval();
+      frame.content.values = vertex_speed(velocities);
+    }
+    take.frames.push_back(std::move(frame));
+    before = x;
+    last = time;
+  }
+  return take;
+}
+
+Bounds bounds_of(const Take& take) {
+  Bounds bounds;
+  for (const TakeFrame& frame : take.frames) {
+    for (const Vec3f& p : frame.content.positions) bounds.add(p);
+  }
+  return bounds;
+}
+
+float ground_height(const Take& take) {
+  if (take.look.ground_height) return static_cast<float>(*take.look.ground_height);
+  const Bounds bounds = bounds_of(take);
+  return bounds.is_empty() ? 0 : bounds.low.z() - 0.03F * bounds.radius();
+}
+
+std::array<float, 2> colour_range(const Take& take) {
+  if (take.look.colour_range) {
+    const auto& given = *take.look.colour_range;
+    return {static_cast<float>(given[0]), static_cast<float>(given[1])};
+  }
+  std::vector<float> extremes;
+  for (const TakeFrame& frame : take.frames) {
+    const auto [least, most] = std::ranges::minmax_element(frame.content.values);
+    if (least == frame.content.values.end()) continue;
+    extremes.push_back(*least);
+    extremes.push_back(*most);
+  }
+  return quantity_range(take.look.colour, extremes);
+}
+
+}  // namespace pliant_render

@@ -1,0 +1,45 @@
+#pragma once
+// What is filmed: the frames of a scene as it is simulated, or of a run that was recorded, before any of them is drawn.
+// All are kept, so that camera, ground and colours suit the whole film.
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "pliant/recorder/animation.h"
+#include "pliant/scene/scene.h"
+#include "render/overlay.h"
+#include "render/scenery.h"
+
+namespace pliant_render {
+
+struct TakeFrame {
+  pliant::Real time = 0;  ///< [s]
+  FrameContent content;
+  std::optional<WindSign> wind;
+};
+
+struct Take {
+  Scenery scenery;
+  pliant::ViewSettings look;
+  std::vector<TakeFrame> frames;
+};
+
+/// A frame of the simulation as it is now.
+TakeFrame take_frame(const pliant::Simulation& simulation, const Scenery& scenery, pliant::ColourBy colour);
+
+/// Simulates the scene to its last step and keeps the start and every n-th step; `go_on`, told the step, may end it.
+/// @throws Error (input) where the frames would take more than 4 GB.
+Take take_scene(pliant::Scene& scene, std::int64_t every, const std::function<bool(std::int64_t)>& go_on);
+
+/// The frames of a run at the times that the animation has. Stretch is against the first frame, speed from frame to
+/// frame. @throws Error (input): colours by energy, which needs the scene; points without a mesh.
+Take take_animation(const pliant::Animation& animation, const pliant::ViewSettings& look);
+
+/// The box around all frames.
+Bounds bounds_of(const Take& take);
+/// Of the ground: what the scene says, else a little below everything.
+float ground_height(const Take& take);
+/// Of the colours: what the scene says, else as the values of all frames have it. Fractions for stretch.
+std::array<float, 2> colour_range(const Take& take);
+
+}  // namespace pliant_render

@@ -1,0 +1,174 @@
+"""pliant render, as its users meet it: pictures and films of scenes and runs, without a display."""
+import os
+import pathlib
+import shutil
+import signal
+import struct
+import subprocess
+import tempfile
+import time
+import unittest
+import zlib
+
+PLIANT = os.environ["PLIANT"]
+# The drivers keep memory to the end of the program.
+ENVIRONMENT = os.environ | {"ASAN_OPTIONS": "detect_leaks=0"}
+
+
+def read_png(path):
+    """Width, height and the rows of RGB of a PNG file."""
+    data = path.read_bytes()
+    assert data[:8] == b"\x89PNG\r\n\x1a\n"
+    place, body = 8, b""
+    while place < len(data):
+        length, kind = struct.unpack(">I4s", data[place:place + 8])
+        chunk = data[place + 8:place + 8 + length]
+        if kind == b"IHDR":
+            width, height, depth, colour = struct.unpack(">IIBB", chunk[:10])
+            assert (depth, colour) == (8, 2)
+        if kind == b"IDAT":
+            body += chunk
+        place += 12 + length
+    raw, rows, before = zlib.decompress(body), [], bytearray(3 * width)
+    for y in range(height):
+        method, row = raw[y * (3 * width + 1)], bytearray(raw[y * (3 * width + 1) + 1:(y + 1) * (3 * width + 1)])
+        for i in range(3 * width):
+            left, up = row[i - 3] if i >= 3 else 0, before[i]
+            corner = before[i - 3] if i >= 3 else 0
+            guess = left + up - corner
+            paeth = min((left, up, corner), key=lambda x: abs(guess - x))
+            row[i] = (row[i] + (0, left, up, (left + up) // 2, paeth)[method]) % 256
+        rows.append(row)
+        before = row
+    return width, height, rows
+
+
+def colours(rows):
+    return {bytes(row[i:i + 3]) for row in rows for i in range(0, len(row), 3)}
+
+
+class Render(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = pathlib.Path(temporary.name)
+
+    def pliant(self, *arguments, expect=0, environment=None):
+        done = subprocess.run([PLIANT, *map(str, arguments)], capture_output=True, text=True, timeout=300,
+                              cwd=self.folder, env=ENVIRONMENT | (environment or {}))
+        if done.returncode == 2 and "OpenGL: " in done.stderr and expect == 0:
+            self.skipTest(done.stderr)
+        self.assertEqual(done.returncode, expect, done.stderr)
+        if expect in (2, 4):
+            self.assertIn("pliant: error: ", done.stderr)
+        return done
+
+    def render(self, *arguments, expect=0, environment=None):
+        return self.pliant("render", *arguments, expect=expect, environment=environment)
+
+    def files(self):
+        return sorted(path.name for path in self.folder.iterdir())
+
+    def test_a_picture_of_the_last_step(self):
+        done = self.render("curtain", "--steps", 4, "--out", "c.png", "--size", "160x90", "--set", "view.shadow=false")
+        self.assertIn("c.png: 160 x 90 pixels, drawn by ", done.stdout)
+        width, height, rows = read_png(self.folder / "c.png")
+        self.assertEqual((width, height), (160, 90))
+        self.assertGreater(len(colours(rows)), 100)
+        self.assertEqual(self.files(), ["c.png"])
+        first = (self.folder / "c.png").read_bytes()
+        self.render("curtain", "--steps", 4, "--out", "again.png", "--size", "160x90", "--set", "view.shadow=false")
+        self.assertEqual((self.folder / "again.png").read_bytes(), first)
+        self.render("curtain", "--steps", 8, "--out", "later.png", "--size", "160x90", "--set", "view.shadow=false")
+        self.assertNotEqual((self.folder / "later.png").read_bytes(), first)
+
+    def test_the_view_of_the_scene_and_the_options_count(self):
+        self.render("chain", "--steps", 1, "--out", "c.png", "--set", "view.size=[64, 48]", "--set",
+                    "view.background=[0, 0, 1]", "--set", "view.ground=false")
+        width, height, rows = read_png(self.folder / "c.png")
+        self.assertEqual((width, height), (64, 48))
+        self.assertEqual(bytes(rows[0][:3]), b"\0\0\xff")
+        for colour in ("stretch", "energy", "speed"):
+            self.render("chain", "--steps", 3, "--out", f"{colour}.png", "--size", "96x64", "--colour", colour)
+            self.assertGreater(len(colours(read_png(self.folder / f"{colour}.png")[2])), 50)
+
+    def test_numbered_pictures_and_a_sheet(self):
+        self.render("chain", "--steps", 8, "--out", "c.png", "--size", "64x48", "--frames", 3)
+        self.assertEqual(self.files(), ["c-0000.png", "c-0001.png", "c-0002.png"])
+        self.render("chain", "--steps", 8, "--out", "sheet.png", "--size", "64x48", "--frames", 4, "--sheet")
+        width, height, _ = read_png(self.folder / "sheet.png")
+        self.assertEqual((width, height), (2 * 32 + 3 * 2, 2 * 24 + 3 * 2))
+
+    def test_films_have_a_frame_for_every_thirtieth_of_a_second(self):
+        if shutil.which("ffmpeg") is None or shutil.which("ffprobe") is None:
+            self.skipTest("ffmpeg is not installed")
+        for name in ("film.mp4", "film.webm", "film.gif"):
+            with self.subTest(name):
+                self.render("chain", "--steps", 20, "--out", name, "--size", "64x48")
+                said = subprocess.run(["ffprobe", "-v", "error", "-count_frames", "-select_streams", "v:0",
+                                       "-show_entries", "stream=width,height,nb_read_frames", "-of", "csv=p=0",
+                                       self.folder / name], capture_output=True, text=True, check=True).stdout
+                self.assertEqual(said.strip(), "64,48,11")  # 20 steps of 1/60 s, and the start
+        self.assertEqual(self.files(), ["film.gif", "film.mp4", "film.webm"])
+
+    def test_a_run_is_rendered_as_its_scene(self):
+        self.pliant("run", "chain", "--steps", 10, "--out", "run", "--quiet")
+        self.render("run", "--out", "run.png", "--size", "96x64")
+        self.render("run", "--out", "run.png", "--size", "96x64")
+        self.assertGreater(len(colours(read_png(self.folder / "run.png")[2])), 20)
+        self.render("run", "--out", "blue.png", "--set", "view.background=[0, 0, 1]", "--set", "view.ground=false",
+                    "--size", "96x64")
+        self.assertEqual(bytes(read_png(self.folder / "blue.png")[2][0][:3]), b"\0\0\xff")
+        for words in (["--steps", 3], ["--set", "gravity=[0, 0, 1]"]):
+            error = self.render("run", "--out", "run.png", *words, expect=2).stderr
+            self.assertIn("a run is shown as it was recorded", error)
+        error = self.render("run", "--out", "e.png", "--colour", "energy", expect=2).stderr
+        self.assertIn("colour: a run does not say the energy", error)
+        self.render("run", "--out", "s.png", "--colour", "speed", "--size", "96x64")
+
+    def test_without_ffmpeg_there_are_pictures_and_a_hint(self):
+        (self.folder / "empty").mkdir()
+        done = self.render("chain", "--steps", 4, "--out", "film.mp4", "--size", "32x32",
+                           environment={"PATH": str(self.folder / "empty")})
+        self.assertIn("ffmpeg", done.stderr)
+        self.assertIn("film-0000.png", done.stdout)
+        self.assertEqual(self.files(), ["empty", "film-0000.png", "film-0001.png", "film-0002.png"])
+
+    def test_slips_name_the_option(self):
+        for words, message in ((["--out", "film.avi"], "--out: 'film.avi' has no known ending"),
+                               (["--out", "film"], "--out: 'film' has no known ending"),
+                               (["--out", "c.png", "--size", "640"], "--size: '640' is no size"),
+                               (["--out", "c.png", "--size", "8x8"], "--size: '8x8' is no size"),
+                               (["--out", "c.png", "--size", "99999999999x9"], "--size: '99999999999x9' is no size"),
+                               (["--out", "c.png", "--fps", "0"], "--fps: 0 is out of range; give 1 to 240"),
+                               (["--out", "c.png", "--samples", "99"], "--samples: 99 is out of range"),
+                               (["--out", "c.png", "--frames", "0"], "--frames: 0 is out of range"),
+                               (["--out", "c.mp4", "--sheet"], "--sheet: the frames of a sheet are one picture")):
+            with self.subTest(words):
+                self.assertIn(message, self.render("chain", *words, expect=2).stderr)
+        self.assertIn("neither a file nor a built-in scene", self.render("chian", "--out", "c.png", expect=2).stderr)
+        self.assertIn("no-folder", self.render("chain", "--steps", 1, "--size", "32x32", "--out", "no-folder/c.png",
+                                               expect=4).stderr)
+        self.assertEqual(self.files(), [])
+
+    def test_without_opengl_that_is_said(self):
+        done = self.render("chain", "--steps", 1, "--out", "c.png", expect=2,
+                           environment={"__EGL_VENDOR_LIBRARY_DIRS": str(self.folder)})
+        self.assertIn("OpenGL: ", done.stderr)
+        self.assertIn("install libegl1 and libgl1-mesa-dri", done.stderr)
+        self.assertEqual(self.files(), [])
+
+    def test_an_interrupt_leaves_no_film(self):
+        command = [PLIANT, "render", "curtain", "--steps", "100000", "--out", "film.mp4", "--size", "64x48"]
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+                                   cwd=self.folder, env=ENVIRONMENT)
+        time.sleep(1)
+        process.send_signal(signal.SIGINT)
+        said = process.communicate(timeout=120)[1]
+        self.assertEqual(process.returncode, 130, said)
+        self.assertIn("interrupted: nothing was written", said)
+        self.assertEqual(self.files(), [])
+
+
+if __name__ == "__main__":
+    unittest.main()

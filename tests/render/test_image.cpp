@@ -1,0 +1,178 @@
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+#include <stb/stb_image.h>
+
+#include "render/image.h"
+#include "tests/mesh/meshes.h"
+#include "tests/support/temporary_folder.h"
+
+namespace fs = std::filesystem;
+using namespace pliant_render;
+using namespace pliant_tests;
+
+namespace {
+
+using Colour = std::array<std::uint8_t, 3>;
+
+/// Every pixel by its place.
+template <class F>
+Image image_of(int width, int height, F&& colour_at) {
+  Image image{width, height, {}};
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const Colour colour = colour_at(x, y);
+      for (const std::uint8_t byte : colour) image.pixels.push_back(byte);
+    }
+  }
+  return image;
+}
+
+Image plain(int width, int height, Colour colour) {
+  return image_of(width, height, [&](int, int) { return colour; });
+}
+
+Colour pixel(const Image& image, int x, int y) {
+  const std::size_t first =
+      3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x));
+  return {image.pixels[first], image.pixels[first + 1], image.pixels[first + 2]};
+}
+
+Image read_png(const fs::path& path) {
+  Image image;
+  int channels = 0;
+  const std::string file = TemporaryFolder::read(path);
+  stbi_uc* pixels = stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(file.data()), static_cast<int>(file.size()),
+                                          &image.width, &image.height, &channels, 0);
+  REQUIRE(pixels != nullptr);
+  CHECK(channels == 3);
+  image.pixels.assign(pixels, pixels + static_cast<std::ptrdiff_t>(image.width) * image.height * 3);
+  stbi_image_free(pixels);
+  return image;
+}
+
+Colour gradient(int x, int y) {
+  return {static_cast<std::uint8_t>(37 * x + y), static_cast<std::uint8_t>(x * y), static_cast<std::uint8_t>(255 - y)};
+}
+
+constexpr Colour black = {0, 0, 0};
+constexpr Colour white = {255, 255, 255};
+
+/// The sRGB code of the light between those of codes, in doubles.
+double code_of_mean(const std::vector<int>& codes) {
+  double light = 0;
+  for (const int code : codes) {
+    const double value = code / 255.0;
+    light += value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+  }
+  light /= static_cast<double>(codes.size());
+  return 255 * (light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055);
+}
+
+}  // namespace
+
+TEST_CASE("a PNG file holds the pixels that were written, for odd sizes too") {
+  const TemporaryFolder folder;
+  const fs::path path = folder.path() / "a.png";
+  for (const std::array<int, 2> size : {std::array{1, 1}, std::array{7, 5}, std::array{640, 3}, std::array{33, 257}}) {
+    const Image image = image_of(size[0], size[1], gradient);
+    write_png(path, image);
+    const Image read = read_png(path);
+    CHECK(read.width == image.width);
+    CHECK(read.height == image.height);
+    CHECK(read.pixels == image.pixels);
+  }
+  CHECK(folder.file_count() == 1);
+}
+
+TEST_CASE("a PNG file that cannot be written is an output error, and leaves nothing") {
+  const TemporaryFolder folder;
+  const fs::path path = folder.path() / "absent" / "a.png";
+  const std::string message = error_of([&] { write_png(path, plain(2, 2, white)); }, pliant::ErrorKind::output);
+  CHECK(contains(message, path.string() + ": cannot be written: No such file or directory;"));
+  CHECK_THROWS_AS(write_png(folder.path() / "a.png", Image{2, 2, {}}), std::logic_error);
+  CHECK(folder.file_count() == 0);
+}
+
+TEST_CASE("averages are of light: a chequer of black and white becomes code 188") {
+  const Image chequer = image_of(64, 48, [](int x, int y) { return (x + y) % 2 == 0 ? black : white; });
+  for (const std::array<int, 2> size : {std::array{32, 24}, std::array{16, 24}, std::array{1, 1}}) {
+    const Image small = scaled_down(chequer, size[0], size[1]);
+    REQUIRE(is_whole(small));
+    CHECK(small.width == size[0]);
+    CHECK(small.height == size[1]);
+    for (const std::uint8_t code : small.pixels) CHECK(code == 188);
+  }
+}
+
+TEST_CASE("the same size keeps every code, and a plain picture stays plain at every ratio") {
+  const Image codes = image_of(256, 1, [](int x, int) {
+    const auto code = static_cast<std::uint8_t>(x);
+    return Colour{code, code, code};
+  });
+  CHECK(scaled_down(codes, 256, 1).pixels == codes.pixels);
+  for (int code = 0; code < 256; code += 5) {
+    const auto value = static_cast<std::uint8_t>(code);
+    const Image small = scaled_down(plain(13, 11, {value, 7, 201}), 5, 7);
+    CHECK(small.pixels == plain(5, 7, {value, 7, 201}).pixels);
+  }
+}
+
+TEST_CASE("pixels count by the area that is covered") {
+  // Three columns to two: the middle one is shared in halves.
+  const Image three = image_of(3, 1, [](int x, int) { return x == 1 ? white : black; });
+  const Image two = scaled_down(three, 2, 1);
+  const double third = code_of_mean({255, 0, 0});
+  for (int x = 0; x < 2; ++x) CHECK(pixel(two, x, 0)[0] == doctest::Approx(third).epsilon(0.004));
+  // Five rows to two: the new rows hold 2 and a half old ones.
+  const Image five = image_of(1, 5, [](int, int y) { return y < 2 ? white : black; });
+  const Image rows = scaled_down(five, 1, 2);
+  CHECK(pixel(rows, 0, 0)[1] == doctest::Approx(code_of_mean({255, 255, 255, 255, 0})).epsilon(0.004));
+  CHECK(pixel(rows, 0, 1) == black);
+  // Both ways at once, against the mean of all pixels.
+  const Image all = image_of(9, 6, gradient);
+  std::vector<int> greens;
+  for (std::size_t i = 1; i < all.pixels.size(); i += 3) greens.push_back(all.pixels[i]);
+  CHECK(std::abs(pixel(scaled_down(all, 1, 1), 0, 0)[1] - code_of_mean(greens)) <= 0.7);
+}
+
+TEST_CASE("only a smaller size is a size to scale down to") {
+  const Image image = plain(4, 3, white);
+  CHECK_THROWS_AS(scaled_down(image, 5, 3), std::logic_error);
+  CHECK_THROWS_AS(scaled_down(image, 4, 4), std::logic_error);
+  CHECK_THROWS_AS(scaled_down(image, 0, 3), std::logic_error);
+  CHECK_THROWS_AS(scaled_down(Image{}, 1, 1), std::logic_error);
+}
+
+TEST_CASE("a contact sheet shows its frames row by row, with gaps around and between") {
+  constexpr Colour ground = {9, 8, 7};
+  std::vector<Image> frames;
+  for (std::uint8_t i = 0; i < 5; ++i) frames.push_back(plain(4, 3, {static_cast<std::uint8_t>(100 + i), i, 0}));
+  const Image sheet = contact_sheet(frames, 3, 2, ground);
+  REQUIRE(is_whole(sheet));
+  CHECK(sheet.width == 3 * 4 + 4 * 2);
+  CHECK(sheet.height == 2 * 3 + 3 * 2);
+  for (int y = 0; y < sheet.height; ++y) {
+    for (int x = 0; x < sheet.width; ++x) {
+      const bool in_frame = x % 6 >= 2 && y % 5 >= 2;
+      const int frame = x / 6 + y / 5 * 3;
+      const Colour expected = in_frame && frame < 5 ? pixel(frames[static_cast<std::size_t>(frame)], 0, 0) : ground;
+      CHECK(pixel(sheet, x, y) == expected);
+    }
+  }
+  const Image few = contact_sheet(std::span(frames).first(2), 6, 0, ground);
+  CHECK(few.width == 8);
+  CHECK(few.height == 3);
+}
+
+TEST_CASE("frames of several sizes make no contact sheet, nor do none") {
+  const std::vector<Image> frames = {plain(4, 3, white), plain(3, 4, white)};
+  CHECK_THROWS_AS(contact_sheet(frames, 2, 0, black), std::logic_error);
+  CHECK_THROWS_AS(contact_sheet({}, 2, 0, black), std::logic_error);
+  CHECK_THROWS_AS(contact_sheet(std::span(frames).first(1), 0, 0, black), std::logic_error);
+}

@@ -1,0 +1,239 @@
+// Pictures are looked at where it is known what must be there.
+#include <optional>
+
+#include <doctest/doctest.h>
+
+#include "../mesh/meshes.h"
+#include "pliant/mesh/geometry.h"
+#include "pliant/mesh/shapes.h"
+#include "render/picture_maker.h"
+#include "render/quantities.h"
+
+using namespace pliant_render;
+using namespace pliant_tests;
+
+namespace {
+
+using Rgb = std::array<int, 3>;
+
+/// A square of 1 m that stands upright, its normals towards -y, and a camera before it.
+struct Stage {
+  std::vector<pliant::Body> bodies;
+  PictureOptions options;
+  FrameContent frame;
+  std::optional<WindSign> wind;
+
+  Stage() {
+    pliant::Mesh mesh = pliant::grid({.columns = 9, .rows = 9, .size = {1, 1}});
+    for (pliant::Index i = 0; i < mesh.vertex_count(); ++i) {
+      const pliant::Vec3 x = mesh.vertices.row(i).transpose();
+      const pliant::Real across = x.x(), along = x.y() + x.z();  // whichever way the grid lies
+      mesh.vertices.row(i) << across - 0.5, 0, along - 0.5;
+    }
+    bodies.push_back({"square", mesh, 0});
+    for (pliant::Index i = 0; i < mesh.vertex_count(); ++i) {
+      frame.positions.push_back(mesh.vertices.row(i).transpose().cast<float>());
+    }
+    options.look.size = {320, 240};
+    options.look.camera.position = pliant::Vec3(0, -3, 0);
+    options.look.camera.target = pliant::Vec3(0, 0, 0);
+    options.look.shadow = options.look.ground = false;
+    options.bounds = bounds_of(frame.positions);
+  }
+
+  /// None where the machine has no OpenGL.
+  std::optional<Image> draw() const {
+    try {
+      PictureMaker maker(make_scenery(bodies), options);
+      return maker.draw(frame, wind);
+    } catch (const pliant::Error& error) {
+      MESSAGE("skipped: ", std::string(error.what()));
+      return {};
+    }
+  }
+};
+
+/// u, v: from -1 to 1, as normalized device coordinates.
+Rgb at(const Image& image, double u, double v) {
+  const auto x = static_cast<std::size_t>((u + 1) / 2 * (image.width - 1) + 0.5);
+  const auto y = static_cast<std::size_t>((1 - v) / 2 * (image.height - 1) + 0.5);
+  const std::uint8_t* pixel = image.pixels.data() + 3 * (y * static_cast<std::size_t>(image.width) + x);
+  return {pixel[0], pixel[1], pixel[2]};
+}
+
+int distance(const Rgb& a, const Rgb& b) {
+  return std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]);
+}
+
+Rgb rgb(const pliant::Colour& colour) {
+  return {static_cast<int>(std::lround(255 * colour.red)), static_cast<int>(std::lround(255 * colour.green)),
+          static_cast<int>(std::lround(255 * colour.blue))};
+}
+
+/// Share of pixels in which two pictures differ visibly.
+double difference(const Image& a, const Image& b) {
+  REQUIRE(a.pixels.size() == b.pixels.size());
+  std::size_t count = 0;
+  for (std::size_t i = 0; i + 2 < a.pixels.size(); i += 3) {
+    int sum = 0;
+    for (std::size_t c = 0; c < 3; ++c) sum += std::abs(int{a.pixels[i + c]} - int{b.pixels[i + c]});
+    count += sum > 12;
+  }
+  return static_cast<double>(count) / (static_cast<double>(a.pixels.size()) / 3);
+}
+
+/// The edge of the square, seen from 3 m with 40 degrees.
+const double edge_v = 0.5 / 3 / std::tan(20 * 3.14159265358979 / 180);
+
+}  // namespace
+
+TEST_CASE("a square stands where it is projected to, before the background") {
+  const Stage stage;
+  const std::optional<Image> image = stage.draw();
+  if (!image) return;
+  CHECK(image->width == 320);
+  CHECK(image->height == 240);
+  const Rgb background = rgb(stage.options.look.background);
+  CHECK(distance(at(*image, 0, edge_v + 0.03), background) < 4);
+  CHECK(distance(at(*image, 0, -edge_v - 0.03), background) < 4);
+  CHECK(distance(at(*image, 0, edge_v - 0.03), background) > 60);
+  CHECK(distance(at(*image, (edge_v - 0.03) * 0.75, 0), background) > 60);
+  CHECK(distance(at(*image, (edge_v + 0.03) * 0.75, 0), background) < 4);
+}
+
+TEST_CASE("the two sides have their own tones") {
+  Stage stage;
+  stage.options.look.front = {0.9, 0.1, 0.1};
+  stage.options.look.back = {0.1, 0.1, 0.9};
+  const std::optional<Image> one = stage.draw();
+  stage.options.look.camera.position = pliant::Vec3(0, 3, 0);
+  const std::optional<Image> other = stage.draw();
+  if (!one || !other) return;
+  const pliant::Mesh& mesh = stage.bodies[0].mesh;
+  const pliant::Vec3 normal = pliant::triangle_normals(mesh.vertices, mesh.triangles).row(0).transpose();
+  REQUIRE(std::abs(normal.y()) > 0.99);
+  const Rgb before = at(*one, 0.1, 0.1), behind = at(*other, 0.1, 0.1);
+  const Rgb front = normal.y() < 0 ? before : behind;
+  const Rgb back = normal.y() < 0 ? behind : before;
+  CHECK(front[0] > 2 * front[2]);
+  CHECK(back[2] > 2 * back[0]);
+}
+
+TEST_CASE("markers are red, edges are drawn when asked for, and both have the size of the picture") {
+  Stage stage;
+  stage.options.look.front = stage.options.look.back = {0.3, 0.6, 0.4};
+  const std::optional<Image> plain = stage.draw();
+  if (!plain) return;
+  stage.frame.markers = {40};  // the middle of 9 x 9
+  const std::optional<Image> marked = stage.draw();
+  const Rgb red = at(*marked, 0, 0);
+  CHECK(red[0] > 2 * red[1]);
+  CHECK(red[0] > 2 * red[2]);
+  CHECK(difference(*plain, *marked) < 0.003);
+  stage.frame.markers.clear();
+  stage.options.look.wireframe = true;
+  const std::optional<Image> wired = stage.draw();
+  CHECK(difference(*plain, *wired) > 0.02);
+  CHECK(difference(*plain, *wired) < 0.2);
+}
+
+TEST_CASE("values are told by the colours of the map, with a legend beside") {
+  Stage stage;
+  stage.options.look.colour = pliant::ColourBy::speed;
+  stage.options.look.legend = false;
+  stage.options.range = {0, 2};
+  const auto map = colour_map(pliant::ColourBy::speed);
+  int last = -1;
+  for (const float value : {0.0F, 1.0F, 2.0F}) {
+    stage.frame.values.assign(stage.frame.positions.size(), value);
+    const std::optional<Image> image = stage.draw();
+    if (!image) return;
+    const Rgb seen = at(*image, 0.1, 0.1);
+    CHECK(seen[0] + seen[1] + seen[2] > last);
+    last = seen[0] + seen[1] + seen[2];
+    const auto& expected = map[static_cast<std::size_t>(value / 2 * 255)];
+    // Lit from the side: the hue stays, the brightness is another.
+    const double ratio = static_cast<double>(seen[1]) / expected[1];
+    CHECK(ratio > 0.6);
+    CHECK(ratio < 1.25);
+  }
+  const std::optional<Image> without = stage.draw();
+  stage.options.look.legend = true;
+  const std::optional<Image> with = stage.draw();
+  CHECK(difference(*without, *with) > 0.01);
+  // The upper end of the bar has the last colour of the map, unlit.
+  const Rgb top = at(*with, 1 - 2.0 * 30 * 0.65 / 320, 1 - 2 * 0.32);
+  CHECK(distance(top, {map[250][0], map[250][1], map[250][2]}) < 30);
+}
+
+TEST_CASE("a body throws its shadow on the ground, on the side that is away from the light") {
+  Stage stage;
+  stage.options.look.camera.position = pliant::Vec3(0, -3, 3);
+  stage.options.look.camera.target = pliant::Vec3(0, 0, -0.6);
+  stage.options.look.light = pliant::Vec3(-1, 0, 1);
+  stage.options.look.ground = true;
+  stage.options.ground_height = -0.6F;
+  for (Vec3f& p : stage.frame.positions) p = {0.2F * p.x(), p.z(), 0.2F * p.x()};  // lies along y, low
+  const std::optional<Image> bare = stage.draw();
+  stage.options.look.shadow = true;
+  const std::optional<Image> shaded = stage.draw();
+  if (!bare || !shaded) return;
+  CHECK(difference(*bare, *shaded) > 0.01);
+  int darker_left = 0, darker_right = 0;
+  for (double v = -0.9; v < 0.9; v += 0.02) {
+    for (double u = 0.02; u < 0.9; u += 0.02) {
+      darker_right += at(*bare, u, v)[1] > at(*shaded, u, v)[1] + 8;
+      darker_left += at(*bare, -u, v)[1] > at(*shaded, -u, v)[1] + 8;
+    }
+  }
+  CHECK(darker_right > 20);
+  CHECK(darker_left < darker_right / 4);
+}
+
+TEST_CASE("flat shading has an edge where smooth shading has none, and samples soften the outline") {
+  Stage stage;
+  for (Vec3f& p : stage.frame.positions) p.y() = 0.6F * std::abs(p.x());  // a fold in the middle
+  const std::optional<Image> smooth = stage.draw();
+  stage.options.look.shading = pliant::Shading::flat;
+  const std::optional<Image> flat = stage.draw();
+  if (!smooth || !flat) return;
+  const auto step = [](const Image& image) { return distance(at(image, -0.012, 0.1), at(image, 0.012, 0.1)); };
+  CHECK(step(*flat) > 2 * step(*smooth) + 10);
+  stage.options.samples = 1;
+  const std::optional<Image> hard = stage.draw();
+  CHECK(difference(*flat, *hard) > 0);
+}
+
+TEST_CASE("ropes are drawn, the wind has its arrow, and a frame of nothing is the background") {
+  Stage stage;
+  pliant::Mesh rope;
+  rope.vertices.resize(2, 3);
+  rope.vertices << -0.5, 0, 0, 0.5, 0, 0;
+  rope.edges = {{0, 1}};
+  stage.bodies = {{"rope", rope, 0}};
+  stage.frame.positions = {{-0.5F, 0, 0}, {0.5F, 0, 0}};
+  const std::optional<Image> image = stage.draw();
+  if (!image) return;
+  const Rgb background = rgb(stage.options.look.background);
+  CHECK(distance(at(*image, 0.1, 0), background) > 60);
+  CHECK(distance(at(*image, 0.1, 0.05), background) < 4);
+  stage.wind = WindSign{{1, 0, 0}, "wind 1 m/s"};
+  CHECK(difference(*image, *stage.draw()) > 0.002);
+  stage.wind.reset();
+  stage.bodies.clear();
+  stage.frame.positions.clear();
+  const std::optional<Image> nothing = stage.draw();
+  for (const double u : {-0.9, 0.0, 0.9}) CHECK(distance(at(*nothing, u, 0.3), background) < 4);
+}
+
+TEST_CASE("a size past what the driver draws is refused") {
+  Stage stage;
+  stage.options.look.size = {1 << 20, 16};
+  try {
+    PictureMaker maker(make_scenery(stage.bodies), stage.options);
+    FAIL("a picture of a million columns");
+  } catch (const pliant::Error& error) {
+    const std::string message = error.what();
+    CHECK((contains(message, "size: ") || contains(message, "OpenGL: ")));
+  }
+}

@@ -1,0 +1,81 @@
+#include <doctest/doctest.h>
+
+#include "../simulation/everything.h"
+#include "../simulation/run.h"
+#include "render/overlay.h"
+#include "render/quantities.h"
+
+using namespace pliant_render;
+using pliant::ColourBy;
+
+namespace {
+
+std::vector<Vec3f> floats(const pliant::Positions& x) {
+  std::vector<Vec3f> result;
+  for (Eigen::Index i = 0; i < x.rows(); ++i) result.push_back(x.row(i).transpose().cast<float>());
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("stretch is zero at rest, and the scale of a body that is larger in all directions") {
+  const pliant::Simulation simulation = pliant_tests::everything({}, 8);
+  const Scenery scenery = make_scenery(simulation.bodies());
+  pliant::Positions rest(simulation.state().vertex_count(), 3);
+  for (const pliant::Body& body : simulation.bodies()) {
+    rest.middleRows(body.first_vertex, body.mesh.vertex_count()) = body.mesh.vertices;
+  }
+  for (const double scale : {1.0, 1.1, 0.7}) {
+    const std::vector<float> stretch = vertex_stretch(scenery, floats(scale * rest));
+    for (const float value : stretch) CHECK(value == doctest::Approx(scale - 1).epsilon(1e-5));
+  }
+}
+
+TEST_CASE("the energies of the vertices sum to that of the simulation") {
+  pliant::Simulation simulation = pliant_tests::everything({}, 8);
+  pliant_tests::advance(simulation, 5);
+  const double whole = simulation.evaluate().elastic;
+  double sum = 0;
+  for (const float energy : vertex_energy(simulation)) {
+    CHECK(energy >= 0);
+    sum += static_cast<double>(energy);
+  }
+  CHECK(whole > 0);
+  CHECK(sum == doctest::Approx(whole).epsilon(1e-5));
+}
+
+TEST_CASE("ranges begin at zero, or have it in the middle, and are never empty") {
+  const std::vector<float> values = {0.2F, -0.5F, 0.1F};
+  CHECK(quantity_range(ColourBy::stretch, values) == std::array<float, 2>{-0.5F, 0.5F});
+  CHECK(quantity_range(ColourBy::speed, values) == std::array<float, 2>{0, 0.5F});
+  CHECK(quantity_range(ColourBy::speed, {}) == std::array<float, 2>{0, 1});
+  const std::vector<float> broken = {std::numeric_limits<float>::quiet_NaN(), 2};
+  CHECK(quantity_range(ColourBy::energy, broken) == std::array<float, 2>{0, 2});
+}
+
+TEST_CASE("ticks are round, ascend, lie in the range, and are three to six") {
+  for (const float high : {1e-6F, 0.013F, 0.2F, 1.0F, 1.7F, 2.5F, 9.9F, 123.0F, 4e7F}) {
+    for (const float low : {0.0F, -high}) {
+      CAPTURE(low);
+      CAPTURE(high);
+      const std::vector<float> ticks = round_ticks(low, high);
+      CHECK(ticks.size() >= 3);
+      CHECK(ticks.size() <= 6);
+      for (std::size_t i = 1; i < ticks.size(); ++i) CHECK(ticks[i] > ticks[i - 1]);
+      CHECK(ticks.front() >= low * 1.001F - 1e-9F);
+      CHECK(ticks.back() <= high * 1.001F);
+    }
+  }
+  CHECK(round_ticks(3, 3).size() == 1);
+}
+
+TEST_CASE("lightness rises evenly along the map of speeds, and falls to both ends of that of stretch") {
+  const auto lightness = [](const std::array<std::uint8_t, 3>& c) { return 0.3 * c[0] + 0.59 * c[1] + 0.11 * c[2]; };
+  const auto rising = colour_map(ColourBy::speed);
+  for (std::size_t i = 16; i < rising.size(); i += 16) CHECK(lightness(rising[i]) > lightness(rising[i - 16]));
+  const auto both = colour_map(ColourBy::stretch);
+  for (std::size_t i = 16; i < both.size() / 2; i += 16) {
+    CHECK(lightness(both[i]) > lightness(both[i - 16]));
+    CHECK(lightness(both[both.size() - 1 - i]) > lightness(both[both.size() - 1 - i + 16]));
+  }
+}
