@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds Pliant and simulates a curtain in the wind.
+# Installs what is missing, builds Pliant, simulates a curtain in the wind and films it.
 #   scripts/demo.sh [OPTION...]   options are handed to `pliant run`, for example --steps 60
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -10,6 +10,8 @@ scripts/setup.sh
 cmake --preset release
 cmake --build --preset release --target pliant_cli
 build/release/bin/pliant run "$scene" --out "$out" "$@"
+build/release/bin/pliant render "$out" --out "$out/film.mp4"
+build/release/bin/pliant render "$out" --out "$out/sheet.png" --sheet
 
 cat <<EOF
 
@@ -17,6 +19,7 @@ What lies in $out:
   frames.npy        the curtain's vertices, frames x vertices x 3 in metres: numpy.load("$out/frames.npy")
   measurements.csv  time, energies, momentum, residual and milliseconds of every step
   run.json          every setting, the versions, the totals
+  film.mp4          what it looks like, and sheet.png, twelve frames of that (without ffmpeg: numbered pictures)
 Next:
   change $scene, say the wind's velocity, and run this again;
   write a mesh a frame, for Blender and others:

@@ -152,32 +152,76 @@ std::array<std::uint8_t, 3> bytes_of(const pliant::Colour& colour) {
   return {byte(colour.red), byte(colour.green), byte(colour.blue)};
 }
 
-std::string write_pictures(const RenderArguments& arguments, const Take& take, pliant_render::PictureMaker& maker) {
-  const std::vector<std::size_t> chosen = frames_to_draw(arguments, take);
-  const auto draw = [&](std::size_t i) {
-    show(arguments, fmt::format("drawing: frame {} of {}", i + 1, chosen.size()));
-    const pliant_render::TakeFrame& frame = take.frames[chosen[i]];
-    return maker.draw(frame.content, frame.wind);
-  };
-  if (arguments.sheet) {
-    std::vector<pliant_render::Image> images;
-    const int columns = columns_of(chosen.size());
-    for (std::size_t i = 0; i < chosen.size() && !was_interrupted(); ++i) {
-      images.push_back(
-          scaled_down(draw(i), std::max(1, take.look.size[0] / columns), std::max(1, take.look.size[1] / columns)));
-    }
-    if (images.empty()) return "";
-    write_png(arguments.out,
-              contact_sheet(images, columns, std::max(2, take.look.size[0] / 160), bytes_of(take.look.background)));
-    return arguments.out.string();
+/// Draws the chosen frames of a take, one after the other.
+class Camera {
+ public:
+  Camera(const RenderArguments& arguments, const Take& take, std::vector<std::size_t> chosen,
+         const std::array<pliant::Index, 2>& size)
+      : arguments_(arguments), take_(take), chosen_(std::move(chosen)), maker_(take.scenery, options(size)) {}
+
+  std::size_t count() const { return chosen_.size(); }
+  const std::string& driver() const { return maker_.driver(); }
+  pliant_render::Image draw(std::size_t i) {
+    show(arguments_, fmt::format("drawing: frame {} of {}", i + 1, chosen_.size()));
+    const pliant_render::TakeFrame& frame = take_.frames[chosen_[i]];
+    return maker_.draw(frame.content, frame.wind);
   }
-  pliant_render::FilmWriter writer({arguments.out, take.look.size[0], take.look.size[1],
-                                    static_cast<int>(arguments.fps), static_cast<int>(chosen.size())});
-  for (std::size_t i = 0; i < chosen.size() && !was_interrupted(); ++i) writer.add(draw(i));
+  /// What the frames show lasts [s].
+  pliant::Real duration() const { return take_.frames[chosen_.back()].time - take_.frames[chosen_.front()].time; }
+
+ private:
+  pliant_render::PictureOptions options(const std::array<pliant::Index, 2>& size) const {
+    pliant_render::PictureOptions options{take_.look, static_cast<int>(arguments_.samples), bounds_of(take_),
+                                          ground_height(take_), colour_range(take_)};
+    options.look.size = size;
+    return options;
+  }
+
+  const RenderArguments& arguments_;
+  const Take& take_;
+  std::vector<std::size_t> chosen_;
+  pliant_render::PictureMaker maker_;
+};
+
+/// Frames beside each other, drawn as small as they are there, in a picture of about the size asked for. Returns what
+/// was written; nothing after an interrupt.
+std::string write_sheet(const RenderArguments& arguments, const Take& take) {
+  const std::vector<std::size_t> chosen = frames_to_draw(arguments, take);
+  const int columns = columns_of(chosen.size());
+  const auto cell = [columns](pliant::Index size) { return std::max(16, size / columns); };
+  Camera camera(arguments, take, chosen, {cell(take.look.size[0]), cell(take.look.size[1])});
+  std::vector<pliant_render::Image> images;
+  for (std::size_t i = 0; i < camera.count() && !was_interrupted(); ++i) images.push_back(camera.draw(i));
   if (was_interrupted()) return "";
-  std::string written = writer.close();
-  if (!writer.hint().empty()) print_to_stderr("\r\x1b[Khint: " + writer.hint() + "\n");
-  return written;
+  const int gap = std::max(2, take.look.size[0] / 160);
+  const pliant_render::Image sheet = contact_sheet(images, columns, gap, bytes_of(take.look.background));
+  write_png(arguments.out, sheet);
+  return fmt::format("{}: {} frames, {} x {} pixels, drawn by {}", pliant::printable_place(arguments.out.string()),
+                     images.size(), sheet.width, sheet.height, pliant::printable(camera.driver()));
+}
+
+std::string speed_text(pliant::Real duration, std::size_t frames, std::int64_t fps) {
+  const pliant::Real film = static_cast<pliant::Real>(frames - 1) / static_cast<pliant::Real>(fps);
+  if (!(duration > 0) || !(film > 0)) return "";
+  const pliant::Real factor = duration / film;
+  const std::string speed = std::abs(factor - 1) < 0.02 ? "in real time" : fmt::format("{:.3g} times as fast", factor);
+  return fmt::format("{:.3g} s {}, ", film, speed);
+}
+
+/// The same for a film or separate pictures.
+std::string write_film(const RenderArguments& arguments, const Take& take) {
+  Camera camera(arguments, take, frames_to_draw(arguments, take), take.look.size);
+  pliant_render::FilmWriter writer({arguments.out, take.look.size[0], take.look.size[1],
+                                    static_cast<int>(arguments.fps), static_cast<int>(camera.count())});
+  for (std::size_t i = 0; i < camera.count() && !was_interrupted(); ++i) writer.add(camera.draw(i));
+  if (was_interrupted()) return "";
+  const std::string written = writer.close();
+  show(arguments, "");
+  if (!writer.hint().empty()) print_to_stderr("hint: " + writer.hint() + "\n");
+  const bool is_film = pliant_render::film_format_of(arguments.out) != pliant_render::FilmFormat::png;
+  return fmt::format("{}: {}{} x {} pixels, drawn by {}", pliant::printable_place(written),
+                     is_film ? speed_text(camera.duration(), camera.count(), arguments.fps) : "", take.look.size[0],
+                     take.look.size[1], pliant::printable(camera.driver()));
 }
 
 void check(const RenderArguments& arguments) {
@@ -199,17 +243,14 @@ int render(const RenderArguments& arguments) {
   catch_interrupts();
   std::error_code ignored;
   const Take take = fs::is_directory(arguments.scene, ignored) ? take_of_run(arguments) : take_of_scene(arguments);
-  const pliant_render::PictureOptions options{take.look, static_cast<int>(arguments.samples), bounds_of(take),
-                                              ground_height(take), colour_range(take)};
-  pliant_render::PictureMaker maker(take.scenery, options);
-  const std::string written = was_interrupted() ? "" : write_pictures(arguments, take, maker);
+  std::string written;
+  if (!was_interrupted()) written = arguments.sheet ? write_sheet(arguments, take) : write_film(arguments, take);
   show(arguments, "");
   if (was_interrupted()) {
     print_to_stderr("interrupted: nothing was written\n");
     return exit_interrupted;
   }
-  fmt::print("{}: {} x {} pixels, drawn by {}\n", pliant::printable_place(written), take.look.size[0],
-             take.look.size[1], pliant::printable(maker.driver()));
+  fmt::print("{}\n", written);
   return 0;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Pictures in memory, as PNG files, and made smaller or put together.
+// Pictures in memory, as PNG files, and put together.
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -21,11 +21,6 @@ bool is_whole(const Image& image);
 /// Writes the file in one go: it is whole or absent.
 /// @throws pliant::Error (output) with the path and the reason; std::logic_error for an image that is not whole.
 void write_png(const std::filesystem::path& path, const Image& image);
-
-/// The average over the area that each new pixel covers, of linear light rather than of sRGB's codes.
-/// @param width, height  at least 1 and at most the image's; the ratios need not be whole numbers nor equal
-/// @throws std::logic_error for another size
-Image scaled_down(const Image& image, int width, int height);
 
 /// Frames of one size, row by row from the top left, `gap` pixels around and between them. With fewer frames than
 /// columns the sheet is as wide as the frames are.

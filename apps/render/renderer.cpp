@@ -9,7 +9,8 @@ namespace pliant_render {
 namespace {
 
 constexpr int mask_size = 512;
-constexpr float rope_width = 3.5F;  // pixels of a picture of 720 rows
+constexpr float rope_width = 3.5F;         // pixels of a picture of 720 rows
+constexpr float rope_shadow_width = 4.0F;  // texels of the mask
 constexpr float edge_width = 1.0F;
 constexpr float marker_radius = 5.0F;
 constexpr float lift = 2e-4F;  // of depth, so that lines stand before what they lie on
@@ -52,6 +53,7 @@ Renderer::Renderer(Scenery scenery)
       line_(shaders::stroke_vertex, shaders::line_geometry, shaders::line_fragment),
       marker_(shaders::stroke_vertex, shaders::marker_geometry, shaders::marker_fragment),
       flatten_(shaders::flatten_vertex, "", shaders::flatten_fragment),
+      flatten_ropes_(shaders::flatten_vertex, shaders::line_geometry, shaders::flatten_fragment),
       blur_(shaders::screen_vertex, "", shaders::blur_fragment),
       ground_(shaders::ground_vertex, "", shaders::ground_fragment) {
   const auto set_up = [this](const VertexArray& array, const Buffer& elements, const std::vector<std::uint32_t>& list) {
@@ -148,15 +150,20 @@ Renderer::ShadowArea Renderer::draw_shadow(const Vec3f& light, float height) {
   glViewport(0, 0, mask_size, mask_size);
   glClearColor(0, 0, 0, 0);
   glClear(GL_COLOR_BUFFER_BIT);
-  flatten_.use();
-  flatten_.set("light", light);
-  flatten_.set("height", height);
-  flatten_.set("middle", area.middle);
-  flatten_.set("reach", area.reach);
-  glBindVertexArray(triangles_array_.id());
-  glDrawElements(GL_TRIANGLES, count_of(scenery_.triangles), GL_UNSIGNED_INT, nullptr);
-  glBindVertexArray(ropes_array_.id());
-  glDrawElements(GL_LINES, count_of(scenery_.ropes), GL_UNSIGNED_INT, nullptr);
+  const auto flatten = [&](const Program& program, const VertexArray& array, GLenum kind, GLsizei count) {
+    program.use();
+    program.set("light", light);
+    program.set("height", height);
+    program.set("middle", area.middle);
+    program.set("reach", area.reach);
+    program.set("picture", Vec2f(mask_size, mask_size));
+    program.set("width", rope_shadow_width);
+    program.set("lift", 0.0F);
+    glBindVertexArray(array.id());
+    glDrawElements(kind, count, GL_UNSIGNED_INT, nullptr);
+  };
+  flatten(flatten_, triangles_array_, GL_TRIANGLES, count_of(scenery_.triangles));
+  flatten(flatten_ropes_, ropes_array_, GL_LINES, count_of(scenery_.ropes));
   // As wide in both directions on the ground, not in the mask.
   const float texel = 1.2F * area.reach.maxCoeff() / mask_size;
   for (int pass = 0; pass < 2; ++pass) {
@@ -220,6 +227,8 @@ void Renderer::draw_lines(const pliant::ViewSettings& look, const DrawOptions& o
   line_.set("low", options.range[0]);
   line_.set("high", options.range[1]);
   line_.set("colours", 0);
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, map_.id());
   const auto draw_list = [&](const VertexArray& array, GLsizei count, float width, float opacity, const Vec3f& tone,
                              bool is_rope) {
     if (count == 0) return;

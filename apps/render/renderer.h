@@ -50,7 +50,7 @@ class Renderer {
   pliant::ColourBy map_of_ = pliant::ColourBy::none;
   GLsizei marker_count_ = 0;
   std::vector<Vertex> vertices_;
-  Program surface_, line_, marker_, flatten_, blur_, ground_;
+  Program surface_, line_, marker_, flatten_, flatten_ropes_, blur_, ground_;
   VertexArray triangles_array_, ropes_array_, edges_array_, markers_array_, empty_array_;
   Buffer vertex_buffer_, triangles_, ropes_, edges_, markers_;
   Texture map_, mask_, half_blurred_;

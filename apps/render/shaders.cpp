@@ -158,7 +158,9 @@ layout(location = 0) in vec3 position;
 uniform vec3 light;
 uniform float height;
 uniform vec2 middle, reach;
+out float value_at;  // as line_geometry takes it
 void main() {
+  value_at = 0.0;
   vec3 p = position - light * ((position.z - height) / light.z);
   gl_Position = vec4((p.xy - middle) / reach, 0, 1);
 })";

@@ -1,5 +1,4 @@
 #include <array>
-#include <cmath>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -63,17 +62,6 @@ Colour gradient(int x, int y) {
 constexpr Colour black = {0, 0, 0};
 constexpr Colour white = {255, 255, 255};
 
-/// The sRGB code of the light between those of codes, in doubles.
-double code_of_mean(const std::vector<int>& codes) {
-  double light = 0;
-  for (const int code : codes) {
-    const double value = code / 255.0;
-    light += value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
-  }
-  light /= static_cast<double>(codes.size());
-  return 255 * (light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055);
-}
-
 }  // namespace
 
 TEST_CASE("a PNG file holds the pixels that were written, for odd sizes too") {
@@ -97,56 +85,6 @@ TEST_CASE("a PNG file that cannot be written is an output error, and leaves noth
   CHECK(contains(message, path.string() + ": cannot be written: No such file or directory;"));
   CHECK_THROWS_AS(write_png(folder.path() / "a.png", Image{2, 2, {}}), std::logic_error);
   CHECK(folder.file_count() == 0);
-}
-
-TEST_CASE("averages are of light: a chequer of black and white becomes code 188") {
-  const Image chequer = image_of(64, 48, [](int x, int y) { return (x + y) % 2 == 0 ? black : white; });
-  for (const std::array<int, 2> size : {std::array{32, 24}, std::array{16, 24}, std::array{1, 1}}) {
-    const Image small = scaled_down(chequer, size[0], size[1]);
-    REQUIRE(is_whole(small));
-    CHECK(small.width == size[0]);
-    CHECK(small.height == size[1]);
-    for (const std::uint8_t code : small.pixels) CHECK(code == 188);
-  }
-}
-
-TEST_CASE("the same size keeps every code, and a plain picture stays plain at every ratio") {
-  const Image codes = image_of(256, 1, [](int x, int) {
-    const auto code = static_cast<std::uint8_t>(x);
-    return Colour{code, code, code};
-  });
-  CHECK(scaled_down(codes, 256, 1).pixels == codes.pixels);
-  for (int code = 0; code < 256; code += 5) {
-    const auto value = static_cast<std::uint8_t>(code);
-    const Image small = scaled_down(plain(13, 11, {value, 7, 201}), 5, 7);
-    CHECK(small.pixels == plain(5, 7, {value, 7, 201}).pixels);
-  }
-}
-
-TEST_CASE("pixels count by the area that is covered") {
-  // Three columns to two: the middle one is shared in halves.
-  const Image three = image_of(3, 1, [](int x, int) { return x == 1 ? white : black; });
-  const Image two = scaled_down(three, 2, 1);
-  const double third = code_of_mean({255, 0, 0});
-  for (int x = 0; x < 2; ++x) CHECK(pixel(two, x, 0)[0] == doctest::Approx(third).epsilon(0.004));
-  // Five rows to two: the new rows hold 2 and a half old ones.
-  const Image five = image_of(1, 5, [](int, int y) { return y < 2 ? white : black; });
-  const Image rows = scaled_down(five, 1, 2);
-  CHECK(pixel(rows, 0, 0)[1] == doctest::Approx(code_of_mean({255, 255, 255, 255, 0})).epsilon(0.004));
-  CHECK(pixel(rows, 0, 1) == black);
-  // Both ways at once, against the mean of all pixels.
-  const Image all = image_of(9, 6, gradient);
-  std::vector<int> greens;
-  for (std::size_t i = 1; i < all.pixels.size(); i += 3) greens.push_back(all.pixels[i]);
-  CHECK(std::abs(pixel(scaled_down(all, 1, 1), 0, 0)[1] - code_of_mean(greens)) <= 0.7);
-}
-
-TEST_CASE("only a smaller size is a size to scale down to") {
-  const Image image = plain(4, 3, white);
-  CHECK_THROWS_AS(scaled_down(image, 5, 3), std::logic_error);
-  CHECK_THROWS_AS(scaled_down(image, 4, 4), std::logic_error);
-  CHECK_THROWS_AS(scaled_down(image, 0, 3), std::logic_error);
-  CHECK_THROWS_AS(scaled_down(Image{}, 1, 1), std::logic_error);
 }
 
 TEST_CASE("a contact sheet shows its frames row by row, with gaps around and between") {

@@ -217,6 +217,19 @@ TEST_CASE("ropes are drawn, the wind has its arrow, and a frame of nothing is th
   const Rgb background = rgb(stage.options.look.background);
   CHECK(distance(at(*image, 0.1, 0), background) > 60);
   CHECK(distance(at(*image, 0.1, 0.05), background) < 4);
+  stage.options.look.colour = pliant::ColourBy::speed;
+  stage.options.look.legend = false;
+  stage.options.look.ground = stage.options.look.shadow = true;  // whose shadow is a texture as well
+  stage.options.ground_height = -2;
+  stage.frame.values = {0, 0};
+  const Rgb slow = at(*stage.draw(), 0.1, 0);
+  CHECK(slow[2] > slow[0]);
+  stage.frame.values = {1, 1};
+  const Rgb fast = at(*stage.draw(), 0.1, 0);
+  CHECK(fast[0] > fast[2]);
+  CHECK(fast[1] > fast[2]);
+  stage.options.look.colour = pliant::ColourBy::none;
+  stage.options.look.ground = stage.options.look.shadow = false;
   stage.wind = WindSign{{1, 0, 0}, "wind 1 m/s"};
   CHECK(difference(*image, *stage.draw()) > 0.002);
   stage.wind.reset();

@@ -65,7 +65,7 @@ struct ViewSettings {
     field(OptionInfo{"background", "", "behind everything"}, self.background);
     field(OptionInfo{"colour", "", "of the bodies by `stretch`, `energy` or `speed`, or in two tones: `none`"},
           self.colour);
-    field(OptionInfo{"colour_range", "", "values at the two ends of the colour map; default: those of the frame"},
+    field(OptionInfo{"colour_range", "", "values at the two ends of the colour map; default: those of all frames"},
           self.colour_range);
     field(OptionInfo{"legend", "", "show the colour map and its range"}, self.legend);
     field(OptionInfo{"front", "", "tone of the side that normals point from"}, self.front);
@@ -73,7 +73,7 @@ struct ViewSettings {
     field(OptionInfo{"shading", "", "`smooth`, or `flat`: each face by itself"}, self.shading);
     field(OptionInfo{"wireframe", "", "draw the edges of the elements too"}, self.wireframe);
     field(OptionInfo{"ground", "", "draw a plane below the bodies"}, self.ground);
-    field(OptionInfo{"ground_height", "m", "of that plane; default: below everything at the start"},
+    field(OptionInfo{"ground_height", "m", "of that plane; default: a little below everything"},
           self.ground_height);
     field(OptionInfo{"shadow", "", "on the ground"}, self.shadow);
     field(OptionInfo{"light", "", "direction that the light comes from, of any length but zero"}, self.light);
