@@ -73,8 +73,7 @@ struct ViewSettings {
     field(OptionInfo{"shading", "", "`smooth`, or `flat`: each face by itself"}, self.shading);
     field(OptionInfo{"wireframe", "", "draw the edges of the elements too"}, self.wireframe);
     field(OptionInfo{"ground", "", "draw a plane below the bodies"}, self.ground);
-    field(OptionInfo{"ground_height", "m", "of that plane; default: a little below everything"},
-          self.ground_height);
+    field(OptionInfo{"ground_height", "m", "of that plane; default: a little below everything"}, self.ground_height);
     field(OptionInfo{"shadow", "", "on the ground"}, self.shadow);
     field(OptionInfo{"light", "", "direction that the light comes from, of any length but zero"}, self.light);
     field(OptionInfo{"size", "pixels", "width and height of the picture", Range{16, 8192}}, self.size);
