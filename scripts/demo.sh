@@ -10,8 +10,10 @@ scripts/setup.sh
 cmake --preset release
 cmake --build --preset release --target pliant_cli
 build/release/bin/pliant run "$scene" --out "$out" "$@"
-build/release/bin/pliant render "$out" --out "$out/film.mp4"
-build/release/bin/pliant render "$out" --out "$out/sheet.png" --sheet
+if ! build/release/bin/pliant render "$out" --out "$out/film.mp4" ||
+  ! build/release/bin/pliant render "$out" --out "$out/sheet.png" --sheet; then
+  echo "No film of it, for the reason above; the simulation itself is complete."
+fi
 
 cat <<EOF
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "commands.h"
+#include "pliant/core/atomic_file.h"
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
 #include "pliant/recorder/run_files.h"
@@ -71,8 +72,23 @@ void apply(const RenderArguments& arguments, pliant::ViewSettings& look) {
   if (arguments.wireframe) look.wireframe = true;
 }
 
+bool is_picture(const RenderArguments& arguments) {
+  return pliant_render::film_format_of(arguments.out) == pliant_render::FilmFormat::png;
+}
+
 void show(const RenderArguments& arguments, const std::string& what) {
   if (!arguments.quiet && has_error_terminal()) print_to_stderr("\r\x1b[K" + what);
+}
+
+/// The frames of a run can be shown whatever has become of its scene.
+pliant::ViewSettings view_of_checkpoint(const fs::path& checkpoint) {
+  try {
+    return pliant::read_checkpoint(checkpoint).view;
+  } catch (const pliant::Error& error) {
+    print_to_stderr("note: the view of the scene is not known, so the default is taken: " +
+                    pliant::printable_place(error.what(), message_limit) + "\n");
+    return {};
+  }
 }
 
 /// Of the scene that the run was made from, as its checkpoint has it.
@@ -95,9 +111,8 @@ pliant::ViewSettings view_of_run(const RenderArguments& arguments) {
     pliant::fail_input(fmt::format("{}: no such file, so the view of its scene is not known; leave --set out",
                                    pliant::printable_place(checkpoint.string())));
   }
-  pliant::Scene scene = pliant::read_checkpoint(checkpoint);
-  if (overrides.set.empty()) return scene.view;
-  pliant::SceneSource source = scene.source;
+  if (overrides.set.empty()) return view_of_checkpoint(checkpoint);
+  pliant::SceneSource source = pliant::read_checkpoint(checkpoint).source;
   for (const std::string& set : overrides.set) source.overrides.set.push_back(set);
   return pliant::parse_scene(std::move(source)).view;
 }
@@ -106,7 +121,8 @@ Take take_of_run(const RenderArguments& arguments) {
   pliant::ViewSettings look = view_of_run(arguments);
   apply(arguments, look);
   pliant::Animation animation = pliant::read_run(arguments.scene);
-  if (animation.times.size() > 1) pliant::resample(animation, static_cast<pliant::Real>(arguments.fps));
+  const bool is_film = !is_picture(arguments) && animation.times.size() > 1;
+  if (is_film) pliant::resample(animation, static_cast<pliant::Real>(arguments.fps));
   return pliant_render::take_animation(animation, look);
 }
 
@@ -119,6 +135,7 @@ std::int64_t steps_a_frame(const pliant::Scene& scene, std::int64_t fps) {
 Take take_of_scene(const RenderArguments& arguments) {
   pliant::Scene scene = open_scene(arguments);
   apply(arguments, scene.view);
+  scene.simulation.set_stop(waits_no_longer);
   return pliant_render::take_scene(scene, steps_a_frame(scene, arguments.fps), [&](std::int64_t step) {
     if (step % 16 == 0) show(arguments, fmt::format("simulating: step {} of {}", step, scene.steps));
     return !was_interrupted();
@@ -135,9 +152,8 @@ std::vector<std::size_t> choose_frames(std::size_t available, std::size_t count)
 }
 
 std::vector<std::size_t> frames_to_draw(const RenderArguments& arguments, const Take& take) {
-  const bool is_picture = pliant_render::film_format_of(arguments.out) == pliant_render::FilmFormat::png;
   const std::size_t available = take.frames.size();
-  if (!is_picture && !arguments.frames) return choose_frames(available, available);
+  if (!is_picture(arguments) && !arguments.frames) return choose_frames(available, available);
   const auto asked = static_cast<std::size_t>(arguments.frames.value_or(arguments.sheet ? 12 : 1));
   return choose_frames(available, std::min(asked, available));
 }
@@ -183,8 +199,12 @@ class Camera {
   pliant_render::PictureMaker maker_;
 };
 
+[[noreturn]] void throw_nothing_written() {
+  throw pliant::Error(pliant::ErrorKind::interrupted, "nothing was written");
+}
+
 /// Frames beside each other, drawn as small as they are there, in a picture of about the size asked for. Returns what
-/// was written; nothing after an interrupt.
+/// was written. @throws Error (interrupted).
 std::string write_sheet(const RenderArguments& arguments, const Take& take) {
   const std::vector<std::size_t> chosen = frames_to_draw(arguments, take);
   const int columns = columns_of(chosen.size());
@@ -192,7 +212,7 @@ std::string write_sheet(const RenderArguments& arguments, const Take& take) {
   Camera camera(arguments, take, chosen, {cell(take.look.size[0]), cell(take.look.size[1])});
   std::vector<pliant_render::Image> images;
   for (std::size_t i = 0; i < camera.count() && !was_interrupted(); ++i) images.push_back(camera.draw(i));
-  if (was_interrupted()) return "";
+  if (was_interrupted()) throw_nothing_written();
   const int gap = std::max(2, take.look.size[0] / 160);
   const pliant_render::Image sheet = contact_sheet(images, columns, gap, bytes_of(take.look.background));
   write_png(arguments.out, sheet);
@@ -213,15 +233,20 @@ std::string write_film(const RenderArguments& arguments, const Take& take) {
   Camera camera(arguments, take, frames_to_draw(arguments, take), take.look.size);
   pliant_render::FilmWriter writer({arguments.out, take.look.size[0], take.look.size[1],
                                     static_cast<int>(arguments.fps), static_cast<int>(camera.count())});
-  for (std::size_t i = 0; i < camera.count() && !was_interrupted(); ++i) writer.add(camera.draw(i));
-  if (was_interrupted()) return "";
+  std::size_t drawn = 0;
+  for (; drawn < camera.count() && !was_interrupted(); ++drawn) writer.add(camera.draw(drawn));
+  if (was_interrupted()) {
+    const bool are_pictures = is_picture(arguments) || !writer.hint().empty();
+    throw pliant::Error(pliant::ErrorKind::interrupted,
+                        are_pictures ? fmt::format("{} of {} pictures were written", drawn, camera.count())
+                                     : std::string("no film was written"));
+  }
   const std::string written = writer.close();
   show(arguments, "");
   if (!writer.hint().empty()) print_to_stderr("hint: " + writer.hint() + "\n");
-  const bool is_film = pliant_render::film_format_of(arguments.out) != pliant_render::FilmFormat::png;
   return fmt::format("{}: {}{} x {} pixels, drawn by {}", pliant::printable_place(written),
-                     is_film ? speed_text(camera.duration(), camera.count(), arguments.fps) : "", take.look.size[0],
-                     take.look.size[1], pliant::printable(camera.driver()));
+                     is_picture(arguments) ? "" : speed_text(camera.duration(), camera.count(), arguments.fps),
+                     take.look.size[0], take.look.size[1], pliant::printable(camera.driver()));
 }
 
 void check(const RenderArguments& arguments) {
@@ -238,20 +263,36 @@ void check(const RenderArguments& arguments) {
   if (arguments.frames) check_range<std::int64_t>("--frames", *arguments.frames, 1, 100'000);
 }
 
+/// That pictures can be drawn and written there is known before anything is simulated.
+void probe(const RenderArguments& arguments) {
+  const fs::path first = arguments.out.parent_path() / (arguments.out.stem().string() + "-0000.png");
+  const bool is_numbered = is_picture(arguments) && !arguments.sheet && arguments.frames.value_or(1) > 1;
+  const pliant::AtomicFile file(is_numbered ? first : arguments.out);
+  const pliant_render::OffscreenContext context;
+}
+
+std::string make(const RenderArguments& arguments) {
+  probe(arguments);
+  std::error_code ignored;
+  const Take take = fs::is_directory(arguments.scene, ignored) ? take_of_run(arguments) : take_of_scene(arguments);
+  if (was_interrupted()) throw_nothing_written();
+  return arguments.sheet ? write_sheet(arguments, take) : write_film(arguments, take);
+}
+
 int render(const RenderArguments& arguments) {
   check(arguments);
   catch_interrupts();
-  std::error_code ignored;
-  const Take take = fs::is_directory(arguments.scene, ignored) ? take_of_run(arguments) : take_of_scene(arguments);
-  std::string written;
-  if (!was_interrupted()) written = arguments.sheet ? write_sheet(arguments, take) : write_film(arguments, take);
-  show(arguments, "");
-  if (was_interrupted()) {
-    print_to_stderr("interrupted: nothing was written\n");
+  try {
+    const std::string written = make(arguments);
+    show(arguments, "");
+    fmt::print("{}\n", written);
+    return 0;
+  } catch (const pliant::Error& error) {
+    show(arguments, "");
+    if (error.kind() != pliant::ErrorKind::interrupted) throw;
+    print_to_stderr(fmt::format("interrupted: {}\n", error.what()));
     return exit_interrupted;
   }
-  fmt::print("{}\n", written);
-  return 0;
 }
 
 }  // namespace

@@ -67,9 +67,15 @@ std::vector<float> round_ticks(float low, float high) {
       break;
     }
   }
-  std::vector<float> ticks;
   const float slack = 1e-4F * (high - low);
-  for (float k = std::ceil((low - slack) / step); k * step <= high + slack; ++k) ticks.push_back(k * step);
+  const float first = std::ceil((low - slack) / step) * step;
+  if (!(low + step > low) || !(first + step > first)) return {low};  // past the digits of a float
+  constexpr int most_ticks = 10;
+  std::vector<float> ticks;
+  for (int i = 0; i < most_ticks && first + static_cast<float>(i) * step <= high + slack; ++i) {
+    const float tick = first + static_cast<float>(i) * step;
+    ticks.push_back(std::abs(tick) < slack ? 0 : tick);
+  }
   return ticks;
 }
 

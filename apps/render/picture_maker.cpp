@@ -29,6 +29,8 @@ Image PictureMaker::draw(const FrameContent& frame, const std::optional<WindSign
 std::optional<Legend> PictureMaker::legend() const {
   const pliant::ColourBy colour = options_.look.colour;
   if (!options_.look.legend || colour == pliant::ColourBy::none) return {};
+  // In a narrow picture it would leave no room for anything else.
+  if (legend_width(target_.height()) > 0.4F * static_cast<float>(target_.width())) return {};
   return Legend{std::string(quantity_title(colour)), options_.range,
                 colour == pliant::ColourBy::stretch ? 100.0F : 1.0F, colour_map(colour)};
 }

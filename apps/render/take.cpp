@@ -101,12 +101,12 @@ TakeFrame take_frame(const pliant::Simulation& simulation, const Scenery& scener
 
 Take take_scene(pliant::Scene& scene, std::int64_t every, const std::function<bool(std::int64_t)>& go_on) {
   Take take{make_scenery(scene.simulation.bodies()), scene.view, {}};
-  check_size((scene.steps - scene.simulation.state().step) / every + 1, take.scenery.vertex_count);
+  check_size((scene.steps - scene.simulation.state().step) / every + 2, take.scenery.vertex_count);
   const auto keep = [&] { take.frames.push_back(take_frame(scene.simulation, take.scenery, scene.view.colour)); };
   keep();
   for (std::int64_t step = scene.simulation.state().step; step < scene.steps && go_on(step);) {
     scene.step();
-    if (++step % every == 0) keep();
+    if (++step % every == 0 || step == scene.steps) keep();
   }
   return take;
 }

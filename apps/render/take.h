@@ -27,7 +27,8 @@ struct Take {
 /// A frame of the simulation as it is now.
 TakeFrame take_frame(const pliant::Simulation& simulation, const Scenery& scenery, pliant::ColourBy colour);
 
-/// Simulates the scene to its last step and keeps the start and every n-th step; `go_on`, told the step, may end it.
+/// Simulates the scene to its last step and keeps the start, every n-th step and the last; `go_on`, told the step, may
+/// end it.
 /// @throws Error (input) where the frames would take more than 4 GB.
 Take take_scene(pliant::Scene& scene, std::int64_t every, const std::function<bool(std::int64_t)>& go_on);
 

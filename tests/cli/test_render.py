@@ -134,6 +134,25 @@ class Render(unittest.TestCase):
         self.assertIn("film-0000.png", done.stdout)
         self.assertEqual(self.files(), ["empty", "film-0000.png", "film-0001.png", "film-0002.png"])
 
+    def test_the_last_step_is_shown_whatever_the_frames(self):
+        for steps in (0, 30, 100):
+            self.render("curtain", "--steps", steps, "--time-step", 0.001, "--out", f"{steps}.png", "--size", "96x64",
+                        "--set", "view.camera.position=[3, -3, 1]", "--set", "view.camera.target=[0, 0, 0]")
+        pictures = {(self.folder / f"{steps}.png").read_bytes() for steps in (0, 30, 100)}
+        self.assertEqual(len(pictures), 3)
+
+    def test_a_run_whose_scene_is_gone_is_shown_all_the_same(self):
+        self.pliant("run", "chain", "--steps", 4, "--out", "run", "--quiet")
+        (self.folder / "run" / "checkpoint.pliant").write_text("damaged")
+        done = self.render("run", "--out", "run.png", "--size", "96x64")
+        self.assertIn("note: the view of the scene is not known", done.stderr)
+        self.render("run", "--out", "run.png", "--set", "view.ground=false", expect=2)
+
+    def test_a_narrow_picture_has_no_legend(self):
+        self.render("curtain", "--steps", 5, "--out", "c.png", "--size", "60x400", "--colour", "speed", "--set",
+                    "view.ground=false")
+        self.assertGreater(len(colours(read_png(self.folder / "c.png")[2])), 30)
+
     def test_slips_name_the_option(self):
         for words, message in ((["--out", "film.avi"], "--out: 'film.avi' has no known ending"),
                                (["--out", "film"], "--out: 'film' has no known ending"),
@@ -167,6 +186,15 @@ class Render(unittest.TestCase):
         said = process.communicate(timeout=120)[1]
         self.assertEqual(process.returncode, 130, said)
         self.assertIn("interrupted: nothing was written", said)
+        # In the middle of a step that would take hours.
+        process = subprocess.Popen([PLIANT, "render", "curtain", "--iterations", "100000000", "--out", "film.mp4"],
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, cwd=self.folder,
+                                   env=ENVIRONMENT)
+        time.sleep(1)
+        process.send_signal(signal.SIGTERM)
+        said = process.communicate(timeout=120)[1]
+        self.assertEqual(process.returncode, 130, said)
+        self.assertIn("interrupted: ", said)
         self.assertEqual(self.files(), [])
 
 

@@ -67,6 +67,9 @@ TEST_CASE("ticks are round, ascend, lie in the range, and are three to six") {
     }
   }
   CHECK(round_ticks(3, 3).size() == 1);
+  CHECK(round_ticks(1e9F, 1000000100.0F).size() <= 10);  // closer than floats there
+  CHECK(round_ticks(1e30F, 2e30F).size() >= 3);
+  CHECK(round_ticks(0, std::numeric_limits<float>::infinity()).size() == 1);
 }
 
 TEST_CASE("lightness rises evenly along the map of speeds, and falls to both ends of that of stretch") {
