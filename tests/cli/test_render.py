@@ -47,6 +47,16 @@ def colours(rows):
     return {bytes(row[i:i + 3]) for row in rows for i in range(0, len(row), 3)}
 
 
+def wait_until_caught(process, number):
+    """However long the program takes to start: before it catches a signal, one would end it."""
+    for _ in range(6000):
+        status = pathlib.Path(f"/proc/{process.pid}/status").read_text()
+        caught = next(int(line.split()[1], 16) for line in status.splitlines() if line.startswith("SigCgt"))
+        if caught >> (number - 1) & 1:
+            return
+        time.sleep(0.01)
+
+
 class Render(unittest.TestCase):
     def setUp(self):
         temporary = tempfile.TemporaryDirectory()
@@ -181,7 +191,7 @@ class Render(unittest.TestCase):
         command = [PLIANT, "render", "curtain", "--steps", "100000", "--out", "film.mp4", "--size", "64x48"]
         process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
                                    cwd=self.folder, env=ENVIRONMENT)
-        time.sleep(1)
+        wait_until_caught(process, signal.SIGINT)
         process.send_signal(signal.SIGINT)
         said = process.communicate(timeout=120)[1]
         self.assertEqual(process.returncode, 130, said)
@@ -190,7 +200,8 @@ class Render(unittest.TestCase):
         process = subprocess.Popen([PLIANT, "render", "curtain", "--iterations", "100000000", "--out", "film.mp4"],
                                    stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, cwd=self.folder,
                                    env=ENVIRONMENT)
-        time.sleep(1)
+        wait_until_caught(process, signal.SIGTERM)
+        time.sleep(0.5)
         process.send_signal(signal.SIGTERM)
         said = process.communicate(timeout=120)[1]
         self.assertEqual(process.returncode, 130, said)
