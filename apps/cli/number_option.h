@@ -1,5 +1,6 @@
 #pragma once
 // Options whose values are numbers, in the decimal notation of C++ and JSON, whatever the locale.
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -21,6 +22,13 @@ void add_number(CLI::App& command, const std::string& name, std::optional<pliant
 /// `number` keeps its value when the option is not given.
 void add_number(CLI::App& command, const std::string& name, std::int64_t& number, const std::string& help);
 void add_number(CLI::App& command, const std::string& name, pliant::Real& number, const std::string& help);
+
+/// Whole numbers from the first to the second.
+using WholeRange = std::array<std::int64_t, 2>;
+void add_number(CLI::App& command, const std::string& name, std::int64_t& number, const WholeRange& range,
+                const std::string& help);
+void add_number(CLI::App& command, const std::string& name, std::optional<std::int64_t>& number,
+                const WholeRange& range, const std::string& help);
 
 /// From 1 on.
 void add_count(CLI::App& command, const std::string& name, std::int64_t& number, const std::string& help);

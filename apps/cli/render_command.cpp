@@ -37,12 +37,6 @@ struct RenderArguments : SceneArguments {
   bool quiet = false;
 };
 
-template <class Number>
-void check_range(std::string_view option, Number value, Number least, Number most) {
-  if (value >= least && value <= most) return;
-  pliant::fail_input(fmt::format("{}: {} is out of range; give {} to {}", option, value, least, most));
-}
-
 /// "1280x720".
 std::array<pliant::Index, 2> parse_size(const std::string& text) {
   constexpr pliant::Index least = 16, most = 8192;
@@ -169,10 +163,10 @@ std::array<std::uint8_t, 3> bytes_of(const pliant::Colour& colour) {
 }
 
 /// Draws the chosen frames of a take, one after the other.
-class Camera {
+class FrameDrawer {
  public:
-  Camera(const RenderArguments& arguments, const Take& take, std::vector<std::size_t> chosen,
-         const std::array<pliant::Index, 2>& size)
+  FrameDrawer(const RenderArguments& arguments, const Take& take, std::vector<std::size_t> chosen,
+              const std::array<pliant::Index, 2>& size)
       : arguments_(arguments), take_(take), chosen_(std::move(chosen)), maker_(take.scenery, options(size)) {}
 
   std::size_t count() const { return chosen_.size(); }
@@ -209,15 +203,15 @@ std::string write_sheet(const RenderArguments& arguments, const Take& take) {
   const std::vector<std::size_t> chosen = frames_to_draw(arguments, take);
   const int columns = columns_of(chosen.size());
   const auto cell = [columns](pliant::Index size) { return std::max(16, size / columns); };
-  Camera camera(arguments, take, chosen, {cell(take.look.size[0]), cell(take.look.size[1])});
+  FrameDrawer drawer(arguments, take, chosen, {cell(take.look.size[0]), cell(take.look.size[1])});
   std::vector<pliant_render::Image> images;
-  for (std::size_t i = 0; i < camera.count() && !was_interrupted(); ++i) images.push_back(camera.draw(i));
+  for (std::size_t i = 0; i < drawer.count() && !was_interrupted(); ++i) images.push_back(drawer.draw(i));
   if (was_interrupted()) throw_nothing_written();
   const int gap = std::max(2, take.look.size[0] / 160);
   const pliant_render::Image sheet = contact_sheet(images, columns, gap, bytes_of(take.look.background));
   write_png(arguments.out, sheet);
   return fmt::format("{}: {} frames, {} x {} pixels, drawn by {}", pliant::printable_place(arguments.out.string()),
-                     images.size(), sheet.width, sheet.height, pliant::printable(camera.driver()));
+                     images.size(), sheet.width, sheet.height, pliant::printable(drawer.driver()));
 }
 
 std::string speed_text(pliant::Real duration, std::size_t frames, std::int64_t fps) {
@@ -230,23 +224,23 @@ std::string speed_text(pliant::Real duration, std::size_t frames, std::int64_t f
 
 /// The same for a film or separate pictures.
 std::string write_film(const RenderArguments& arguments, const Take& take) {
-  Camera camera(arguments, take, frames_to_draw(arguments, take), take.look.size);
+  FrameDrawer drawer(arguments, take, frames_to_draw(arguments, take), take.look.size);
   pliant_render::FilmWriter writer({arguments.out, take.look.size[0], take.look.size[1],
-                                    static_cast<int>(arguments.fps), static_cast<int>(camera.count())});
+                                    static_cast<int>(arguments.fps), static_cast<int>(drawer.count())});
   std::size_t drawn = 0;
-  for (; drawn < camera.count() && !was_interrupted(); ++drawn) writer.add(camera.draw(drawn));
+  for (; drawn < drawer.count() && !was_interrupted(); ++drawn) writer.add(drawer.draw(drawn));
   if (was_interrupted()) {
     const bool are_pictures = is_picture(arguments) || !writer.hint().empty();
     throw pliant::Error(pliant::ErrorKind::interrupted,
-                        are_pictures ? fmt::format("{} of {} pictures were written", drawn, camera.count())
+                        are_pictures ? fmt::format("{} of {} pictures were written", drawn, drawer.count())
                                      : std::string("no film was written"));
   }
   const std::string written = writer.close();
   show(arguments, "");
   if (!writer.hint().empty()) print_to_stderr("hint: " + writer.hint() + "\n");
   return fmt::format("{}: {}{} x {} pixels, drawn by {}", pliant::printable_place(written),
-                     is_picture(arguments) ? "" : speed_text(camera.duration(), camera.count(), arguments.fps),
-                     take.look.size[0], take.look.size[1], pliant::printable(camera.driver()));
+                     is_picture(arguments) ? "" : speed_text(drawer.duration(), drawer.count(), arguments.fps),
+                     take.look.size[0], take.look.size[1], pliant::printable(drawer.driver()));
 }
 
 void check(const RenderArguments& arguments) {
@@ -258,9 +252,6 @@ void check(const RenderArguments& arguments) {
   if (arguments.sheet && *format != pliant_render::FilmFormat::png) {
     pliant::fail_input("--sheet: the frames of a sheet are one picture; give --out a name that ends in .png");
   }
-  check_range<std::int64_t>("--fps", arguments.fps, 1, 240);
-  check_range<std::int64_t>("--samples", arguments.samples, 1, 16);
-  if (arguments.frames) check_range<std::int64_t>("--frames", *arguments.frames, 1, 100'000);
 }
 
 /// That pictures can be drawn and written there is known before anything is simulated.
@@ -307,9 +298,10 @@ void add_render_command(CLI::App& program, int& exit_code) {
   add_choice(*command, "--colour", arguments->colour, "What colours tell: none, stretch, energy or speed");
   add_choice(*command, "--shading", arguments->shading, "smooth, or flat: each face by itself");
   command->add_flag("--wireframe", arguments->wireframe, "Draw the edges too");
-  add_number(*command, "--fps", arguments->fps, "Frames a second of a film, which plays in real time where it can");
-  add_number(*command, "--samples", arguments->samples, "Of a pixel; 1: hard edges, in less time; default 4");
-  add_number(*command, "--frames", arguments->frames,
+  add_number(*command, "--fps", arguments->fps, {1, 240},
+             "Frames a second of a film, which plays in real time where it can");
+  add_number(*command, "--samples", arguments->samples, {1, 16}, "Of a pixel; 1: hard edges, in less time; default 4");
+  add_number(*command, "--frames", arguments->frames, {1, 100'000},
              "That many, evenly from first to last; default: a film all, a picture the last");
   command->add_flag("--sheet", arguments->sheet, "All frames in one picture; default: 12 of them");
   command->add_flag("--quiet", arguments->quiet, "No progress");

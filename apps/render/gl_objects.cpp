@@ -24,47 +24,6 @@ GLuint compile(GLenum stage, std::string_view source) {
 
 }  // namespace
 
-GLuint BufferKind::make() {
-  GLuint id = 0;
-  glGenBuffers(1, &id);
-  return id;
-}
-void BufferKind::destroy(GLuint id) {
-  glDeleteBuffers(1, &id);
-}
-GLuint VertexArrayKind::make() {
-  GLuint id = 0;
-  glGenVertexArrays(1, &id);
-  return id;
-}
-void VertexArrayKind::destroy(GLuint id) {
-  glDeleteVertexArrays(1, &id);
-}
-GLuint TextureKind::make() {
-  GLuint id = 0;
-  glGenTextures(1, &id);
-  return id;
-}
-void TextureKind::destroy(GLuint id) {
-  glDeleteTextures(1, &id);
-}
-GLuint RenderbufferKind::make() {
-  GLuint id = 0;
-  glGenRenderbuffers(1, &id);
-  return id;
-}
-void RenderbufferKind::destroy(GLuint id) {
-  glDeleteRenderbuffers(1, &id);
-}
-GLuint FramebufferKind::make() {
-  GLuint id = 0;
-  glGenFramebuffers(1, &id);
-  return id;
-}
-void FramebufferKind::destroy(GLuint id) {
-  glDeleteFramebuffers(1, &id);
-}
-
 Program::Program(std::string_view vertex, std::string_view geometry, std::string_view fragment)
     : id_(glCreateProgram()) {
   const auto attach = [this](GLenum stage, std::string_view source) {

@@ -1,7 +1,6 @@
 #pragma once
 // OpenGL objects that delete themselves. Their context must be current whenever they are made, used or deleted.
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -13,52 +12,25 @@ using Vec2f = Eigen::Vector2f;
 using Vec3f = Eigen::Vector3f;
 using Mat4f = Eigen::Matrix4f;
 
-/// The name of one object, which `Kind` makes and deletes.
-template <class Kind>
+/// The name of one object, which the functions of its kind make and delete.
+template <auto& generate, auto& remove>
 class GlObject {
  public:
-  GlObject() : id_(Kind::make()) {}
-  GlObject(GlObject&& other) noexcept : id_(std::exchange(other.id_, 0)) {}
-  GlObject& operator=(GlObject&& other) noexcept {
-    std::swap(id_, other.id_);
-    return *this;
-  }
+  GlObject() { generate(1, &id_); }
   GlObject(const GlObject&) = delete;
   GlObject& operator=(const GlObject&) = delete;
-  ~GlObject() {
-    if (id_ != 0) Kind::destroy(id_);
-  }
+  ~GlObject() { remove(1, &id_); }
   GLuint id() const { return id_; }
 
  private:
-  GLuint id_;
+  GLuint id_ = 0;
 };
 
-struct BufferKind {
-  static GLuint make();
-  static void destroy(GLuint id);
-};
-struct VertexArrayKind {
-  static GLuint make();
-  static void destroy(GLuint id);
-};
-struct TextureKind {
-  static GLuint make();
-  static void destroy(GLuint id);
-};
-struct RenderbufferKind {
-  static GLuint make();
-  static void destroy(GLuint id);
-};
-struct FramebufferKind {
-  static GLuint make();
-  static void destroy(GLuint id);
-};
-using Buffer = GlObject<BufferKind>;
-using VertexArray = GlObject<VertexArrayKind>;
-using Texture = GlObject<TextureKind>;
-using Renderbuffer = GlObject<RenderbufferKind>;
-using Framebuffer = GlObject<FramebufferKind>;
+using Buffer = GlObject<glGenBuffers, glDeleteBuffers>;
+using VertexArray = GlObject<glGenVertexArrays, glDeleteVertexArrays>;
+using Texture = GlObject<glGenTextures, glDeleteTextures>;
+using Renderbuffer = GlObject<glGenRenderbuffers, glDeleteRenderbuffers>;
+using Framebuffer = GlObject<glGenFramebuffers, glDeleteFramebuffers>;
 
 /// A linked program.
 class Program {

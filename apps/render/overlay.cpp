@@ -43,13 +43,6 @@ float unit_of(float height) {
   return std::max(height / 720, 0.65F);
 }
 
-/// As many digits as tell two ticks apart.
-std::string tick_text(float value, float step) {
-  const int digits = step >= 1 ? 0 : static_cast<int>(std::ceil(-std::log10(step) - 1e-4F));
-  if (digits > 4 || std::abs(value) >= 1e5F) return fmt::format("{:.3g}", value);
-  return fmt::format("{:.{}f}", value == 0 ? 0.0F : value, digits);
-}
-
 }  // namespace
 
 float legend_width(int height) {
@@ -77,6 +70,16 @@ std::vector<float> round_ticks(float low, float high) {
     ticks.push_back(std::abs(tick) < slack ? 0 : tick);
   }
   return ticks;
+}
+
+std::string tick_text(float tick, float step) {
+  constexpr int most_digits = 4;
+  int digits = 0;
+  for (float scaled = step; digits <= most_digits; scaled *= 10, ++digits) {
+    if (std::abs(scaled - std::round(scaled)) < 1e-3F * scaled) break;
+  }
+  if (digits > most_digits || std::abs(tick) >= 1e5F) return fmt::format("{:.3g}", tick);
+  return fmt::format("{:.{}f}", tick, digits);
 }
 
 Overlay::Overlay() : context_(ImGui::CreateContext()) {

@@ -30,6 +30,8 @@ float legend_width(int height);
 
 /// Numbers for the ticks of a scale: three to six round ones in the range, ascending.
 std::vector<float> round_ticks(float low, float high);
+/// A tick that is a multiple of `step`, with all digits of that and no more; with three where these would be many.
+std::string tick_text(float tick, float step);
 
 class Overlay {
  public:

@@ -208,7 +208,7 @@ void Renderer::draw_surface(const pliant::ViewSettings& look, const DrawOptions&
   surface_.set("front", tone_of(look.front));
   surface_.set("back", tone_of(look.back));
   surface_.set("is_flat", look.shading == pliant::Shading::flat ? 1 : 0);
-  surface_.set("is_coloured", is_coloured() ? 1 : 0);
+  surface_.set("is_coloured", has_values_ ? 1 : 0);
   surface_.set("low", options.range[0]);
   surface_.set("high", options.range[1]);
   surface_.set("colours", 0);
@@ -236,7 +236,7 @@ void Renderer::draw_lines(const pliant::ViewSettings& look, const DrawOptions& o
     line_.set("opacity", opacity);
     line_.set("tone", tone);
     line_.set("is_round", is_rope ? 1 : 0);
-    line_.set("is_coloured", is_rope && is_coloured() ? 1 : 0);
+    line_.set("is_coloured", is_rope && has_values_ ? 1 : 0);
     glBindVertexArray(array.id());
     glDrawElements(GL_LINES, count, GL_UNSIGNED_INT, nullptr);
   };

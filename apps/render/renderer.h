@@ -42,7 +42,6 @@ class Renderer {
   void draw_lines(const pliant::ViewSettings& look, const DrawOptions& options, const Mat4f& camera,
                   const Vec2f& picture) const;
   void draw_markers(const DrawOptions& options, const Mat4f& camera, const Vec2f& picture) const;
-  bool is_coloured() const { return has_values_; }
 
   Scenery scenery_;
   Bounds bounds_;

@@ -169,9 +169,10 @@ class Render(unittest.TestCase):
                                (["--out", "c.png", "--size", "640"], "--size: '640' is no size"),
                                (["--out", "c.png", "--size", "8x8"], "--size: '8x8' is no size"),
                                (["--out", "c.png", "--size", "99999999999x9"], "--size: '99999999999x9' is no size"),
-                               (["--out", "c.png", "--fps", "0"], "--fps: 0 is out of range; give 1 to 240"),
-                               (["--out", "c.png", "--samples", "99"], "--samples: 99 is out of range"),
-                               (["--out", "c.png", "--frames", "0"], "--frames: 0 is out of range"),
+                               (["--out", "c.png", "--fps", "0"], "--fps: '0' is out of range; give a whole number from 1 up to 240"),
+                               (["--out", "c.png", "--fps", "2.5"], "--fps: '2.5' is not what is wanted; give a whole"),
+                               (["--out", "c.png", "--samples", "99"], "--samples: '99' is out of range; give a whole"),
+                               (["--out", "c.png", "--frames", "0"], "--frames: '0' is out of range; give a whole"),
                                (["--out", "c.mp4", "--sheet"], "--sheet: the frames of a sheet are one picture")):
             with self.subTest(words):
                 self.assertIn(message, self.render("chain", *words, expect=2).stderr)

@@ -54,7 +54,7 @@ TEST_CASE("ranges begin at zero, or have it in the middle, and are never empty")
 }
 
 TEST_CASE("ticks are round, ascend, lie in the range, and are three to six") {
-  for (const float high : {1e-6F, 0.013F, 0.2F, 1.0F, 1.7F, 2.5F, 9.9F, 123.0F, 4e7F}) {
+  for (const float high : {1e-6F, 0.013F, 0.09F, 0.2F, 1.0F, 1.7F, 2.5F, 9.9F, 123.0F, 4e7F}) {
     for (const float low : {0.0F, -high}) {
       CAPTURE(low);
       CAPTURE(high);
@@ -64,6 +64,12 @@ TEST_CASE("ticks are round, ascend, lie in the range, and are three to six") {
       for (std::size_t i = 1; i < ticks.size(); ++i) CHECK(ticks[i] > ticks[i - 1]);
       CHECK(ticks.front() >= low * 1.001F - 1e-9F);
       CHECK(ticks.back() <= high * 1.001F);
+      for (const float tick : ticks) {
+        const std::string text = tick_text(tick, ticks[1] - ticks[0]);
+        CAPTURE(text);
+        CHECK(std::abs(std::stof(text) - tick) <= 1e-3F * std::abs(tick));  // says what it stands at
+        CHECK(text.size() <= 9);
+      }
     }
   }
   CHECK(round_ticks(3, 3).size() == 1);

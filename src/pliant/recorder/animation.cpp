@@ -65,8 +65,7 @@ Animation read_run(const fs::path& folder) {
   const fs::path info = folder / "run.json";
   std::error_code ignored;
   if (!fs::exists(info, ignored)) {
-    fail_input(fmt::format("{}: has no run.json; give a folder that `pliant run` made, or a point cache and --mesh",
-                           folder.string()));
+    fail_input(fmt::format("{}: has no run.json; give a folder that `pliant run` made", folder.string()));
   }
   const EarlierRun run = read_earlier_run(info);
   if (run.format == "none") {

@@ -168,7 +168,7 @@ template <class T>
 void PanelFactor<T>::fill(const FactorView& factor, Real largest_diagonal, ThreadPool& threads) {
   unit_ = power_of_two(std::sqrt(largest_diagonal));
   std::vector<std::vector<Real>> work(static_cast<std::size_t>(threads.thread_count()));
-  // From the last panels, the largest, down, so that no thread is left with a large one at the end.
+  // From the last panels, the largest, down: those who begin with smaller ones help with them.
   const auto runs = static_cast<Index>((panels_.size() + panels_together - 1) / panels_together);
   threads.parallel_for(runs, [&](Index run, int thread) {
     const std::size_t begin = panels_together * static_cast<std::size_t>(runs - 1 - run);

@@ -26,10 +26,10 @@
 
 namespace pliant {
 
-/// Panels of `T`, float or double.
 /// What becomes of the numbers that a solution is stored to.
 enum class Store { over, onto };
 
+/// Panels of `T`, float or double.
 template <class T>
 class PanelFactor {
  public:
