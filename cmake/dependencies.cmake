@@ -31,6 +31,8 @@ if(PLIANT_BUILD_CLI)
   pkg_check_modules(EGL REQUIRED IMPORTED_TARGET egl)
   pkg_check_modules(IMGUI REQUIRED IMPORTED_TARGET imgui)
   pkg_check_modules(STB REQUIRED IMPORTED_TARGET stb)
+  # Windows, with their mouse and keys.
+  find_package(glfw3 3.3 REQUIRED)
 endif()
 if(PLIANT_BUILD_TESTS)
   find_package(doctest 2.4 REQUIRED)

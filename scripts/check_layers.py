@@ -40,8 +40,9 @@ THIRD_PARTY = {
     "zlib": ["src/pliant/core"],
     "cholmod": ["src/pliant/solver/factorization", "apps/bench", "benchmarks"],
     "epoxy/": ["apps/render"],
-    "imgui": ["apps/render"],
-    "backends/imgui": ["apps/render"],
+    "GLFW/": ["apps/viewer", "tests"],
+    "imgui": ["apps/render", "apps/viewer"],
+    "backends/imgui": ["apps/render", "apps/viewer"],
     "stb/": ["apps/render", "tests"],
     "doctest/": ["tests"],
 }

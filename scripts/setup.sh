@@ -9,7 +9,7 @@ packages=(
   g++ cmake ninja-build
   libeigen3-dev libfmt-dev zlib1g-dev nlohmann-json3-dev libcli11-dev doctest-dev
   libsuitesparse-dev libopenblas-serial-dev
-  pkg-config libepoxy-dev libegl-dev libgl1 libgl1-mesa-dri libimgui-dev libstb-dev fonts-inter ffmpeg
+  pkg-config libepoxy-dev libegl-dev libglfw3-dev libgl1 libgl1-mesa-dri libimgui-dev libstb-dev fonts-inter ffmpeg
   python3 python3-numpy python3-jsonschema assimp-utils
 )
 dev_packages=(ccache clang clang-format clang-tidy git libclang-rt-14-dev libtinyobjloader-dev)

@@ -12,6 +12,7 @@ void add_bench_command(CLI::App& program);
 void add_convert_command(CLI::App& program);
 void add_info_command(CLI::App& program);
 void add_render_command(CLI::App& program, int& exit_code);
+void add_view_command(CLI::App& program, int& exit_code);
 void add_resume_command(CLI::App& program, int& exit_code);
 void add_run_command(CLI::App& program, int& exit_code);
 void add_scenes_command(CLI::App& program);

@@ -23,6 +23,7 @@ constexpr std::string_view help_footer = R"(Examples:
   pliant check my_scene.json                     says what is in your own, and what is wrong with it
   pliant run my_scene.json --format obj          simulates it, one OBJ file a frame
   pliant resume out/curtain --steps 900          goes on with a run that ended or was stopped
+  pliant view curtain_wind                       opens a window in which one can pull at it
   pliant render curtain_wind --out curtain.mp4   makes a film, without a display
   pliant convert out/curtain curtain.glb         exports a run as an animation
   pliant info shirt.ply                          says what a mesh is like, and what is wrong with it
@@ -62,6 +63,7 @@ int run_program(int argc, char** argv) {
   pliant_cli::add_run_command(program, exit_code);
   pliant_cli::add_resume_command(program, exit_code);
   pliant_cli::add_render_command(program, exit_code);
+  pliant_cli::add_view_command(program, exit_code);
   pliant_cli::add_check_command(program);
   pliant_cli::add_convert_command(program);
   pliant_cli::add_info_command(program);

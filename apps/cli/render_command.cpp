@@ -7,15 +7,13 @@
 #include <fmt/format.h>
 
 #include "commands.h"
+#include "look_options.h"
 #include "pliant/core/atomic_file.h"
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
-#include "pliant/recorder/run_files.h"
-#include "pliant/scene/checkpoint.h"
 #include "render/film_writer.h"
 #include "render/picture_maker.h"
 #include "render/take.h"
-#include "scene_options.h"
 #include "terminal.h"
 
 namespace pliant_cli {
@@ -24,47 +22,14 @@ namespace {
 namespace fs = std::filesystem;
 using pliant_render::Take;
 
-struct RenderArguments : SceneArguments {
+struct RenderArguments : LookArguments {
   fs::path out;
-  std::string size;
-  std::optional<pliant::ColourBy> colour;
-  std::optional<pliant::Shading> shading;
-  bool wireframe = false;
   std::int64_t fps = 30;
   std::int64_t samples = 4;
   std::optional<std::int64_t> frames;
   bool sheet = false;
   bool quiet = false;
 };
-
-/// "1280x720".
-std::array<pliant::Index, 2> parse_size(const std::string& text) {
-  constexpr pliant::Index least = 16, most = 8192;
-  std::array<pliant::Index, 2> size{0, 0};
-  std::size_t place = 0;
-  bool is_good = !text.empty();
-  for (const char c : text) {
-    if (c == 'x' && place == 0) {
-      ++place;
-    } else if (c >= '0' && c <= '9' && size[place] <= most) {
-      size[place] = 10 * size[place] + (c - '0');
-    } else {
-      is_good = false;
-    }
-  }
-  if (!is_good || place != 1 || std::ranges::min(size) < least || std::ranges::max(size) > most) {
-    pliant::fail_input(fmt::format("--size: '{}' is no size; give width x height from {} to {}, as in 1280x720",
-                                   pliant::printable(text), least, most));
-  }
-  return size;
-}
-
-void apply(const RenderArguments& arguments, pliant::ViewSettings& look) {
-  if (!arguments.size.empty()) look.size = parse_size(arguments.size);
-  if (arguments.colour) look.colour = *arguments.colour;
-  if (arguments.shading) look.shading = *arguments.shading;
-  if (arguments.wireframe) look.wireframe = true;
-}
 
 bool is_picture(const RenderArguments& arguments) {
   return pliant_render::film_format_of(arguments.out) == pliant_render::FilmFormat::png;
@@ -74,50 +39,12 @@ void show(const RenderArguments& arguments, const std::string& what) {
   if (!arguments.quiet && has_error_terminal()) print_to_stderr("\r\x1b[K" + what);
 }
 
-/// The frames of a run can be shown whatever has become of its scene.
-pliant::ViewSettings view_of_checkpoint(const fs::path& checkpoint) {
-  try {
-    return pliant::read_checkpoint(checkpoint).view;
-  } catch (const pliant::Error& error) {
-    print_to_stderr("note: the view of the scene is not known, so the default is taken: " +
-                    pliant::printable_place(error.what(), message_limit) + "\n");
-    return {};
-  }
-}
-
-/// Of the scene that the run was made from, as its checkpoint has it.
-pliant::ViewSettings view_of_run(const RenderArguments& arguments) {
-  const pliant::SceneOverrides& overrides = arguments.overrides;
-  const bool has_others =
-      overrides.steps || overrides.time_step || overrides.iterations || overrides.tolerance || overrides.threads ||
-      overrides.backend ||
-      !std::ranges::all_of(overrides.set, [](const std::string& set) { return set.starts_with("view."); });
-  if (has_others) {
-    pliant::fail_input(
-        fmt::format("{}: a run is shown as it was recorded; of --set only what begins with 'view.' "
-                    "counts; to change more, give its scene",
-                    pliant::printable_place(arguments.scene)));
-  }
-  const fs::path checkpoint = fs::path(arguments.scene) / pliant::checkpoint_name;
-  std::error_code ignored;
-  if (!fs::exists(checkpoint, ignored)) {
-    if (overrides.set.empty()) return {};
-    pliant::fail_input(fmt::format("{}: no such file, so the view of its scene is not known; leave --set out",
-                                   pliant::printable_place(checkpoint.string())));
-  }
-  if (overrides.set.empty()) return view_of_checkpoint(checkpoint);
-  pliant::SceneSource source = pliant::read_checkpoint(checkpoint).source;
-  for (const std::string& set : overrides.set) source.overrides.set.push_back(set);
-  return pliant::parse_scene(std::move(source)).view;
-}
-
 Take take_of_run(const RenderArguments& arguments) {
-  pliant::ViewSettings look = view_of_run(arguments);
-  apply(arguments, look);
+  const pliant::ViewSettings look = look_of_run(arguments);
   pliant::Animation animation = pliant::read_run(arguments.scene);
   const bool is_film = !is_picture(arguments) && animation.times.size() > 1;
   if (is_film) pliant::resample(animation, static_cast<pliant::Real>(arguments.fps));
-  return pliant_render::take_animation(animation, look);
+  return pliant_render::take_animation(std::move(animation), look);
 }
 
 /// Steps from frame to frame: a film plays as fast as what it shows happens, where the time step allows it.
@@ -128,7 +55,7 @@ std::int64_t steps_a_frame(const pliant::Scene& scene, std::int64_t fps) {
 
 Take take_of_scene(const RenderArguments& arguments) {
   pliant::Scene scene = open_scene(arguments);
-  apply(arguments, scene.view);
+  apply_look(arguments, scene.view);
   scene.simulation.set_stop(waits_no_longer);
   return pliant_render::take_scene(scene, steps_a_frame(scene, arguments.fps), [&](std::int64_t step) {
     if (step % 16 == 0) show(arguments, fmt::format("simulating: step {} of {}", step, scene.steps));
@@ -294,10 +221,7 @@ void add_render_command(CLI::App& program, int& exit_code) {
   const auto arguments = std::make_shared<RenderArguments>();
   add_scene_arguments(*command, *arguments);
   command->add_option("--out", arguments->out, "Film (.mp4, .webm, .gif) or picture (.png)")->required();
-  command->add_option("--size", arguments->size, "Width and height in pixels; default: the scene's, or 1280x720");
-  add_choice(*command, "--colour", arguments->colour, "What colours tell: none, stretch, energy or speed");
-  add_choice(*command, "--shading", arguments->shading, "smooth, or flat: each face by itself");
-  command->add_flag("--wireframe", arguments->wireframe, "Draw the edges too");
+  add_look_options(*command, *arguments);
   add_number(*command, "--fps", arguments->fps, {1, 240},
              "Frames a second of a film, which plays in real time where it can");
   add_number(*command, "--samples", arguments->samples, {1, 16}, "Of a pixel; 1: hard edges, in less time; default 4");

@@ -68,7 +68,6 @@ Mat4f Viewpoint::projection(float aspect) const {
 Viewpoint place_camera(const pliant::Camera& camera, const Bounds& given, float aspect, float inset) {
   Bounds bounds = given;
   if (bounds.is_empty()) bounds.add(Vec3f::Zero());
-  const float radius = std::max(bounds.radius(), 1e-3F);
   Viewpoint view;
   view.inset = inset;
   view.field_of_view = static_cast<float>(camera.field_of_view * std::numbers::pi / 180);
@@ -76,26 +75,40 @@ Viewpoint place_camera(const pliant::Camera& camera, const Bounds& given, float 
   const Vec3f up = to_float(camera.up).normalized();
   if (camera.position) {
     view.eye = to_float(*camera.position);
-    if ((view.target - view.eye).norm() < 1e-6F * radius) view.target = view.eye + Vec3f(0, 1, 0);
+    if ((view.target - view.eye).norm() < 1e-6F * std::max(bounds.radius(), 1e-3F))
+      view.target = view.eye + Vec3f(0, 1, 0);
     view.up = upright(up, view.forward());
   } else {
     // From the front and the right and from above, whatever is up.
     const Vec3f side = upright(std::abs(up.y()) < 0.9F ? Vec3f(0, -1, 0) : Vec3f(0, 0, 1), up);
     const Vec3f forward = -(side + 0.45F * up.cross(side) + 0.42F * up).normalized();
     view.up = upright(up, forward);
-    const float tan_y = std::tan(view.field_of_view / 2) / margin;
-    view.eye = fit(bounds, forward, view.up, tan_y * aspect * (1 - inset), tan_y);
-    const float ahead = (bounds.center() - view.eye).dot(forward);
+    view.eye = bounds.center() - forward;
+    view.target = bounds.center();
+    fit_into_picture(view, bounds, aspect);
     if (camera.target) {
-      view.eye = view.target - ahead * forward;
-    } else {
-      view.target = view.eye + ahead * forward;
+      const Vec3f target = to_float(*camera.target);
+      view.eye += target - view.target;
+      view.target = target;
     }
   }
+  set_depth_range(view, bounds);
+  return view;
+}
+
+void fit_into_picture(Viewpoint& view, const Bounds& bounds, float aspect) {
+  const Vec3f forward = view.forward();
+  const float tan_y = std::tan(view.field_of_view / 2) / margin;
+  const float free_width = 1 - std::min(std::abs(view.inset), 0.9F);
+  view.eye = fit(bounds, forward, view.up, tan_y * aspect * free_width, tan_y);
+  view.target = view.eye + (bounds.center() - view.eye).dot(forward) * forward;
+}
+
+void set_depth_range(Viewpoint& view, const Bounds& bounds) {
+  const float radius = std::max(bounds.radius(), 1e-3F);
   const float distance = (bounds.center() - view.eye).norm();
   view.far = distance + 30 * radius;
   view.near = std::max(distance - 3 * radius, 1e-3F * std::max(distance, radius));
-  return view;
 }
 
 }  // namespace pliant_render

@@ -27,9 +27,10 @@ struct Viewpoint {
   float field_of_view = 0.7F;  ///< from the lower edge of the picture to the upper [rad]
   float near = 0.01F;
   float far = 100;
-  float inset = 0;  ///< share of the width that is left free on the right, for a legend
+  float inset = 0;  ///< share of the width that is left free on the right, for a legend; negative: on the left
 
   Vec3f forward() const { return (target - eye).normalized(); }
+  Vec3f right() const { return forward().cross(up); }
   Mat4f view() const;
   /// aspect: width over height.
   Mat4f projection(float aspect) const;
@@ -38,5 +39,10 @@ struct Viewpoint {
 /// What the scene leaves open is chosen so that the box is in the picture: a target in its middle, a position in front
 /// of it and somewhat above, as far away as it needs.
 Viewpoint place_camera(const pliant::Camera& camera, const Bounds& bounds, float aspect, float inset = 0);
+
+/// Moves the camera, without turning it, to where the box just fits into the picture.
+void fit_into_picture(Viewpoint& view, const Bounds& bounds, float aspect);
+/// Chooses near and far so that the box and the ground about it are between them, wherever the eye is.
+void set_depth_range(Viewpoint& view, const Bounds& bounds);
 
 }  // namespace pliant_render

@@ -56,9 +56,4 @@ OffscreenContext::~OffscreenContext() {
   eglTerminate(display_);
 }
 
-bool OffscreenContext::is_software() const {
-  return renderer_.find("llvmpipe") != std::string::npos || renderer_.find("softpipe") != std::string::npos ||
-         renderer_.find("SwiftShader") != std::string::npos;
-}
-
 }  // namespace pliant_render

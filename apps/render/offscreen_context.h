@@ -15,8 +15,6 @@ class OffscreenContext {
 
   /// What the driver calls the renderer.
   const std::string& renderer() const { return renderer_; }
-  /// Whether the processor draws, which makes every sample of a pixel dear.
-  bool is_software() const;
 
  private:
   void* display_ = nullptr;

@@ -1,7 +1,5 @@
 #include "render/picture_maker.h"
 
-#include "render/quantities.h"
-
 namespace pliant_render {
 
 PictureMaker::PictureMaker(Scenery scenery, PictureOptions options)
@@ -12,7 +10,7 @@ PictureMaker::PictureMaker(Scenery scenery, PictureOptions options)
 Image PictureMaker::draw(const FrameContent& frame, const std::optional<WindSign>& wind) {
   const float aspect = static_cast<float>(target_.width()) / static_cast<float>(target_.height());
   DrawOptions options;
-  const std::optional<Legend> colours = legend();
+  const std::optional<Legend> colours = make_legend(options_.look, options_.range, target_.width(), target_.height());
   options.viewpoint = place_camera(options_.look.camera, options_.bounds, aspect,
                                    colours ? legend_width(target_.height()) / static_cast<float>(target_.width()) : 0);
   options.range = options_.range;
@@ -24,15 +22,6 @@ Image PictureMaker::draw(const FrameContent& frame, const std::optional<WindSign
   target_.resolve();
   overlay_.draw(options_.look, options.viewpoint, colours, wind, target_.width(), target_.height());
   return target_.read();
-}
-
-std::optional<Legend> PictureMaker::legend() const {
-  const pliant::ColourBy colour = options_.look.colour;
-  if (!options_.look.legend || colour == pliant::ColourBy::none) return {};
-  // In a narrow picture it would leave no room for anything else.
-  if (legend_width(target_.height()) > 0.4F * static_cast<float>(target_.width())) return {};
-  return Legend{std::string(quantity_title(colour)), options_.range,
-                colour == pliant::ColourBy::stretch ? 100.0F : 1.0F, colour_map(colour)};
 }
 
 }  // namespace pliant_render

@@ -27,8 +27,6 @@ class PictureMaker {
   Image draw(const FrameContent& frame, const std::optional<WindSign>& wind);
 
  private:
-  std::optional<Legend> legend() const;
-
   PictureOptions options_;
   OffscreenContext context_;
   RenderTarget target_;

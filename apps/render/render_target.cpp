@@ -53,18 +53,29 @@ void RenderTarget::resolve() const {
   glBindFramebuffer(GL_FRAMEBUFFER, plain_.id());
 }
 
-Image RenderTarget::read() const {
-  Image image;
-  image.width = width_;
-  image.height = height_;
-  const auto row = 3 * static_cast<std::size_t>(width_);
-  std::vector<std::uint8_t> upside_down(row * static_cast<std::size_t>(height_));
+void RenderTarget::show() const {
   glBindFramebuffer(GL_READ_FRAMEBUFFER, plain_.id());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+  glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+Image RenderTarget::read() const {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, plain_.id());
+  return read_picture(width_, height_);
+}
+
+Image read_picture(int width, int height) {
+  Image image;
+  image.width = width;
+  image.height = height;
+  const auto row = 3 * static_cast<std::size_t>(width);
+  std::vector<std::uint8_t> upside_down(row * static_cast<std::size_t>(height));
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, width_, height_, GL_RGB, GL_UNSIGNED_BYTE, upside_down.data());
+  glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, upside_down.data());
   image.pixels.resize(upside_down.size());
-  for (std::size_t y = 0; y < static_cast<std::size_t>(height_); ++y) {
-    const std::size_t from = (static_cast<std::size_t>(height_) - 1 - y) * row;
+  for (std::size_t y = 0; y < static_cast<std::size_t>(height); ++y) {
+    const std::size_t from = (static_cast<std::size_t>(height) - 1 - y) * row;
     std::copy_n(upside_down.data() + from, row, image.pixels.data() + y * row);
   }
   return image;

@@ -6,6 +6,9 @@
 
 namespace pliant_render {
 
+/// What stands in the framebuffer that is bound for reading.
+Image read_picture(int width, int height);
+
 class RenderTarget {
  public:
   /// samples: of a pixel, 1 for none; as many as the driver has at most. Throws Error(input) on a size that the driver
@@ -19,6 +22,8 @@ class RenderTarget {
   /// Then, what is drawn flat on top.
   void resolve() const;
   Image read() const;
+  /// Of what was resolved, into a window of the same size, which is bound from then on.
+  void show() const;
 
  private:
   int width_;

@@ -38,22 +38,16 @@ void sort_and_trim(std::vector<std::uint32_t>& list) {
   list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
+void append(std::vector<std::uint32_t>& list, std::span<const Index> vertices) {
+  for (const Index vertex : vertices) list.push_back(static_cast<std::uint32_t>(vertex));
+}
+
 /// Pinned vertices, and those under a test force now.
 std::vector<std::uint32_t> find_markers(const pliant::Simulation& simulation) {
-  std::vector<std::uint32_t> markers;
-  const auto add = [&markers](std::span<const Index> vertices) {
-    for (const Index vertex : vertices) markers.push_back(static_cast<std::uint32_t>(vertex));
-  };
-  for (const auto& [id, group] : simulation.groups()) {
-    if (group.type != "position") continue;
-    for (const auto& part : group.set.parts) {
-      add(part->held_vertices());
-      add(part->stencil());
-    }
-  }
+  std::vector<std::uint32_t> markers = pinned_vertices(simulation);
   for (const auto& [id, force] : simulation.forces()) {
     const auto* test = dynamic_cast<const pliant::TestForce*>(force.get());
-    if (test != nullptr && test->is_active(simulation.state().step)) add(test->vertices());
+    if (test != nullptr && test->is_active(simulation.state().step)) append(markers, test->vertices());
   }
   sort_and_trim(markers);
   return markers;
@@ -89,6 +83,19 @@ std::vector<float> find_values(const pliant::Simulation& simulation, const Scene
 
 }  // namespace
 
+std::vector<std::uint32_t> pinned_vertices(const pliant::Simulation& simulation) {
+  std::vector<std::uint32_t> pinned;
+  for (const auto& [id, group] : simulation.groups()) {
+    if (group.type != "position") continue;
+    for (const auto& part : group.set.parts) {
+      append(pinned, part->held_vertices());
+      append(pinned, part->stencil());
+    }
+  }
+  sort_and_trim(pinned);
+  return pinned;
+}
+
 TakeFrame take_frame(const pliant::Simulation& simulation, const Scenery& scenery, ColourBy colour) {
   TakeFrame frame;
   frame.time = simulation.state().time;
@@ -111,36 +118,44 @@ Take take_scene(pliant::Scene& scene, std::int64_t every, const std::function<bo
   return take;
 }
 
-Take take_animation(const pliant::Animation& animation, const pliant::ViewSettings& look) {
-  if (animation.bodies.empty()) {
-    pliant::fail_input(animation.name + ": only points are known; a picture needs their mesh");
+RunFrames::RunFrames(pliant::Animation animation) : animation_(std::move(animation)) {
+  if (animation_.bodies.empty()) {
+    pliant::fail_input(animation_.name + ": only points are known; a picture needs their mesh");
   }
-  if (look.colour == ColourBy::energy) {
+  scenery_ = make_scenery(animation_.bodies);
+  pliant::Positions x;
+  animation_.cache.sample(animation_.times.front(), x);
+  for (std::size_t e = 0; e < scenery_.rest_lengths.size(); ++e) {
+    const auto a = static_cast<Index>(scenery_.springs[2 * e]), b = static_cast<Index>(scenery_.springs[2 * e + 1]);
+    scenery_.rest_lengths[e] = static_cast<float>((x.row(a) - x.row(b)).norm());
+  }
+}
+
+TakeFrame RunFrames::frame(std::size_t i, ColourBy colour) const {
+  if (colour == ColourBy::energy) {
     pliant::fail_input("colour: a run does not say the energy of its vertices; give its scene, or another colour");
   }
-  Take take{make_scenery(animation.bodies), look, {}};
-  check_size(static_cast<std::int64_t>(animation.times.size()), take.scenery.vertex_count);
   pliant::Positions x;
-  animation.cache.sample(animation.times.front(), x);
-  for (std::size_t e = 0; e < take.scenery.rest_lengths.size(); ++e) {
-    const auto a = static_cast<Index>(take.scenery.springs[2 * e]),
-               b = static_cast<Index>(take.scenery.springs[2 * e + 1]);
-    take.scenery.rest_lengths[e] = static_cast<float>((x.row(a) - x.row(b)).norm());
-  }
-  pliant::Positions before = x;
-  Real last = animation.times.front();
-  for (const Real time : animation.times) {
-    animation.cache.sample(time, x);
-    TakeFrame frame{time, {to_floats(x), {}, {}}, {}};
-    if (look.colour == ColourBy::stretch) frame.content.values = vertex_stretch(take.scenery, frame.content.positions);
-    if (look.colour == ColourBy::speed) {
-      const pliant::Positions velocities = time > last ? ((x - before) / (time - last)).eval() : (0 * x).eval();
-      frame.content.values = vertex_speed(velocities);
+  animation_.cache.sample(time(i), x);
+  TakeFrame frame{time(i), {to_floats(x), {}, {}}, {}};
+  if (colour == ColourBy::stretch) frame.content.values = vertex_stretch(scenery_, frame.content.positions);
+  if (colour == ColourBy::speed) {
+    pliant::Positions velocities = pliant::Positions::Zero(x.rows(), 3);
+    if (i > 0 && time(i) > time(i - 1)) {
+      pliant::Positions before;
+      animation_.cache.sample(time(i - 1), before);
+      velocities = (x - before) / (time(i) - time(i - 1));
     }
-    take.frames.push_back(std::move(frame));
-    before = x;
-    last = time;
+    frame.content.values = vertex_speed(velocities);
   }
+  return frame;
+}
+
+Take take_animation(pliant::Animation animation, const pliant::ViewSettings& look) {
+  const RunFrames frames(std::move(animation));
+  Take take{frames.scenery(), look, {}};
+  check_size(static_cast<std::int64_t>(frames.count()), take.scenery.vertex_count);
+  for (std::size_t i = 0; i < frames.count(); ++i) take.frames.push_back(frames.frame(i, look.colour));
   return take;
 }
 

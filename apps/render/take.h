@@ -7,8 +7,8 @@
 
 #include "pliant/recorder/animation.h"
 #include "pliant/scene/scene.h"
-#include "render/overlay.h"
 #include "render/scenery.h"
+#include "render/signs.h"
 
 namespace pliant_render {
 
@@ -24,6 +24,9 @@ struct Take {
   std::vector<TakeFrame> frames;
 };
 
+/// Vertices that positions hold, ascending.
+std::vector<std::uint32_t> pinned_vertices(const pliant::Simulation& simulation);
+
 /// A frame of the simulation as it is now.
 TakeFrame take_frame(const pliant::Simulation& simulation, const Scenery& scenery, pliant::ColourBy colour);
 
@@ -32,9 +35,27 @@ TakeFrame take_frame(const pliant::Simulation& simulation, const Scenery& scener
 /// @throws Error (input) where the frames would take more than 4 GB.
 Take take_scene(pliant::Scene& scene, std::int64_t every, const std::function<bool(std::int64_t)>& go_on);
 
+/// Frames of a run, one at a time, in any order. Stretch is against the first frame, speed from frame to frame.
+class RunFrames {
+ public:
+  /// @throws Error (input): points without a mesh
+  explicit RunFrames(pliant::Animation animation);
+
+  const Scenery& scenery() const { return scenery_; }
+  std::size_t count() const { return animation_.times.size(); }
+  pliant::Real time(std::size_t i) const { return animation_.times[i]; }
+  const std::string& name() const { return animation_.name; }
+  /// @throws Error (input): colours by energy, which needs the scene
+  TakeFrame frame(std::size_t i, pliant::ColourBy colour) const;
+
+ private:
+  pliant::Animation animation_;
+  Scenery scenery_;
+};
+
 /// The frames of a run at the times that the animation has. Stretch is against the first frame, speed from frame to
 /// frame. @throws Error (input): colours by energy, which needs the scene; points without a mesh.
-Take take_animation(const pliant::Animation& animation, const pliant::ViewSettings& look);
+Take take_animation(pliant::Animation animation, const pliant::ViewSettings& look);
 
 /// The box around all frames.
 Bounds bounds_of(const Take& take);

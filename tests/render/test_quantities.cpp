@@ -2,7 +2,7 @@
 
 #include "../simulation/everything.h"
 #include "../simulation/run.h"
-#include "render/overlay.h"
+#include "render/signs.h"
 #include "render/quantities.h"
 
 using namespace pliant_render;

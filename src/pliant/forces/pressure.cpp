@@ -72,6 +72,14 @@ void check_closed(const std::vector<Triangle>& triangles) {
   }
 }
 
+void check_pressure(const PressureOptions& options) {
+  check_options("pressure", options);
+  if (options.model == PressureModel::gas && !(options.pressure + options.ambient > 0)) {
+    fail_input(fmt::format("pressure: a gas of {} Pa over {} Pa has none; give a sum above 0", options.pressure,
+                           options.ambient));
+  }
+}
+
 /// Twice the area of a triangle times its normal.
 Vec3 cross(const Positions& x, const Triangle& triangle) {
   const Vec3 x0 = row(x, triangle[0]);
@@ -82,11 +90,7 @@ Vec3 cross(const Positions& x, const Triangle& triangle) {
 
 Pressure::Pressure(const Mesh& mesh, Index first_vertex, const PressureOptions& options)
     : triangles_(selected_triangles(mesh, options.on)), options_(options) {
-  check_options("pressure", options_);
-  if (options_.model == PressureModel::gas && !(options_.pressure + options_.ambient > 0)) {
-    fail_input(fmt::format("pressure: a gas of {} Pa over {} Pa has none; give a sum above 0", options_.pressure,
-                           options_.ambient));
-  }
+  check_pressure(options_);
   if (triangles_.empty()) fail_input("pressure: there are no triangles to hold it; give it a closed surface");
   check_closed(triangles_);
   rest_volume_ = volume(mesh.vertices);
@@ -99,6 +103,14 @@ Pressure::Pressure(const Mesh& mesh, Index first_vertex, const PressureOptions& 
     for (Index& vertex : triangle) vertex += first_vertex;
   }
   rest_volume_ = std::abs(rest_volume_);
+}
+
+std::unique_ptr<Pressure> Pressure::with(const PressureOptions& options) const {
+  check_pressure(options);
+  auto other = std::make_unique<Pressure>(*this);
+  other->options_ = options;
+  other->options_.on = options_.on;
+  return other;
 }
 
 Real Pressure::volume(const Positions& positions) const {

@@ -11,6 +11,7 @@
 // Both are conservative: the potential is −∫ p dV from V₀, and since the surface is closed the forces sum to zero.
 // A volume under a hundredth of V₀ counts as that hundredth, so that a surface pressed flat or turned inside out meets
 // a large pressure and not an infinite one.
+#include <memory>
 #include <vector>
 
 #include "pliant/core/options.h"
@@ -62,6 +63,8 @@ class Pressure final : public Force {
   std::optional<std::string> warning(const StateView& state, Real time_step) const override;
 
   const PressureOptions& options() const { return options_; }
+  /// The same surface under another pressure; `on` stays what it was. Throws Error(input) as the constructor does.
+  std::unique_ptr<Pressure> with(const PressureOptions& options) const;
   /// The enclosed volume [m³], > 0 at rest.
   Real volume(const Positions& positions) const;
   Real rest_volume() const { return rest_volume_; }

@@ -1,6 +1,7 @@
 #pragma once
 // Wind on triangles, a third of each triangle's force to each of its vertices (thesis Sec. 5.3).
 #include <array>
+#include <memory>
 
 #include "pliant/core/options.h"
 #include "pliant/forces/force.h"
@@ -57,6 +58,10 @@ class Wind final : public Force {
   std::optional<Index> vertex_out_of_range(Index vertex_count) const override;
 
   const WindOptions& options() const { return options_; }
+  /// The same triangles under another wind. Throws Error(input) on options out of their range.
+  std::unique_ptr<Wind> with(const WindOptions& options) const {
+    return std::make_unique<Wind>(triangles_, rest_areas_, options);
+  }
 
  private:
   /// The air's velocity at a time: steady, times 1 + gust_strength (0.6 sin φ + 0.4 sin(1.618 φ + 1)), φ = 2π t/period.

@@ -202,22 +202,32 @@ bool Timeline::is_due(const Simulation& simulation) const {
          (!by_time_.empty() && by_time_.begin()->first <= latest);
 }
 
+std::vector<Index> Timeline::due_events(const Simulation& simulation) const {
+  const State& state = simulation.state();
+  const Real latest = state.time + 1e-9 * simulation.settings().time_step;
+  std::vector<Index> due;
+  for (const auto& [step, event] : by_step_) {
+    if (step > state.step) break;
+    due.push_back(event);
+  }
+  for (const auto& [time, event] : by_time_) {
+    if (time > latest) break;
+    due.push_back(event);
+  }
+  std::ranges::sort(due);
+  return due;
+}
+
 void Timeline::run_due(Simulation& simulation) {
   while (is_due(simulation)) {  // an edit may add events that are due at once
-    const State& state = simulation.state();
-    const Real latest = state.time + 1e-9 * simulation.settings().time_step;
-    std::vector<Index> due;
-    for (const auto& [step, event] : by_step_) {
-      if (step > state.step) break;
-      due.push_back(event);
-    }
-    for (const auto& [time, event] : by_time_) {
-      if (time > latest) break;
-      due.push_back(event);
-    }
-    std::ranges::sort(due);
-    for (const Index event : due) run(simulation, event);
+    for (const Index event : due_events(simulation)) run(simulation, event);
   }
+}
+
+Index Timeline::skip_due(const Simulation& simulation) {
+  const std::vector<Index> due = due_events(simulation);
+  for (const Index event : due) take_from_waiting(event);
+  return static_cast<Index>(due.size());
 }
 
 void Timeline::run(Simulation& simulation, Index event) {

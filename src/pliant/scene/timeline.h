@@ -86,6 +86,10 @@ class Timeline {
   /// was due still is. Allocates nothing in a step without events.
   StepReport step(Simulation& simulation);
 
+  /// Takes away the events that are due at the next step, for whoever changed the simulation by hand so that one of them
+  /// can no longer act. Returns how many there were. A checkpoint does not know of it.
+  Index skip_due(const Simulation& simulation);
+
   std::size_t event_count() const { return events_.size(); }
   /// Whether something is still to come or under way.
   bool is_over() const { return by_step_.empty() && by_time_.empty() && motions_.empty() && ramps_.empty(); }
@@ -118,6 +122,7 @@ class Timeline {
   };
 
   bool is_due(const Simulation& simulation) const;
+  std::vector<Index> due_events(const Simulation& simulation) const;
   void run_due(Simulation& simulation);
   void run(Simulation& simulation, Index event);
   void wait(Index event);

@@ -1,0 +1,101 @@
+#include "look_options.h"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include "commands.h"
+#include "pliant/core/error.h"
+#include "pliant/core/printable.h"
+#include "pliant/recorder/run_files.h"
+#include "pliant/scene/checkpoint.h"
+#include "terminal.h"
+
+namespace pliant_cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// "1280x720".
+std::array<pliant::Index, 2> parse_size(const std::string& text) {
+  constexpr pliant::Index least = 16, most = 8192;
+  std::array<pliant::Index, 2> size{0, 0};
+  std::size_t place = 0;
+  bool is_good = !text.empty();
+  for (const char c : text) {
+    if (c == 'x' && place == 0) {
+      ++place;
+    } else if (c >= '0' && c <= '9' && size[place] <= most) {
+      size[place] = 10 * size[place] + (c - '0');
+    } else {
+      is_good = false;
+    }
+  }
+  if (!is_good || place != 1 || std::ranges::min(size) < least || std::ranges::max(size) > most) {
+    pliant::fail_input(fmt::format("--size: '{}' is no size; give width x height from {} to {}, as in 1280x720",
+                                   pliant::printable(text), least, most));
+  }
+  return size;
+}
+
+/// The frames of a run can be shown whatever has become of its scene.
+pliant::ViewSettings view_of_checkpoint(const fs::path& checkpoint) {
+  try {
+    return pliant::read_checkpoint(checkpoint).view;
+  } catch (const pliant::Error& error) {
+    print_to_stderr("note: the view of the scene is not known, so the default is taken: " +
+                    pliant::printable_place(error.what(), message_limit) + "\n");
+    return {};
+  }
+}
+
+/// Of the scene that the run was made from, as its checkpoint has it.
+pliant::ViewSettings view_of_run(const LookArguments& arguments) {
+  const pliant::SceneOverrides& overrides = arguments.overrides;
+  const bool has_others =
+      overrides.steps || overrides.time_step || overrides.iterations || overrides.tolerance || overrides.threads ||
+      overrides.backend ||
+      !std::ranges::all_of(overrides.set, [](const std::string& set) { return set.starts_with("view."); });
+  if (has_others) {
+    pliant::fail_input(
+        fmt::format("{}: a run is shown as it was recorded; of --set only what begins with 'view.' "
+                    "counts; to change more, give its scene",
+                    pliant::printable_place(arguments.scene)));
+  }
+  const fs::path checkpoint = fs::path(arguments.scene) / pliant::checkpoint_name;
+  std::error_code ignored;
+  if (!fs::exists(checkpoint, ignored)) {
+    if (overrides.set.empty()) return {};
+    pliant::fail_input(fmt::format("{}: no such file, so the view of its scene is not known; leave --set out",
+                                   pliant::printable_place(checkpoint.string())));
+  }
+  if (overrides.set.empty()) return view_of_checkpoint(checkpoint);
+  pliant::SceneSource source = pliant::read_checkpoint(checkpoint).source;
+  for (const std::string& set : overrides.set) source.overrides.set.push_back(set);
+  return pliant::parse_scene(std::move(source)).view;
+}
+
+}  // namespace
+
+void add_look_options(CLI::App& command, LookArguments& arguments) {
+  command.add_option("--size", arguments.size, "Width and height in pixels; default: the scene's, or 1280x720");
+  add_choice(command, "--colour", arguments.colour, "What colours tell: none, stretch, energy or speed");
+  add_choice(command, "--shading", arguments.shading, "smooth, or flat: each face by itself");
+  command.add_flag("--wireframe", arguments.wireframe, "Draw the edges too");
+}
+
+void apply_look(const LookArguments& arguments, pliant::ViewSettings& look) {
+  if (!arguments.size.empty()) look.size = parse_size(arguments.size);
+  if (arguments.colour) look.colour = *arguments.colour;
+  if (arguments.shading) look.shading = *arguments.shading;
+  if (arguments.wireframe) look.wireframe = true;
+}
+
+pliant::ViewSettings look_of_run(const LookArguments& arguments) {
+  pliant::ViewSettings look = view_of_run(arguments);
+  apply_look(arguments, look);
+  return look;
+}
+
+}  // namespace pliant_cli

@@ -1,0 +1,138 @@
+// pliant view: a window in which a scene is simulated, or a run played.
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <thread>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "commands.h"
+#include "import_options.h"
+#include "look_options.h"
+#include "pliant/core/error.h"
+#include "pliant/core/printable.h"
+#include "terminal.h"
+#include "viewer/live_stage.h"
+#include "viewer/mesh_scene.h"
+#include "viewer/playback.h"
+#include "viewer/viewer.h"
+
+namespace pliant_cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ViewArguments : LookArguments {
+  pliant::ImportOptions import;
+  std::optional<std::int64_t> samples;
+  bool is_paused = false;
+};
+
+/// Threads that draw and those that simulate shall not take the processors from each other: the driver that draws with
+/// the processor leaves one to the simulation, unless its user has said something else.
+int spare_threads() {
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1);
+}
+void limit_software_driver() {
+  setenv("LP_NUM_THREADS", std::to_string(spare_threads()).c_str(),
+         0);  // NOLINT(concurrency-mt-unsafe): no threads yet
+}
+
+bool is_run(const ViewArguments& arguments) {
+  std::error_code ignored;
+  return fs::is_directory(arguments.scene, ignored);
+}
+
+/// A file of a known format: a scene may have the name of a mesh and not be one.
+bool is_mesh(const ViewArguments& arguments) {
+  std::error_code ignored;
+  return fs::exists(arguments.scene, ignored) && pliant::mesh_format(arguments.scene).has_value();
+}
+
+pliant::Scene open_mesh(const ViewArguments& arguments) {
+  const pliant::SceneOverrides& overrides = arguments.overrides;
+  if (!overrides.set.empty()) {
+    pliant::fail_input("--set: a mesh is no scene, so it has no such path; give a scene file, or leave --set out");
+  }
+  pliant::Scene scene = pliant_viewer::make_mesh_scene(arguments.scene, arguments.import);
+  pliant::SolverSettings settings = scene.simulation.settings();
+  settings.iterations = overrides.iterations.value_or(settings.iterations);
+  settings.time_step = overrides.time_step.value_or(settings.time_step);
+  settings.tolerance = overrides.tolerance.value_or(settings.tolerance);
+  settings.threads = overrides.threads.value_or(settings.threads);
+  settings.backend = overrides.backend.value_or(settings.backend);
+  scene.simulation.set_settings(settings);
+  return scene;
+}
+
+pliant::Scene make_scene(const ViewArguments& arguments) {
+  pliant::Scene scene = is_mesh(arguments) ? open_mesh(arguments) : open_scene(arguments);
+  apply_look(arguments, scene.view);
+  return scene;
+}
+
+/// Hands out a scene that is there already, and makes it anew from then on.
+pliant_viewer::MakeScene scene_maker(const ViewArguments& arguments, std::shared_ptr<pliant::Scene> first) {
+  return [arguments, first = std::move(first)]() mutable {
+    const std::shared_ptr<pliant::Scene> ready = std::exchange(first, nullptr);
+    return ready != nullptr ? std::move(*ready) : make_scene(arguments);
+  };
+}
+
+int show(pliant_viewer::Window& window, pliant_viewer::Stage& stage, const ViewArguments& arguments) {
+  pliant_viewer::ViewerOptions options;
+  options.look = stage.look();
+  if (arguments.samples) options.samples = static_cast<int>(*arguments.samples);
+  pliant_viewer::Viewer viewer(window, stage, std::move(options));
+  viewer.run(was_interrupted);
+  return was_interrupted() ? exit_interrupted : 0;
+}
+
+int view_run(const ViewArguments& arguments) {
+  const pliant::ViewSettings look = look_of_run(arguments);
+  pliant_viewer::Playback stage(pliant_render::RunFrames(pliant::read_run(arguments.scene)), look,
+                                !arguments.is_paused);
+  pliant_viewer::Window window(stage.name() + " - Pliant", look.size[0], look.size[1]);
+  return show(window, stage, arguments);
+}
+
+int view_scene(const ViewArguments& arguments) {
+  auto scene = std::make_shared<pliant::Scene>(make_scene(arguments));
+  if (is_mesh(arguments)) fmt::print("{}\n", scene->description);
+  pliant_viewer::Window window(scene->name + " - Pliant", scene->view.size[0], scene->view.size[1]);
+  pliant_viewer::LiveStage stage(scene_maker(arguments, std::move(scene)), window.is_software() ? spare_threads() : 0,
+                                 !arguments.is_paused, pliant_viewer::Window::wake);
+  return show(window, stage, arguments);
+}
+
+int view(const ViewArguments& arguments) {
+  catch_interrupts();
+  limit_software_driver();
+  pliant_viewer::Window::require_display();  // before anyone waits for a scene to be read
+  return is_run(arguments) ? view_run(arguments) : view_scene(arguments);
+}
+
+}  // namespace
+
+void add_view_command(CLI::App& program, int& exit_code) {
+  CLI::App* command = program.add_subcommand("view", "Open a window: pull at a scene or a mesh, or play a run");
+  const auto arguments = std::make_shared<ViewArguments>();
+  add_scene_arguments(*command, *arguments);
+  add_look_options(*command, *arguments);
+  add_number(*command, "--samples", arguments->samples, {1, 16},
+             "Of a pixel; default: 4 on a graphics card, 1 where the processor draws");
+  command->add_flag("--paused", arguments->is_paused, "Wait for the space bar");
+  add_import_options(*command, arguments->import);
+  add_setting_options(*command, *arguments);
+  command->footer(
+      "A file that ends in .obj, .ply, .off, .stl, .msh, .node or .ele is a mesh, simulated as cloth, a skin or a\n"
+      "solid; a folder is a run, played as it was recorded. The key H shows what mouse and keys do.\n"
+      "Examples:\n"
+      "  pliant view curtain_wind\n"
+      "  pliant view shirt.obj --up y\n"
+      "  pliant view out/flag --colour stretch");
+  command->callback([arguments, &exit_code] { exit_code = view(*arguments); });
+}
+
+}  // namespace pliant_cli

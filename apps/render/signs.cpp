@@ -1,0 +1,149 @@
+#include "render/signs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "render/quantities.h"
+
+namespace pliant_render {
+namespace {
+
+/// The first that is there.
+constexpr std::array<const char*, 4> fonts = {"/usr/share/fonts/opentype/inter/Inter-Medium.otf",
+                                              "/usr/share/fonts/opentype/inter/static/Inter-Medium.otf",
+                                              "/usr/share/fonts/truetype/roboto/unhinted/RobotoTTF/Roboto-Medium.ttf",
+                                              "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"};
+
+/// Of lengths that are given for a picture of 720 rows; what is written stays readable in small ones.
+float unit_of(float height) {
+  return std::max(height / 720, 0.65F);
+}
+
+}  // namespace
+
+std::uint32_t ink_on(const pliant::Colour& background) {
+  const double light = 0.2126 * background.red + 0.7152 * background.green + 0.0722 * background.blue;
+  return light > 0.5 ? IM_COL32(38, 42, 50, 255) : IM_COL32(232, 234, 238, 255);
+}
+
+ImFont* load_font(float pixels, Letters letters) {
+  // Latin, Greek, punctuation with super- and subscripts, arrows, operators.
+  static constexpr std::array<ImWchar, 11> symbols = {0x20,   0x17F,  0x370,  0x3FF,  0x1E00, 0x1EFF,
+                                                      0x2000, 0x209F, 0x2190, 0x22FF, 0};
+  ImFontConfig config;
+  if (letters == Letters::with_symbols) config.GlyphRanges = symbols.data();
+  config.OversampleH = config.OversampleV = 1;
+  ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
+  for (const char* file : fonts) {
+    if (!std::filesystem::exists(file)) continue;
+    if (ImFont* font = atlas.AddFontFromFileTTF(file, pixels, &config)) return font;
+  }
+  config.SizePixels = pixels;
+  return atlas.AddFontDefault(&config);
+}
+
+float legend_width(int height) {
+  return 122 * unit_of(static_cast<float>(height));
+}
+
+std::optional<Legend> make_legend(const pliant::ViewSettings& look, const std::array<float, 2>& range, int width,
+                                  int height) {
+  if (!look.legend || look.colour == pliant::ColourBy::none) return {};
+  if (legend_width(height) > 0.4F * static_cast<float>(width)) return {};
+  return Legend{std::string(quantity_title(look.colour)), range,
+                look.colour == pliant::ColourBy::stretch ? 100.0F : 1.0F, colour_map(look.colour)};
+}
+
+std::vector<float> round_ticks(float low, float high) {
+  if (!(high > low) || !std::isfinite(high - low)) return {low};
+  const float rough = (high - low) / 4;
+  const float power = std::pow(10.0F, std::floor(std::log10(rough)));
+  float step = 10 * power;
+  for (const float factor : {1.0F, 2.0F, 2.5F, 5.0F}) {
+    if (factor * power >= rough) {
+      step = factor * power;
+      break;
+    }
+  }
+  const float slack = 1e-4F * (high - low);
+  const float first = std::ceil((low - slack) / step) * step;
+  if (!(low + step > low) || !(first + step > first)) return {low};  // past the digits of a float
+  constexpr int most_ticks = 10;
+  std::vector<float> ticks;
+  for (int i = 0; i < most_ticks && first + static_cast<float>(i) * step <= high + slack; ++i) {
+    const float tick = first + static_cast<float>(i) * step;
+    ticks.push_back(std::abs(tick) < slack ? 0 : tick);
+  }
+  return ticks;
+}
+
+std::string tick_text(float tick, float step) {
+  constexpr int most_digits = 4;
+  int digits = 0;
+  for (float scaled = step; digits <= most_digits; scaled *= 10, ++digits) {
+    if (std::abs(scaled - std::round(scaled)) < 1e-3F * scaled) break;
+  }
+  if (digits > most_digits || std::abs(tick) >= 1e5F) return fmt::format("{:.3g}", tick);
+  return fmt::format("{:.{}f}", tick, digits);
+}
+
+/// A bar at the right edge, with its ticks on the left and the title above.
+void draw_legend(const Legend& legend, const SignSheet& sheet) {
+  const float unit = unit_of(sheet.height);
+  const float size = 17 * unit;
+  const float bar_width = 16 * unit, bar_height = 0.4F * sheet.height;
+  const float right = sheet.width - 28 * unit, top = 0.30F * sheet.height;
+  const float left = right - bar_width, bottom = top + bar_height;
+  const auto count = static_cast<float>(legend.colours.size());
+  for (std::size_t i = 0; i < legend.colours.size(); ++i) {
+    const auto& c = legend.colours[i];
+    const float from = bottom - bar_height * static_cast<float>(i) / count;
+    const float to = bottom - bar_height * static_cast<float>(i + 1) / count;
+    sheet.list.AddRectFilled({left, to}, {right, from + 0.5F}, IM_COL32(c[0], c[1], c[2], 255));
+  }
+  const auto text_width = [&](const std::string& text) {
+    return sheet.font.CalcTextSizeA(size, 1e6F, 0, text.c_str()).x;
+  };
+  const float low = legend.range[0] * legend.factor, high = legend.range[1] * legend.factor;
+  const std::vector<float> ticks = round_ticks(low, high);
+  const float step = ticks.size() > 1 ? ticks[1] - ticks[0] : std::max(std::abs(high), 1e-6F);
+  for (const float tick : ticks) {
+    const float y = bottom - bar_height * (high > low ? (tick - low) / (high - low) : 0.5F);
+    const std::string text = tick_text(tick, step);
+    sheet.list.AddLine({left - 5 * unit, y}, {left, y}, sheet.ink, std::max(1.0F, unit));
+    sheet.list.AddText(&sheet.font, size, {left - 9 * unit - text_width(text), y - size * 0.5F}, sheet.ink,
+                       text.c_str());
+  }
+  sheet.list.AddText(&sheet.font, size, {right - text_width(legend.title), top - 1.9F * size}, sheet.ink,
+                     legend.title.c_str());
+}
+
+/// An arrow at the lower left, as the wind blows in the picture, and its speed.
+void draw_wind(const WindSign& wind, const Viewpoint& viewpoint, const SignSheet& sheet) {
+  const float unit = unit_of(sheet.height);
+  const float size = 17 * unit;
+  const float speed = wind.velocity.norm();
+  const ImVec2 middle(sheet.left + 56 * unit, sheet.height - 56 * unit);
+  sheet.list.AddText(&sheet.font, size, {middle.x + 44 * unit, middle.y - size * 0.5F}, sheet.ink, wind.text.c_str());
+  const Vec3f along = wind.velocity / speed;
+  const Vec3f right = viewpoint.forward().cross(viewpoint.up);
+  const Vec2f flat(along.dot(right), -along.dot(viewpoint.up));
+  // Straight into the picture or out of it an arrow is a point: it keeps a length that can be read.
+  const float length = 32 * unit * std::max(flat.norm(), 0.35F);
+  const Vec2f direction = flat.norm() > 1e-3F ? flat.normalized().eval() : Vec2f(0, -1);
+  const Vec2f side(-direction.y(), direction.x());
+  const auto at = [&](float forward, float sideways) {
+    const Vec2f p = forward * direction + sideways * side;
+    return ImVec2(middle.x + p.x(), middle.y + p.y());
+  };
+  const float head = 11 * unit;
+  sheet.list.AddLine(at(-length, 0), at(length - head, 0), sheet.ink, 3 * unit);
+  sheet.list.AddTriangleFilled(at(length, 0), at(length - head, -0.6F * head), at(length - head, 0.6F * head),
+                               sheet.ink);
+}
+
+}  // namespace pliant_render

@@ -1,0 +1,197 @@
+#include "viewer/live_scene.h"
+
+#include <algorithm>
+
+#include "pliant/core/error.h"
+
+namespace pliant_viewer {
+namespace {
+
+constexpr Seconds patience{0.5};  // with a step that a change waits for
+
+bool is_same(const pliant_render::Scenery& a, const pliant_render::Scenery& b) {
+  return a.vertex_count == b.vertex_count && a.triangles == b.triangles && a.ropes == b.ropes && a.edges == b.edges &&
+         a.springs == b.springs && a.rest_lengths == b.rest_lengths;
+}
+
+}  // namespace
+
+LiveScene::LiveScene(MakeScene make, Index threads, bool is_playing, std::function<void()> wake)
+    : session_(std::move(make)),
+      workshop_{session_, pacer_, is_playing},
+      threads_(threads),
+      wake_(std::move(wake)),
+      look_(session_.scene().view),
+      name_(session_.scene().name),
+      suggested_pull_(suggest_pull_stiffness(session_.simulation())) {
+  workshop_.colour = look_.colour;
+  session_.set_stop([this] { return shall_give_up(); });
+  set_thread_count();
+  update_scenery();
+  publish();
+  thread_ = std::thread([this] { work(); });
+}
+
+LiveScene::~LiveScene() {
+  {
+    const std::lock_guard lock(mutex_);
+    is_closing_ = true;
+  }
+  work_.notify_one();
+  thread_.join();
+}
+
+void LiveScene::set_thread_count() {
+  if (session_.simulation().settings().threads == 0 && threads_ != 0) session_.set_threads(threads_);
+}
+
+std::uint64_t LiveScene::post(Command command, Kind kind) {
+  const std::lock_guard lock(mutex_);
+  queue_.emplace_back(std::move(command), kind);
+  if (kind != Kind::steers) ++changes_waiting_;
+  if (kind == Kind::ends) ++ends_waiting_;
+  work_.notify_one();
+  return ++commands_posted_;
+}
+
+const Snapshot& LiveScene::newest() {
+  const std::lock_guard lock(mutex_);
+  if (has_news_) std::swap(front_, middle_);
+  has_news_ = false;
+  return front_;
+}
+
+bool LiveScene::has_news() const {
+  const std::lock_guard lock(mutex_);
+  return has_news_;
+}
+
+/// Asked before each iteration, on the thread of the simulation.
+bool LiveScene::shall_give_up() const {
+  return is_closing_ || ends_waiting_ > 0 || (changes_waiting_ > 0 && Clock::now() - step_began_ > patience);
+}
+
+void LiveScene::work() {
+  pacer_.start(Clock::now());
+  while (true) {
+    wait_for_work();
+    if (is_closing_) return;
+    run_commands();
+    if (time_to_step() <= Seconds(0)) step();
+    // A window that has not looked yet is not shown more, unless there is time.
+    if (is_dirty_ && (!has_news() || time_to_step() > Seconds(0))) publish();
+  }
+}
+
+/// Until the next step is due.
+Seconds LiveScene::time_to_step() {
+  if (workshop_.single_steps > 0) return Seconds(0);
+  if (!workshop_.is_playing) return Seconds::max();
+  return pacer_.wait(Clock::now(), session_.simulation().settings().time_step);
+}
+
+/// Until a command comes, or a step is due.
+void LiveScene::wait_for_work() {
+  const Seconds wait = time_to_step();
+  if (wait <= Seconds(0)) return;
+  std::unique_lock lock(mutex_);
+  const auto has_work = [this] { return is_closing_ || !queue_.empty(); };
+  if (workshop_.is_playing) {
+    work_.wait_for(lock, wait, has_work);
+  } else {
+    work_.wait(lock, has_work);
+  }
+}
+
+void LiveScene::run_commands() {
+  std::deque<std::pair<Command, Kind>> commands;
+  {
+    const std::lock_guard lock(mutex_);
+    commands.swap(queue_);
+    changes_waiting_ = 0;
+    ends_waiting_ = 0;
+  }
+  for (const auto& [command, kind] : commands) {
+    const bool was_playing = workshop_.is_playing;
+    try {
+      command(workshop_);
+    } catch (const std::exception& error) {
+      note_ = error.what();
+    }
+    if (workshop_.is_playing && !was_playing) {
+      pacer_.start(Clock::now());
+      pulse_.clear();
+      note_.clear();
+    }
+    ++commands_done_;
+    is_dirty_ = true;
+  }
+  if (workshop_.restarts == restarts_seen_) return;
+  restarts_seen_ = workshop_.restarts;
+  note_.clear();
+  pulse_.clear();
+  pacer_.start(Clock::now());
+  set_thread_count();
+  update_scenery();
+}
+
+void LiveScene::step() {
+  if (workshop_.single_steps > 0) --workshop_.single_steps;
+  step_began_ = Clock::now();
+  try {
+    const double before = session_.simulation().state().time;
+    const pliant::StepReport report = session_.step();
+    pacer_.took_step();
+    pulse_.add({Clock::now(), session_.simulation().state().time - before, report.seconds_local, report.seconds_global,
+                report.seconds_factor, report.seconds_total});
+  } catch (const std::exception& error) {
+    const auto* known = dynamic_cast<const pliant::Error*>(&error);
+    if (known == nullptr || known->kind() != pliant::ErrorKind::interrupted) {
+      note_ = error.what();
+      workshop_.is_playing = false;
+    }
+  }
+  is_dirty_ = true;
+}
+
+void LiveScene::update_scenery() {
+  auto scenery =
+      std::make_shared<const pliant_render::Scenery>(pliant_render::make_scenery(session_.simulation().bodies()));
+  if (scenery_ == nullptr || !is_same(*scenery, *scenery_)) scenery_ = std::move(scenery);
+}
+
+/// What the scene's own events change is shown a few times a second.
+void LiveScene::list_parameters() {
+  const Clock::time_point now = Clock::now();
+  if (commands_done_ == commands_listed_ && now - parameters_listed_ < Seconds(0.2)) return;
+  parameters_listed_ = now;
+  commands_listed_ = commands_done_;
+  parameters_ = std::make_shared<const std::vector<Parameter>>(session_.parameters());
+}
+
+void LiveScene::publish() {
+  const pliant::Simulation& simulation = session_.simulation();
+  back_.scenery = scenery_;
+  back_.frame = pliant_render::take_frame(simulation, *scenery_, workshop_.colour);
+  back_.pins = pliant_render::pinned_vertices(simulation);
+  back_.pull = session_.pull();
+  list_parameters();
+  back_.parameters = parameters_;
+  back_.pulse = pulse_.means(Clock::now());
+  back_.step = simulation.state().step;
+  back_.time_step = simulation.settings().time_step;
+  back_.is_playing = workshop_.is_playing;
+  back_.is_behind = workshop_.is_playing && pacer_.steps_behind() > Pacer::most_behind - 1.5;
+  back_.note = !note_.empty() ? note_ : session_.note();
+  back_.restarts = workshop_.restarts;
+  back_.commands = commands_done_;
+  {
+    const std::lock_guard lock(mutex_);
+    std::swap(back_, middle_);
+    has_news_ = true;
+  }
+  is_dirty_ = false;
+  wake_();
+}
+
+}  // namespace pliant_viewer

@@ -1,0 +1,43 @@
+#pragma once
+// A simulated scene, as a stage.
+#include "viewer/live_scene.h"
+#include "viewer/panels/parameter_panel.h"
+#include "viewer/stage.h"
+
+namespace pliant_viewer {
+
+class LiveStage final : public Stage {
+ public:
+  LiveStage(MakeScene make, Index threads, bool is_playing, std::function<void()> wake);
+
+  const std::string& name() const override { return scene_.name(); }
+  const pliant::ViewSettings& look() const override { return scene_.look(); }
+  bool refresh(Clock::time_point now) override;
+  Seconds time_to_news(Clock::time_point now) const override;
+  const pliant_render::TakeFrame& frame() const override { return snapshot_->frame; }
+  std::shared_ptr<const pliant_render::Scenery> scenery() const override { return snapshot_->scenery; }
+  std::uint64_t restarts() const override { return snapshot_->restarts; }
+  bool knows(pliant::ColourBy) const override { return true; }
+  void show(pliant::ColourBy colour) override;
+  bool is_playing() const override { return is_playing_; }
+  void play(bool on) override;
+  void step(int direction) override;
+  void restart(bool keep_values) override;
+  void draw_panel(const PanelStyle& style) override;
+  LiveScene* live() override { return &scene_; }
+
+  const Snapshot& snapshot() const { return *snapshot_; }
+
+ private:
+  void draw_pace(const PanelStyle& style);
+
+  LiveScene scene_;
+  const Snapshot* snapshot_;
+  bool is_playing_;                 // as asked for; the snapshot has it a little later
+  std::uint64_t play_command_ = 0;  // that asked for it
+  double speed_ = 1;
+  bool is_unlimited_ = false;
+  ParameterPanel parameters_;
+};
+
+}  // namespace pliant_viewer

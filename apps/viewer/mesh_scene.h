@@ -1,0 +1,17 @@
+#pragma once
+// A mesh without a scene: simulated as what it most likely is.
+#include "pliant/mesh/io/mesh_file.h"
+#include "pliant/scene/scene.h"
+
+namespace pliant_viewer {
+
+/// Reads a mesh and makes a scene of it, of gravity and
+/// - tetrahedra: a soft solid,
+/// - a closed surface: a stiff skin; both stand on their lowest vertices, which are pinned,
+/// - an open surface: cloth that hangs by its highest vertices, or by its corners where it lies flat,
+/// - edges: ropes, likewise.
+/// Whatever is longer than 5 m or shorter than .2 m is shown 1 m long, unless `import.scale` is given, that is, not 1;
+/// `description` says what was made of it. @throws pliant::Error (input) as read_mesh and Simulation::add_body do.
+pliant::Scene make_mesh_scene(const std::filesystem::path& file, const pliant::ImportOptions& import);
+
+}  // namespace pliant_viewer

@@ -1,0 +1,65 @@
+#include "viewer/panels/help_panel.h"
+
+#include <array>
+#include <span>
+
+#include <imgui.h>
+
+namespace pliant_viewer {
+namespace {
+
+struct Key {
+  const char* key;
+  const char* what;
+};
+
+constexpr std::array<Key, 4> hand_keys = {Key{"drag a body", "pull at it by a spring; it stays at its depth"},
+                                          Key{"click a body", "pin the nearest vertex"},
+                                          Key{"click a pin", "let it go"}, Key{"drag a pin", "move it"}};
+constexpr std::array<Key, 4> camera_keys = {
+    Key{"drag beside, right drag", "turn about the middle"}, Key{"middle or Shift drag", "move sideways"},
+    Key{"wheel", "nearer or further away"}, Key{"F", "everything in the picture"}};
+constexpr std::array<Key, 5> live_keys = {
+    Key{"Space", "play or pause"}, Key{"S or →", "one step"}, Key{"R", "start over with the values that are set"},
+    Key{"Shift + R", "read the scene's file again, and start over"}, Key{"+ and −", "stiffer or softer pull"}};
+constexpr std::array<Key, 3> run_keys = {Key{"Space", "play or pause"}, Key{"→ and ←", "one frame on or back"},
+                                         Key{"R", "to the first frame"}};
+constexpr std::array<Key, 6> look_keys = {Key{"C", "colour by stretch, energy, speed, or none"},
+                                          Key{"W", "wireframe"},
+                                          Key{"L", "smooth or flat"},
+                                          Key{"P", "save the picture as a PNG file"},
+                                          Key{"Tab", "hide or show the panel"},
+                                          Key{"H or F1", "this help"}};
+
+void draw_keys(const char* title, std::span<const Key> keys, float column) {
+  ImGui::Spacing();
+  ImGui::TextDisabled("%s", title);
+  for (const Key& key : keys) {
+    ImGui::TextUnformatted(key.key);
+    ImGui::SameLine(column);
+    ImGui::TextUnformatted(key.what);
+  }
+}
+
+}  // namespace
+
+bool draw_help(bool is_live, float width, float height, const PanelStyle& style) {
+  bool is_open = true;
+  ImGui::SetNextWindowPos({width / 2, height / 2}, ImGuiCond_Always, {0.5F, 0.5F});
+  ImGui::SetNextWindowFocus();
+  ImGui::Begin("Help", &is_open,
+               ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove |
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoNav);
+  const float column = 190 * style.unit;
+  if (is_live) draw_keys("the bodies", hand_keys, column);
+  draw_keys("the camera", camera_keys, column);
+  draw_keys("time", is_live ? std::span<const Key>(live_keys) : std::span<const Key>(run_keys), column);
+  draw_keys("the picture", look_keys, column);
+  draw_keys("the program", std::array{Key{"Ctrl + Q", "end it"}}, column);
+  ImGui::Spacing();
+  if (ImGui::Button("Close")) is_open = false;
+  ImGui::End();
+  return is_open;
+}
+
+}  // namespace pliant_viewer

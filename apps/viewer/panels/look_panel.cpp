@@ -1,0 +1,42 @@
+#include "viewer/panels/look_panel.h"
+
+#include <imgui.h>
+
+namespace pliant_viewer {
+
+bool draw_look_panel(pliant::ViewSettings& look, int& samples, const Stage& stage) {
+  bool has_changed = false;
+  row_label("colour", "C: what the colours of the bodies tell");
+  constexpr auto names = choice_names(pliant::ColourBy{});
+  if (ImGui::BeginCombo("##colour", names[static_cast<std::size_t>(look.colour)].data())) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const auto colour = static_cast<pliant::ColourBy>(i);
+      if (!stage.knows(colour)) continue;
+      if (ImGui::Selectable(names[i].data(), colour == look.colour)) {
+        has_changed = colour != look.colour;
+        look.colour = colour;
+      }
+    }
+    ImGui::EndCombo();
+  }
+  bool is_flat = look.shading == pliant::Shading::flat;
+  row_label("draw", "");
+  ImGui::Checkbox("edges", &look.wireframe);
+  explain("W: the edges of the elements");
+  ImGui::SameLine();
+  if (ImGui::Checkbox("flat", &is_flat)) look.shading = is_flat ? pliant::Shading::flat : pliant::Shading::smooth;
+  explain("L: each face by itself");
+  row_label("", "");
+  ImGui::Checkbox("ground", &look.ground);
+  ImGui::SameLine();
+  ImGui::BeginDisabled(!look.ground);
+  ImGui::Checkbox("shadow", &look.shadow);
+  ImGui::EndDisabled();
+  row_label("", "");
+  bool is_smoothed = samples > 1;
+  if (ImGui::Checkbox("smooth edges", &is_smoothed)) samples = is_smoothed ? 4 : 1;
+  explain("four samples a pixel; off by itself where the processor draws, which takes twice as long for them");
+  return has_changed;
+}
+
+}  // namespace pliant_viewer

@@ -1,0 +1,81 @@
+#include "viewer/panels/panel_style.h"
+
+#include <imgui.h>
+
+namespace pliant_viewer {
+namespace {
+
+constexpr float label_share = 0.36F;  // of a row
+
+void set_colours(bool is_dark) {
+  ImVec4* colours = ImGui::GetStyle().Colors;
+  const ImVec4 accent = is_dark ? ImVec4(0.93F, 0.46F, 0.36F, 1) : ImVec4(0.78F, 0.30F, 0.21F, 1);
+  const float tone = is_dark ? 1.0F : 0.0F;
+  const auto shade = [tone](float opacity) { return ImVec4(tone, tone, tone, opacity); };
+  const auto tint = [&accent](float opacity) { return ImVec4(accent.x, accent.y, accent.z, opacity); };
+  colours[ImGuiCol_Text] = is_dark ? ImVec4(0.93F, 0.94F, 0.95F, 1) : ImVec4(0.13F, 0.15F, 0.18F, 1);
+  colours[ImGuiCol_TextDisabled] = is_dark ? ImVec4(0.63F, 0.65F, 0.69F, 1) : ImVec4(0.40F, 0.42F, 0.46F, 1);
+  colours[ImGuiCol_WindowBg] = is_dark ? ImVec4(0.14F, 0.15F, 0.17F, 0.94F) : ImVec4(0.99F, 0.99F, 0.99F, 0.94F);
+  colours[ImGuiCol_PopupBg] = is_dark ? ImVec4(0.17F, 0.18F, 0.20F, 0.98F) : ImVec4(1, 1, 1, 0.98F);
+  colours[ImGuiCol_Border] = shade(0.10F);
+  colours[ImGuiCol_FrameBg] = shade(0.06F);
+  colours[ImGuiCol_FrameBgHovered] = shade(0.10F);
+  colours[ImGuiCol_FrameBgActive] = shade(0.14F);
+  colours[ImGuiCol_Button] = shade(0.07F);
+  colours[ImGuiCol_ButtonHovered] = shade(0.12F);
+  colours[ImGuiCol_ButtonActive] = shade(0.18F);
+  colours[ImGuiCol_Header] = shade(0.0F);
+  colours[ImGuiCol_HeaderHovered] = shade(0.06F);
+  colours[ImGuiCol_HeaderActive] = shade(0.10F);
+  colours[ImGuiCol_SliderGrab] = tint(0.85F);
+  colours[ImGuiCol_SliderGrabActive] = accent;
+  colours[ImGuiCol_CheckMark] = accent;
+  colours[ImGuiCol_TextSelectedBg] = tint(0.30F);
+  colours[ImGuiCol_Separator] = shade(0.10F);
+  colours[ImGuiCol_ScrollbarBg] = shade(0.0F);
+  colours[ImGuiCol_ScrollbarGrab] = shade(0.16F);
+  colours[ImGuiCol_ScrollbarGrabHovered] = shade(0.24F);
+  colours[ImGuiCol_ScrollbarGrabActive] = shade(0.32F);
+}
+
+}  // namespace
+
+void set_panel_style(bool is_dark, float unit) {
+  ImGuiStyle style;
+  ImGui::GetStyle() = style;
+  if (is_dark) {
+    ImGui::StyleColorsDark();
+  } else {
+    ImGui::StyleColorsLight();
+  }
+  ImGuiStyle& now = ImGui::GetStyle();
+  now.WindowRounding = 8;
+  now.FrameRounding = now.GrabRounding = now.PopupRounding = 4;
+  now.WindowPadding = {12, 10};
+  now.FramePadding = {7, 4};
+  now.ItemSpacing = {8, 6};
+  now.GrabMinSize = 9;
+  now.ScrollbarSize = 10;
+  now.WindowBorderSize = 1;
+  now.ScaleAllSizes(unit);
+  set_colours(is_dark);
+}
+
+void row_label(const std::string& label, const std::string& help) {
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(label.c_str());
+  explain(help);
+  ImGui::SameLine(label_share * ImGui::GetWindowWidth());
+  ImGui::SetNextItemWidth(-1);
+}
+
+void explain(const std::string& help) {
+  if (help.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(24 * ImGui::GetFontSize());
+  ImGui::TextUnformatted(help.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
+}  // namespace pliant_viewer

@@ -1,0 +1,23 @@
+#pragma once
+// What the panels have in common.
+#include <string>
+
+struct ImFont;
+
+namespace pliant_viewer {
+
+struct PanelStyle {
+  float unit = 1;           ///< pixels of a length that is given for letters of common size
+  ImFont* small = nullptr;  ///< for remarks
+};
+
+/// Sets colours, roundings and distances of all panels, on a light background or a dark one.
+void set_panel_style(bool is_dark, float unit);
+
+/// A name at the left of a row; the widget that follows takes the rest of it. The text under the mouse explains it.
+void row_label(const std::string& label, const std::string& help);
+
+/// The text under the mouse, for the widget before.
+void explain(const std::string& help);
+
+}  // namespace pliant_viewer

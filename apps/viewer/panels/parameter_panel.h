@@ -1,0 +1,31 @@
+#pragma once
+// A slider for each parameter of the simulation.
+#include <map>
+
+#include "viewer/live_scene.h"
+#include "viewer/panels/panel_style.h"
+
+namespace pliant_viewer {
+
+class ParameterPanel {
+ public:
+  /// Draws all parameters of a snapshot, and posts what is changed.
+  void draw(const Snapshot& snapshot, LiveScene& live, const PanelStyle& style);
+  /// Forgets the ranges of the sliders, which are chosen by the values that are first seen.
+  void forget();
+
+ private:
+  /// What a slider shows while the simulation has not taken it over yet.
+  struct Edited {
+    pliant::Vec3 value;
+    std::uint64_t command;
+  };
+  void draw_section(std::span<const Parameter> section, const Snapshot& snapshot, LiveScene& live);
+  void draw_row(const Parameter& parameter, const std::string& label, const Snapshot& snapshot, LiveScene& live);
+  bool draw_real(const Parameter& parameter, double& value);
+
+  std::map<std::string, Edited> edited_;
+  std::map<std::string, std::array<double, 2>> ranges_;
+};
+
+}  // namespace pliant_viewer

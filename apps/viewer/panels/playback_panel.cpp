@@ -1,0 +1,25 @@
+// The controls of a run that is played: where it stands, and how fast it goes.
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "viewer/panels/panel_style.h"
+#include "viewer/playback.h"
+
+namespace pliant_viewer {
+
+void Playback::draw_panel(const PanelStyle&) {
+  row_label("time", "");
+  ImGui::TextUnformatted(fmt::format("{:.2f} of {:.2f} s", time(place_), time(count() - 1)).c_str());
+  row_label("frame", "");
+  ImGui::TextUnformatted(fmt::format("{} of {}", place_ + 1, count()).c_str());
+  row_label("speed", "seconds of the run in a second; Ctrl + click: type a number");
+  double speed = speed_;
+  constexpr double slowest = 0.01, fastest = 10;
+  if (ImGui::SliderScalar("##speed", ImGuiDataType_Double, &speed, &slowest, &fastest, "%.3g ×",
+                          ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat) &&
+      speed > 0) {
+    set_speed(speed);
+  }
+}
+
+}  // namespace pliant_viewer

@@ -1,0 +1,29 @@
+#include "viewer/panels/time_bar.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+namespace pliant_viewer {
+
+void draw_time_bar(Playback& playback, float left, float right, float bottom, const PanelStyle& style) {
+  const float margin = 12 * style.unit;
+  ImGui::SetNextWindowPos({left + margin, bottom - margin}, ImGuiCond_Always, {0, 1});
+  ImGui::SetNextWindowSize({right - left - 2 * margin, 0});
+  ImGui::Begin("time bar", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_NoNav);
+  if (ImGui::Button(playback.is_playing() ? "Pause" : "Play", {64 * style.unit, 0}))
+    playback.play(!playback.is_playing());
+  ImGui::SameLine();
+  int place = static_cast<int>(playback.place());
+  ImGui::SetNextItemWidth(-1);
+  const std::string text = fmt::format("{:.2f} s", playback.time(playback.place()));
+  if (ImGui::SliderInt("##frame", &place, 0, static_cast<int>(playback.count()) - 1, text.c_str(),
+                       ImGuiSliderFlags_AlwaysClamp)) {
+    playback.play(false);
+    playback.go_to(static_cast<std::size_t>(place));
+  }
+  ImGui::End();
+}
+
+}  // namespace pliant_viewer

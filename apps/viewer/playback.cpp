@@ -1,0 +1,101 @@
+#include "viewer/playback.h"
+
+#include <algorithm>
+
+#include "render/quantities.h"
+
+namespace pliant_viewer {
+
+Playback::Playback(pliant_render::RunFrames frames, pliant::ViewSettings look, bool is_playing)
+    : frames_(std::move(frames)),
+      look_(std::move(look)),
+      scenery_(std::make_shared<const pliant_render::Scenery>(frames_.scenery())),
+      colour_(knows(look_.colour) ? look_.colour : pliant::ColourBy::none),
+      is_playing_(is_playing && frames_.count() > 1),
+      began_(Clock::now()),
+      began_at_(frames_.time(0)) {
+  for (std::size_t i = 0; i < frames_.count(); ++i) {
+    const pliant_render::TakeFrame frame = frames_.frame(i, pliant::ColourBy::none);
+    for (const pliant_render::Vec3f& p : frame.content.positions) bounds_.add(p);
+  }
+  show(colour_);
+  refresh(began_);
+}
+
+double Playback::run_time(Clock::time_point now) const {
+  return is_playing_ ? began_at_ + speed_ * Seconds(now - began_).count() : frames_.time(place_);
+}
+
+bool Playback::refresh(Clock::time_point now) {
+  if (is_playing_) {
+    const double time = run_time(now);
+    std::size_t next = place_;
+    while (next + 1 < count() && frames_.time(next + 1) <= time) ++next;
+    if (next != place_) is_stale_ = true;
+    place_ = next;
+    if (place_ + 1 == count()) play(false);
+  }
+  if (!is_stale_) return false;
+  frame_ = frames_.frame(place_, colour_);
+  is_stale_ = false;
+  return true;
+}
+
+Seconds Playback::time_to_news(Clock::time_point now) const {
+  if (is_stale_) return Seconds(0);
+  if (!is_playing_ || place_ + 1 >= count()) return Seconds::max();
+  return Seconds(std::max(0.0, (frames_.time(place_ + 1) - run_time(now)) / speed_));
+}
+
+void Playback::show(pliant::ColourBy colour) {
+  colour_ = colour;
+  is_stale_ = true;
+  if (colour == pliant::ColourBy::none || ranges_.contains(colour)) return;
+  std::vector<float> extremes;
+  for (std::size_t i = 0; i < count(); ++i) {
+    const std::vector<float> values = frames_.frame(i, colour).content.values;
+    const auto [least, most] = std::ranges::minmax_element(values);
+    if (least == values.end()) continue;
+    extremes.push_back(*least);
+    extremes.push_back(*most);
+  }
+  ranges_[colour] = pliant_render::quantity_range(colour, extremes);
+}
+
+std::optional<std::array<float, 2>> Playback::range() const {
+  const auto found = ranges_.find(colour_);
+  if (found == ranges_.end()) return {};
+  return found->second;
+}
+
+void Playback::play(bool on) {
+  if (on && place_ + 1 == count()) go_to(0);
+  is_playing_ = on && count() > 1;
+  began_ = Clock::now();
+  began_at_ = frames_.time(place_);
+}
+
+void Playback::step(int direction) {
+  play(false);
+  if (direction < 0 && place_ > 0) go_to(place_ - 1);
+  if (direction > 0 && place_ + 1 < count()) go_to(place_ + 1);
+}
+
+void Playback::restart(bool) {
+  go_to(0);
+}
+
+void Playback::go_to(std::size_t frame) {
+  is_stale_ = true;
+  place_ = std::min(frame, count() - 1);
+  began_ = Clock::now();
+  began_at_ = frames_.time(place_);
+}
+
+void Playback::set_speed(double speed) {
+  began_at_ = run_time(Clock::now());
+  began_ = Clock::now();
+  speed_ = speed;
+}
+
+}  // namespace pliant_viewer

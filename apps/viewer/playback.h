@@ -1,0 +1,57 @@
+#pragma once
+// A run that was recorded, played with its own times.
+#include <map>
+
+#include "viewer/stage.h"
+
+namespace pliant_viewer {
+
+class Playback final : public Stage {
+ public:
+  Playback(pliant_render::RunFrames frames, pliant::ViewSettings look, bool is_playing);
+
+  const std::string& name() const override { return frames_.name(); }
+  const pliant::ViewSettings& look() const override { return look_; }
+  bool refresh(Clock::time_point now) override;
+  Seconds time_to_news(Clock::time_point now) const override;
+  const pliant_render::TakeFrame& frame() const override { return frame_; }
+  std::shared_ptr<const pliant_render::Scenery> scenery() const override { return scenery_; }
+  std::uint64_t restarts() const override { return 0; }
+  bool knows(pliant::ColourBy colour) const override { return colour != pliant::ColourBy::energy; }
+  void show(pliant::ColourBy colour) override;
+  std::optional<std::array<float, 2>> range() const override;
+  bool is_playing() const override { return is_playing_; }
+  void play(bool on) override;
+  void step(int direction) override;
+  void restart(bool keep_values) override;
+  void draw_panel(const PanelStyle& style) override;
+
+  std::size_t count() const { return frames_.count(); }
+  std::size_t place() const { return place_; }
+  pliant::Real time(std::size_t i) const { return frames_.time(i); }
+  void go_to(std::size_t frame);
+  double speed() const { return speed_; }
+  void set_speed(double speed);
+  /// Of everything, in all frames.
+  const pliant_render::Bounds& bounds() const { return bounds_; }
+
+ private:
+  /// Where it stands in the times of the run [s].
+  double run_time(Clock::time_point now) const;
+
+  pliant_render::RunFrames frames_;
+  pliant::ViewSettings look_;
+  std::shared_ptr<const pliant_render::Scenery> scenery_;
+  pliant_render::Bounds bounds_;
+  pliant_render::TakeFrame frame_;
+  std::map<pliant::ColourBy, std::array<float, 2>> ranges_;
+  pliant::ColourBy colour_;
+  bool is_playing_;
+  double speed_ = 1;
+  std::size_t place_ = 0;
+  bool is_stale_ = true;
+  Clock::time_point began_;  // when the frame at began_at_ was shown
+  double began_at_;          // [s]
+};
+
+}  // namespace pliant_viewer

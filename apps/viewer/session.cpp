@@ -1,0 +1,171 @@
+#include "viewer/session.h"
+
+#include <algorithm>
+
+#include "pliant/constraints/drag.h"
+#include "pliant/constraints/position.h"
+#include "pliant/core/error.h"
+
+namespace pliant_viewer {
+namespace {
+
+constexpr std::string_view pull_name = "mouse";
+constexpr std::string_view pin_name = "pinned by hand";
+
+/// The constraint that draws at a point of a body whose first vertex has this index.
+pliant::Drag drag_of(const Pull& pull, Index first_vertex) {
+  pliant::Drag drag;
+  std::vector<Index> vertices;
+  std::vector<Real> weights;
+  Real sum = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto weight = static_cast<Real>(std::max(pull.point.weights[static_cast<int>(i)], 0.0F));
+    const Index vertex = static_cast<Index>(pull.point.vertices[i]) - first_vertex;
+    if (std::ranges::find(vertices, vertex) != vertices.end()) continue;  // of an edge
+    vertices.push_back(vertex);
+    weights.push_back(weight);
+    sum += weight;
+  }
+  for (Real& weight : weights) weight /= sum;
+  drag.stencils.add(std::span<const Index>(vertices));
+  drag.weights.add(std::span<const Real>(weights));
+  drag.stiffness = pull.stiffness;
+  drag.targets = pliant::Points(pull.target.cast<Real>().eval());
+  return drag;
+}
+
+}  // namespace
+
+Session::Session(MakeScene make) : make_(std::move(make)), scene_(make_()) {}
+
+void Session::set_stop(std::function<bool()> stop) {
+  stop_ = std::move(stop);
+  scene_.simulation.set_stop(stop_);
+}
+
+void Session::set_threads(Index threads) {
+  pliant::SolverSettings settings = scene_.simulation.settings();
+  settings.threads = threads;
+  scene_.simulation.set_settings(settings);
+}
+
+pliant::StepReport Session::step() {
+  try {
+    return scene_.step();
+  } catch (const pliant::Error& error) {
+    if (error.kind() != pliant::ErrorKind::input) throw;
+    if (scene_.timeline.skip_due(scene_.simulation) == 0) throw;
+    note_ = std::string("left out: ") + error.what();
+    return scene_.step();
+  }
+}
+
+void Session::restart(bool keep_values) {
+  pliant::Scene scene = make_();
+  if (keep_values) {
+    for (const auto& [key, value] : values_) set_parameter(scene.simulation, key, value);
+  } else {
+    values_.clear();
+  }
+  scene.simulation.set_stop(stop_);
+  scene_ = std::move(scene);
+  pull_.reset();
+  pull_group_.reset();
+  note_.clear();
+}
+
+void Session::grab(const Pull& pull) {
+  const pliant::BodyId body = body_of(static_cast<Index>(pull.point.vertices[0]));
+  let_go();
+  pull_group_ =
+      scene_.simulation.add(body, drag_of(pull, scene_.simulation.body(body).first_vertex), std::string(pull_name));
+  pull_ = pull;
+}
+
+void Session::pull_to(const Vec3f& target) {
+  if (!pull_group_ || !target.allFinite()) return;
+  scene_.simulation.set_target(*pull_group_, 0, target.cast<Real>());
+  pull_->target = target;
+}
+
+void Session::set_pull_stiffness(Real stiffness) {
+  if (!pull_group_) return;
+  scene_.simulation.set_stiffness(*pull_group_, stiffness);
+  pull_->stiffness = stiffness;
+}
+
+void Session::let_go() {
+  if (pull_group_) scene_.simulation.remove(*pull_group_);
+  pull_group_.reset();
+  pull_.reset();
+}
+
+void Session::pin(Index vertex) {
+  if (is_pinned(vertex)) return;
+  const pliant::BodyId body = body_of(vertex);
+  pliant::Position position;
+  position.on = pliant::Selection({vertex - scene_.simulation.body(body).first_vertex});
+  scene_.simulation.add(body, position, std::string(pin_name));
+}
+
+void Session::unpin(Index vertex) {
+  // One vertex may have soft pins of several groups.
+  while (const auto pin = find_pin(vertex)) {
+    const pliant::Group& group = scene_.simulation.groups().at(pin->group);
+    if (group.name == pin_name) {
+      scene_.simulation.remove(pin->group);
+    } else {  // stays, if only as an empty one: events may name it
+      const Index of_body = vertex - scene_.simulation.body(group.body).first_vertex;
+      scene_.simulation.release(pin->group, std::span(&of_body, 1));
+    }
+  }
+}
+
+void Session::move_pin(Index vertex, const Vec3f& target) {
+  const auto pin = find_pin(vertex);
+  if (!pin || !target.allFinite()) return;
+  const pliant::Group& group = scene_.simulation.groups().at(pin->group);
+  scene_.timeline.stop(scene_.simulation, pin->group, {group.points[static_cast<std::size_t>(pin->target)]});
+  scene_.simulation.set_target(pin->group, pin->target, target.cast<Real>());
+}
+
+void Session::set(const std::string& key, const pliant::Vec3& value) {
+  if (set_parameter(scene_.simulation, key, value)) values_[key] = value;
+}
+
+std::optional<Session::Pin> Session::find_pin(Index vertex) const {
+  for (const auto& [id, group] : scene_.simulation.groups()) {
+    if (group.type != pliant::Position::info.name) continue;
+    Index first = 0;
+    for (const auto& part : group.set.parts) {
+      for (const std::span<const Index> vertices : {part->held_vertices(), part->stencil()}) {
+        const auto found = std::ranges::find(vertices, vertex);
+        if (found != vertices.end()) return Pin{id, first + static_cast<Index>(found - vertices.begin())};
+        first += static_cast<Index>(vertices.size());
+      }
+    }
+  }
+  return {};
+}
+
+pliant::BodyId Session::body_of(Index vertex) const {
+  const std::vector<pliant::Body>& bodies = scene_.simulation.bodies();
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const Index last = bodies[i].first_vertex + bodies[i].mesh.vertex_count();
+    if (vertex >= bodies[i].first_vertex && vertex < last) return pliant::BodyId{static_cast<Index>(i)};
+  }
+  pliant::fail_input("there is no vertex " + std::to_string(vertex));
+}
+
+Real suggest_pull_stiffness(const pliant::Simulation& simulation) {
+  constexpr Real weight_at_stretch = 10 * 9.81;  // [m/s²]: the spring holds ten times the weight
+  constexpr Real stretch = 0.1;                  // of the bodies' size
+  Real mass = 0;
+  for (const Real of_vertex : simulation.state().masses) mass += of_vertex;
+  const pliant::Positions& x = simulation.state().positions;
+  if (x.rows() == 0) return 1;
+  const Real size = (x.colwise().maxCoeff() - x.colwise().minCoeff()).norm();
+  return std::clamp<Real>(mass * weight_at_stretch / (stretch * std::max<Real>(size, 1e-3)), 1e-3, 1e9);
+}
+
+}  // namespace pliant_viewer

@@ -1,0 +1,48 @@
+#pragma once
+// What a window shows: a scene that is simulated, or a run that was recorded.
+#include <memory>
+
+#include "render/take.h"
+#include "viewer/pacer.h"
+
+namespace pliant_viewer {
+
+class LiveScene;
+struct PanelStyle;
+
+class Stage {
+ public:
+  virtual ~Stage() = default;
+
+  virtual const std::string& name() const = 0;
+  virtual const pliant::ViewSettings& look() const = 0;
+
+  /// Takes over the newest frame; whether that is another one than before.
+  virtual bool refresh(Clock::time_point now) = 0;
+  /// Until refresh() will have another one, where that is known beforehand.
+  virtual Seconds time_to_news(Clock::time_point now) const = 0;
+  virtual const pliant_render::TakeFrame& frame() const = 0;
+  /// Another pointer when it is another one.
+  virtual std::shared_ptr<const pliant_render::Scenery> scenery() const = 0;
+  /// How often everything was begun anew.
+  virtual std::uint64_t restarts() const = 0;
+
+  virtual bool knows(pliant::ColourBy colour) const = 0;
+  virtual void show(pliant::ColourBy colour) = 0;
+  /// The ends of the colour map, where they are known for all frames.
+  virtual std::optional<std::array<float, 2>> range() const { return {}; }
+
+  virtual bool is_playing() const = 0;
+  virtual void play(bool on) = 0;
+  /// One step or frame on, or back where that is possible.
+  virtual void step(int direction) = 0;
+  /// `keep_values`: with what was set since.
+  virtual void restart(bool keep_values) = 0;
+
+  /// Draws its part of the panel.
+  virtual void draw_panel(const PanelStyle& style) = 0;
+  /// What can be pulled and pinned; null for what is only played.
+  virtual LiveScene* live() { return nullptr; }
+};
+
+}  // namespace pliant_viewer

@@ -1,0 +1,80 @@
+#include "viewer/ui.h"
+
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+#include <imgui_internal.h>
+
+namespace pliant_viewer {
+namespace {
+
+constexpr float letter_height = 15.5F;  // units
+
+bool is_dark(const pliant::Colour& background) {
+  return 0.2126 * background.red + 0.7152 * background.green + 0.0722 * background.blue < 0.5;
+}
+
+}  // namespace
+
+Ui::Ui(Window& window, const pliant::Colour& background)
+    : window_(window), context_(ImGui::CreateContext()), ink_(pliant_render::ink_on(background)) {
+  ImGui::SetCurrentContext(context_);
+  ImGui::GetIO().IniFilename = nullptr;
+  const float scale = window.content_scale();
+  font_ = pliant_render::load_font(letter_height * scale, pliant_render::Letters::with_symbols);
+  // Where the mouse counts in larger units than pixels, letters are as large in these.
+  const float pixels_a_unit = static_cast<float>(window.framebuffer_size()[0]) / window.size().x();
+  if (pixels_a_unit > 0) ImGui::GetIO().FontGlobalScale = 1 / pixels_a_unit;
+  style_.unit = pixels_a_unit > 0 ? scale / pixels_a_unit : scale;
+  set_panel_style(is_dark(background), style_.unit);
+  ImGui_ImplGlfw_InitForOpenGL(window.handle(), true);
+  ImGui_ImplOpenGL3_Init("#version 330 core");
+}
+
+Ui::~Ui() {
+  ImGui::SetCurrentContext(context_);
+  ImGui_ImplOpenGL3_Shutdown();
+  ImGui_ImplGlfw_Shutdown();
+  ImGui::DestroyContext(context_);
+}
+
+void Ui::begin() {
+  ImGui::SetCurrentContext(context_);
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui_ImplGlfw_NewFrame();
+  ImGui::NewFrame();
+}
+
+void Ui::end() {
+  ImGui::Render();
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+void Ui::drop() {
+  ImGui::EndFrame();
+}
+
+bool Ui::has_panel_at(const Vec2f& place) const {
+  for (const ImGuiWindow* panel : context_->Windows) {
+    if (!panel->WasActive || panel->Hidden || (panel->Flags & ImGuiWindowFlags_NoInputs) == ImGuiWindowFlags_NoInputs) {
+      continue;
+    }
+    if (panel->Rect().Contains({place.x(), place.y()})) return true;
+  }
+  return false;
+}
+
+bool Ui::holds_mouse() const {
+  return context_->ActiveId != 0;
+}
+
+bool Ui::takes_text() const {
+  return context_->IO.WantTextInput;
+}
+
+pliant_render::SignSheet Ui::sheet(float left) const {
+  const Vec2f size = window_.size();
+  return {*ImGui::GetBackgroundDrawList(), *font_, ink_, size.x(), size.y(), left};
+}
+
+}  // namespace pliant_viewer

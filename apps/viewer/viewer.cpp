@@ -1,0 +1,229 @@
+#include "viewer/viewer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "pliant/core/error.h"
+#include "viewer/live_scene.h"
+#include "viewer/marks.h"
+
+namespace pliant_viewer {
+namespace {
+
+using pliant_render::Bounds;
+using pliant_render::Viewpoint;
+
+constexpr double most_frames_a_second = 60;
+constexpr double idle_turn = 0.25;  // [s]
+
+Viewpoint first_viewpoint(const Stage& stage, const pliant::ViewSettings& look, const Vec2f& size) {
+  Bounds bounds = pliant_render::bounds_of(stage.frame().content.positions);
+  if (bounds.is_empty()) bounds.add(Vec3f::Zero());
+  // Room for what moves: nobody knows yet where to.
+  const Vec3f room = Vec3f::Constant(0.12F * bounds.radius());
+  bounds.add(bounds.low - room);
+  bounds.add(bounds.high + room);
+  return place_camera(look.camera, bounds, size.x() / size.y(), 0.2F);
+}
+
+}  // namespace
+
+Viewer::Viewer(Window& window, Stage& stage, ViewerOptions options)
+    : window_(window),
+      stage_(stage),
+      look_(options.look),
+      samples_(options.samples.value_or(window.is_software() ? 1 : 4)),
+      picture_folder_(std::move(options.picture_folder)),
+      ui_(window, look_.background),
+      camera_(first_viewpoint(stage, look_, window.size()), look_.camera.up.cast<float>()),
+      hand_(stage.live() != nullptr ? stage.live()->suggested_pull() : 1),
+      frame_interval_(1 / most_frames_a_second) {
+  if (!stage.knows(look_.colour)) look_.colour = pliant::ColourBy::none;
+  if (look_.colour != stage.look().colour) stage_.show(look_.colour);
+  update_bounds();
+  place_screen();
+}
+
+void Viewer::run(const std::function<bool()>& shall_end) {
+  while (!window_.wants_to_close() && !shall_end()) turn(idle_turn);
+}
+
+bool Viewer::turn(double most_wait) {
+  const Clock::time_point now = Clock::now();
+  const double news = stage_.time_to_news(now).count();
+  const double pause = frame_interval_ - Seconds(now - last_draw_).count();
+  if (draws_left_ > 0 || news <= 0) {
+    // Pictures come evenly, and the processor is left to the simulation in between.
+    if (pause > 0) std::this_thread::sleep_for(Seconds(std::min(pause, most_wait)));
+    window_.wait(0);
+  } else {
+    window_.wait(std::clamp(news, 0.0, most_wait));
+  }
+  if (window_.was_touched()) draws_left_ = 3;
+  take_input();
+  if (!message_.empty() && Clock::now() - last_message_ > Seconds(4)) {
+    message_.clear();
+    draws_left_ = 1;
+  }
+  if (stage_.refresh(Clock::now())) is_frame_new_ = true;
+  if (!is_frame_new_ && draws_left_ == 0 && !wants_picture_) return false;
+  draws_left_ = std::max(draws_left_ - 1, 0);
+  if (!window_.is_visible()) {
+    is_frame_new_ = false;
+    std::this_thread::sleep_for(Seconds(frame_interval_));  // what cannot be seen is not drawn
+    return false;
+  }
+  draw();
+  return true;
+}
+
+void Viewer::say(std::string message) {
+  message_ = std::move(message);
+  last_message_ = Clock::now();
+  draws_left_ = 2;
+}
+
+void Viewer::update_scenery() {
+  if (stage_.restarts() != restarts_) {
+    restarts_ = stage_.restarts();
+    hand_.cancel();
+  }
+  if (stage_.scenery() == scenery_) return;
+  scenery_ = stage_.scenery();
+  renderer_.emplace(*scenery_);
+  is_frame_new_ = true;
+}
+
+void Viewer::update_bounds() {
+  const bool is_first = bounds_.is_empty();
+  bounds_ = pliant_render::bounds_of(stage_.frame().content.positions);
+  if (look_.ground_height) {
+    ground_height_ = static_cast<float>(*look_.ground_height);
+    return;
+  }
+  // A little below everything, and lower where something falls.
+  if (bounds_.is_empty()) return;
+  const float below = bounds_.low.z() - 0.03F * bounds_.radius();
+  ground_height_ = is_first ? bounds_.low.z() - 0.10F * bounds_.radius() : std::min(ground_height_, below);
+}
+
+float Viewer::panel_width() const {
+  return is_panel_open_ ? std::min(300 * ui_.style().unit, 0.45F * window_.size().x()) : 0;
+}
+
+void Viewer::place_screen() {
+  screen_.size = window_.size();
+  const bool has_legend =
+      pliant_render::make_legend(look_, range_, static_cast<int>(screen_.size.x()), static_cast<int>(screen_.size.y()))
+          .has_value();
+  const float right = has_legend ? pliant_render::legend_width(static_cast<int>(screen_.size.y())) : 0;
+  screen_.viewpoint = camera_.viewpoint(bounds_, (right - panel_width()) / screen_.size.x());
+}
+
+std::array<float, 2> Viewer::colour_range() {
+  if (look_.colour_range) {
+    return {static_cast<float>((*look_.colour_range)[0]), static_cast<float>((*look_.colour_range)[1])};
+  }
+  if (const auto known = stage_.range()) return *known;
+  float largest = 0;
+  for (const float value : stage_.frame().content.values) largest = std::max(largest, std::abs(value));
+  return auto_range_.update(look_.colour, largest, Clock::now());
+}
+
+void Viewer::draw() {
+  update_scenery();
+  if (is_frame_new_) {
+    update_bounds();
+    range_ = colour_range();
+    renderer_->set_frame(stage_.frame().content, look_.colour);
+    is_frame_new_ = false;
+  }
+  const auto [width, height] = window_.framebuffer_size();
+  if (width <= 0 || height <= 0) return;
+  place_screen();
+  if (wants_picture_) write_picture(width, height);
+  ui_.begin();
+  draw_signs();
+  draw_panels();
+  const pliant_render::DrawOptions options{screen_.viewpoint, range_, ground_height_, static_cast<float>(height) / 720};
+  draw_picture(options, width, height);
+  ui_.end();
+  window_.swap();
+  last_draw_ = Clock::now();
+  frames_.add({last_draw_});
+  ++frame_count_;
+}
+
+/// Into the window's framebuffer, by way of one with several samples a pixel where these are wanted.
+void Viewer::draw_picture(const pliant_render::DrawOptions& options, int width, int height) {
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  if (samples_ <= 1) {
+    target_.reset();
+    renderer_->draw(look_, options, width, height);
+    return;
+  }
+  if (!target_ || target_->width() != width || target_->height() != height || target_samples_ != samples_) {
+    target_.reset();
+    try {
+      target_.emplace(width, height, samples_);
+      target_samples_ = samples_;
+    } catch (const pliant::Error& error) {
+      say(error.what());
+      samples_ = 1;
+      glBindFramebuffer(GL_FRAMEBUFFER, 0);
+      renderer_->draw(look_, options, width, height);
+      return;
+    }
+  }
+  target_->begin();
+  renderer_->draw(look_, options, width, height);
+  target_->resolve();
+  target_->show();
+}
+
+void Viewer::draw_signs() {
+  const pliant_render::SignSheet sheet = ui_.sheet(panel_width());
+  const auto legend =
+      pliant_render::make_legend(look_, range_, static_cast<int>(sheet.width), static_cast<int>(sheet.height));
+  if (legend) draw_legend(*legend, sheet);
+  if (stage_.frame().wind) draw_wind(*stage_.frame().wind, screen_.viewpoint, sheet);
+  LiveScene* live = stage_.live();
+  if (live == nullptr) return;
+  const std::vector<Vec3f>& positions = stage_.frame().content.positions;
+  const float unit = ui_.style().unit;
+  if (hand_.pull()) {
+    draw_spring(screen_, hand_.pull()->point.position(positions), hand_.pull()->target, unit, sheet.list);
+  }
+  if (const auto held = hand_.held_pin()) draw_ring(screen_, held->target, unit, sheet.list);
+  for (const std::uint32_t vertex : hand_.pending(live->shown())) {
+    draw_ring(screen_, positions[vertex], unit, sheet.list);
+  }
+}
+
+/// Draws the picture and the signs as they are, without panels, and reads it back.
+void Viewer::write_picture(int width, int height) {
+  wants_picture_ = false;
+  ui_.begin();
+  draw_signs();
+  draw_picture({screen_.viewpoint, range_, ground_height_, static_cast<float>(height) / 720}, width, height);
+  ui_.end();
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  glReadBuffer(GL_BACK);
+  try {
+    const pliant_render::Image image = pliant_render::read_picture(width, height);
+    std::filesystem::path file;
+    for (int number = 1; file.empty() || std::filesystem::exists(file); ++number) {
+      file = picture_folder_ / fmt::format("pliant-{:04}.png", number);
+    }
+    write_png(file, image);
+    say("saved " + file.lexically_normal().string());
+  } catch (const std::exception& error) {
+    say(error.what());
+  }
+}
+
+}  // namespace pliant_viewer

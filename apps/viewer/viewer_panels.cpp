@@ -1,0 +1,92 @@
+// The panels of the window.
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "viewer/panels/help_panel.h"
+#include "viewer/panels/look_panel.h"
+#include "viewer/panels/time_bar.h"
+#include "viewer/viewer.h"
+
+namespace pliant_viewer {
+namespace {
+
+constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
+                                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize |
+                                   ImGuiWindowFlags_NoNav;
+
+}  // namespace
+
+void Viewer::draw_panels() {
+  if (is_panel_open_) draw_main_panel();
+  const Vec2f size = window_.size();
+  if (auto* playback = dynamic_cast<Playback*>(&stage_)) {
+    draw_time_bar(*playback, panel_width(), size.x(), size.y(), ui_.style());
+  }
+  if (is_help_open_) is_help_open_ = draw_help(stage_.live() != nullptr, size.x(), size.y(), ui_.style());
+  draw_message();
+}
+
+void Viewer::draw_main_panel() {
+  const float unit = ui_.style().unit;
+  const float margin = 12 * unit;
+  const float width = panel_width() - margin;
+  ImGui::SetNextWindowPos({margin, margin});
+  ImGui::SetNextWindowSizeConstraints({width, 0}, {width, window_.size().y() - 2 * margin});
+  ImGui::Begin("panel", nullptr, fixed);
+  const float third = (ImGui::GetContentRegionAvail().x - 2 * ImGui::GetStyle().ItemSpacing.x) / 3;
+  if (ImGui::Button(stage_.is_playing() ? "Pause" : "Play", {third, 0})) stage_.play(!stage_.is_playing());
+  explain("Space");
+  ImGui::SameLine();
+  if (ImGui::Button("Step", {third, 0})) stage_.step(1);
+  explain("S");
+  ImGui::SameLine();
+  if (ImGui::Button("Restart", {third, 0})) stage_.restart(true);
+  explain(stage_.live() != nullptr ? "R: from the start, with the values that are set here\n"
+                                     "Shift + R: the scene's file is read again"
+                                   : "R: to the first frame");
+  ImGui::Spacing();
+  stage_.draw_panel(ui_.style());
+  if (LiveScene* live = stage_.live()) {
+    row_label("pull", "+ and −: stiffness of the spring that the mouse pulls with");
+    double stiffness = hand_.stiffness();
+    const double low = live->suggested_pull() / 1e3, high = live->suggested_pull() * 1e6;
+    if (ImGui::SliderScalar("##pull", ImGuiDataType_Double, &stiffness, &low, &high, "%.3g N/m",
+                            ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat) &&
+        stiffness > 0) {
+      hand_.set_stiffness(stiffness, *live);
+    }
+  }
+  ImGui::Spacing();
+  ImGui::Separator();
+  ImGui::Spacing();
+  if (draw_look_panel(look_, samples_, stage_)) change_colour();
+  ImGui::Spacing();
+  ImGui::Separator();
+  ImGui::Spacing();
+  if (ImGui::Button("Help", {third, 0})) is_help_open_ = !is_help_open_;
+  explain("H: all keys");
+  ImGui::SameLine();
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextDisabled("%.0f pictures a second", frames_.means(Clock::now()).rate);
+  explain("drawn by " + window_.driver());
+  ImGui::End();
+}
+
+/// What was done, or went wrong, at the lower edge.
+void Viewer::draw_message() {
+  std::string text = message_;
+  if (text.empty() && stage_.live() != nullptr) text = stage_.live()->shown().note;
+  if (text.empty()) return;
+  const Vec2f size = window_.size();
+  const float unit = ui_.style().unit;
+  const float above = stage_.live() != nullptr ? 20 * unit : 70 * unit;
+  const float left = panel_width();
+  ImGui::SetNextWindowPos({(left + size.x()) / 2, size.y() - above}, ImGuiCond_Always, {0.5F, 1});
+  ImGui::Begin("message", nullptr, fixed | ImGuiWindowFlags_NoInputs);
+  ImGui::PushTextWrapPos(0.8F * (size.x() - left));
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::End();
+}
+
+}  // namespace pliant_viewer
