@@ -8,11 +8,14 @@
 namespace pliant_render {
 namespace {
 
-constexpr int mask_size = 512;
+constexpr int mask_size = 192;
 constexpr float rope_width = 3.5F;         // pixels of a picture of 720 rows
-constexpr float rope_shadow_width = 4.0F;  // texels of the mask
+constexpr float rope_shadow_width = 1.5F;  // texels of the mask
 constexpr float edge_width = 1.0F;
 constexpr float marker_radius = 5.0F;
+constexpr int ground_rings = 24;
+constexpr int ground_sectors = 48;
+constexpr float shadow_darkness = 0.34F;
 constexpr float lift = 2e-4F;  // of depth, so that lines stand before what they lie on
 
 Vec3f tone_of(const pliant::Colour& colour) {
@@ -50,12 +53,14 @@ GLsizei count_of(const std::vector<std::uint32_t>& list) {
 Renderer::Renderer(Scenery scenery)
     : scenery_(std::move(scenery)),
       surface_(shaders::surface_vertex, "", shaders::surface_fragment),
+      flat_surface_(shaders::flat_vertex, shaders::flat_geometry, shaders::surface_fragment),
       line_(shaders::stroke_vertex, shaders::line_geometry, shaders::line_fragment),
       marker_(shaders::stroke_vertex, shaders::marker_geometry, shaders::marker_fragment),
       flatten_(shaders::flatten_vertex, "", shaders::flatten_fragment),
       flatten_ropes_(shaders::flatten_vertex, shaders::line_geometry, shaders::flatten_fragment),
       blur_(shaders::screen_vertex, "", shaders::blur_fragment),
-      ground_(shaders::ground_vertex, "", shaders::ground_fragment) {
+      ground_(shaders::ground_vertex, "", shaders::ground_fragment),
+      shadow_(shaders::shadow_vertex, "", shaders::shadow_fragment) {
   const auto set_up = [this](const VertexArray& array, const Buffer& elements, const std::vector<std::uint32_t>& list) {
     glBindVertexArray(array.id());
     set_vertex_layout();
@@ -118,16 +123,11 @@ void Renderer::draw(const pliant::ViewSettings& look, const DrawOptions& options
   glClearColor(background.x(), background.y(), background.z(), 1);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   glEnable(GL_MULTISAMPLE);
-  if (look.ground) {
-    ground_.use();
-    ground_.set("darkness", has_shadow ? 0.34F : 0.0F);
-    ground_.set("middle", area.middle);
-    ground_.set("reach", area.reach);
-    draw_ground(look, options, camera);
-  }
-  glEnable(GL_DEPTH_TEST);
-  glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  if (look.ground) draw_ground(look, options, camera);
+  glEnable(GL_BLEND);
+  if (has_shadow) lay_shadow(area, options.ground_height, camera);
+  glEnable(GL_DEPTH_TEST);
   draw_surface(look, options, camera);
   draw_lines(look, options, camera, picture);
   draw_markers(options, camera, picture);
@@ -165,11 +165,9 @@ Renderer::ShadowArea Renderer::draw_shadow(const Vec3f& light, float height) {
   flatten(flatten_, triangles_array_, GL_TRIANGLES, count_of(scenery_.triangles));
   flatten(flatten_ropes_, ropes_array_, GL_LINES, count_of(scenery_.ropes));
   // As wide in both directions on the ground, not in the mask.
-  const float texel = 1.2F * area.reach.maxCoeff() / mask_size;
-  for (int pass = 0; pass < 2; ++pass) {
-    blur(mask_, half_blurred_target_, {texel / area.reach.x(), 0});
-    blur(half_blurred_, mask_target_, {0, texel / area.reach.y()});
-  }
+  const float texel = 0.75F * area.reach.maxCoeff() / mask_size;
+  blur(mask_, half_blurred_target_, {texel / area.reach.x(), 0});
+  blur(half_blurred_, mask_target_, {0, texel / area.reach.y()});
   return area;
 }
 
@@ -184,15 +182,29 @@ void Renderer::blur(const Texture& from, const Framebuffer& to, const Vec2f& ste
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void Renderer::draw_ground(const pliant::ViewSettings& look, const DrawOptions& options, const Mat4f& camera) {
+void Renderer::draw_ground(const pliant::ViewSettings& look, const DrawOptions& options, const Mat4f& camera) const {
   const Vec3f background = tone_of(look.background);
   const Vec3f center = bounds_.is_empty() ? Vec3f::Zero().eval() : bounds_.center();
+  ground_.use();
   ground_.set("camera", camera);
   ground_.set("center", Vec3f(center.x(), center.y(), options.ground_height));
   ground_.set("extent", std::max(12 * bounds_.radius(), 1.0F));
   ground_.set("tone", Vec3f(0.86F * background));
   ground_.set("background", background);
-  ground_.set("mask", 0);
+  ground_.set("rings", ground_rings);
+  ground_.set("sectors", ground_sectors);
+  glBindVertexArray(empty_array_.id());
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 2 * (ground_sectors + 1), ground_rings);
+}
+
+void Renderer::lay_shadow(const ShadowArea& area, float height, const Mat4f& camera) const {
+  shadow_.use();
+  shadow_.set("camera", camera);
+  shadow_.set("middle", area.middle);
+  shadow_.set("reach", area.reach);
+  shadow_.set("height", height);
+  shadow_.set("darkness", shadow_darkness);
+  shadow_.set("mask", 0);
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, mask_.id());
   glBindVertexArray(empty_array_.id());
@@ -201,17 +213,17 @@ void Renderer::draw_ground(const pliant::ViewSettings& look, const DrawOptions& 
 
 void Renderer::draw_surface(const pliant::ViewSettings& look, const DrawOptions& options, const Mat4f& camera) const {
   if (scenery_.triangles.empty()) return;
-  surface_.use();
-  surface_.set("camera", camera);
-  surface_.set("eye", options.viewpoint.eye);
-  surface_.set("light", light_of(look));
-  surface_.set("front", tone_of(look.front));
-  surface_.set("back", tone_of(look.back));
-  surface_.set("is_flat", look.shading == pliant::Shading::flat ? 1 : 0);
-  surface_.set("is_coloured", has_values_ ? 1 : 0);
-  surface_.set("low", options.range[0]);
-  surface_.set("high", options.range[1]);
-  surface_.set("colours", 0);
+  const Program& program = look.shading == pliant::Shading::flat ? flat_surface_ : surface_;
+  program.use();
+  program.set("camera", camera);
+  program.set("to_eye", Vec3f(-options.viewpoint.forward()));
+  program.set("light", light_of(look));
+  program.set("front", tone_of(look.front));
+  program.set("back", tone_of(look.back));
+  program.set("is_coloured", has_values_ ? 1 : 0);
+  program.set("low", options.range[0]);
+  program.set("high", options.range[1]);
+  program.set("colours", 0);
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, map_.id());
   glBindVertexArray(triangles_array_.id());

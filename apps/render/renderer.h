@@ -37,7 +37,8 @@ class Renderer {
   void set_vertex_layout() const;
   ShadowArea draw_shadow(const Vec3f& light, float height);
   void blur(const Texture& from, const Framebuffer& to, const Vec2f& step) const;
-  void draw_ground(const pliant::ViewSettings& look, const DrawOptions& options, const Mat4f& camera);
+  void draw_ground(const pliant::ViewSettings& look, const DrawOptions& options, const Mat4f& camera) const;
+  void lay_shadow(const ShadowArea& area, float height, const Mat4f& camera) const;
   void draw_surface(const pliant::ViewSettings& look, const DrawOptions& options, const Mat4f& camera) const;
   void draw_lines(const pliant::ViewSettings& look, const DrawOptions& options, const Mat4f& camera,
                   const Vec2f& picture) const;
@@ -49,7 +50,7 @@ class Renderer {
   pliant::ColourBy map_of_ = pliant::ColourBy::none;
   GLsizei marker_count_ = 0;
   std::vector<Vertex> vertices_;
-  Program surface_, line_, marker_, flatten_, flatten_ropes_, blur_, ground_;
+  Program surface_, flat_surface_, line_, marker_, flatten_, flatten_ropes_, blur_, ground_, shadow_;
   VertexArray triangles_array_, ropes_array_, edges_array_, markers_array_, empty_array_;
   Buffer vertex_buffer_, triangles_, ropes_, edges_, markers_;
   Texture map_, mask_, half_blurred_;

@@ -7,48 +7,70 @@ layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in float value;
 uniform mat4 camera;
-out vec3 world;
-out vec3 smooth_normal;
+out vec3 normal_here;
 out float value_here;
 void main() {
-  world = position;
-  smooth_normal = normal;
+  normal_here = normal;
   value_here = value;
   gl_Position = camera * vec4(position, 1);
 })";
 
-// Colours are mixed in linear light. A key light, the sky above and the ground below, and a little from the eye, so
-// that nothing is black; the back of a sheet is lit as its front.
+// A key light, the sky above and the ground below, and a little from the eye, so that nothing is black; the back of a
+// sheet is lit as its front. Light is added up in linear light; there a tone times the light is, for the eye and in
+// sRGB, the tone times a root of the light.
 const std::string_view surface_fragment = R"(#version 330 core
-in vec3 world;
-in vec3 smooth_normal;
+in vec3 normal_here;
 in float value_here;
-uniform vec3 eye, light, front, back;
-uniform int is_flat, is_coloured;
+uniform vec3 to_eye, light, front, back;
+uniform int is_coloured;
 uniform float low, high;
 uniform sampler2D colours;
 out vec4 colour;
-vec3 to_linear(vec3 c) { return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), step(0.04045, c)); }
-vec3 to_srgb(vec3 c) {
-  c = clamp(c, 0.0, 1.0);
-  return mix(c * 12.92, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c));
-}
 void main() {
-  vec3 view = normalize(eye - world);
-  vec3 n = cross(dFdx(world), dFdy(world));  // towards the eye
-  if (is_flat == 0 && dot(smooth_normal, smooth_normal) > 0.0) n = gl_FrontFacing ? smooth_normal : -smooth_normal;
-  n = normalize(n);
-  vec3 base = gl_FrontFacing ? front : back;
-  if (is_coloured != 0) base = texture(colours, vec2(clamp((value_here - low) / (high - low), 0.002, 0.998), 0.5)).rgb;
-  base = to_linear(base);
-  float key = max(dot(n, light), 0.0);
-  float wrapped = max((dot(n, light) + 0.4) / 1.4, 0.0);
+  vec3 n = normalize(normal_here + 1e-9 * to_eye);  // never of length zero
+  if (!gl_FrontFacing) n = -n;
+  vec3 tone = gl_FrontFacing ? front : back;
+  if (is_coloured != 0) {
+    float place = clamp((value_here - low) / (high - low), 0.002, 0.998);
+    tone = textureLod(colours, vec2(place, 0.5), 0.0).rgb;
+  }
+  float towards = dot(n, light);
   float sky = 0.5 + 0.5 * n.z;
-  float fill = max(dot(n, view), 0.0);
-  vec3 halfway = normalize(light + view);
-  float shine = pow(max(dot(n, halfway), 0.0), 40.0);
-  vec3 lit = base * (0.26 + 0.18 * sky + 0.26 * fill + 0.38 * key + 0.14 * wrapped) + vec3(0.035) * shine;
-  colour = vec4(to_srgb(lit), 1);
+  float fill = max(dot(n, to_eye), 0.0);
+  float lit = 0.26 + 0.18 * sky + 0.26 * fill + 0.38 * max(towards, 0.0) + 0.1 * max(towards + 0.4, 0.0);
+  colour = vec4(tone * pow(lit, 0.4545), 1);
+})";
+
+// Each face by itself: its own normal at its three corners.
+const std::string_view flat_vertex = R"(#version 330 core
+layout(location = 0) in vec3 position;
+layout(location = 2) in float value;
+uniform mat4 camera;
+out vec3 place;
+out float value_at;
+void main() {
+  place = position;
+  value_at = value;
+  gl_Position = camera * vec4(position, 1);
+})";
+
+const std::string_view flat_geometry = R"(#version 330 core
+layout(triangles) in;
+layout(triangle_strip, max_vertices = 3) out;
+in vec3 place[];
+in float value_at[];
+out vec3 normal_here;
+out float value_here;
+void main() {
+  vec3 normal = cross(place[1] - place[0], place[2] - place[0]);
+  float area = length(normal);
+  for (int i = 0; i < 3; ++i) {
+    normal_here = area > 0.0 ? normal / area : vec3(0);
+    value_here = value_at[i];
+    gl_Position = gl_in[i].gl_Position;
+    EmitVertex();
+  }
+  EndPrimitive();
 })";
 
 const std::string_view stroke_vertex = R"(#version 330 core
@@ -183,37 +205,53 @@ uniform sampler2D mask;
 uniform vec2 step_size;
 out vec4 colour;
 void main() {
-  const float weights[7] = float[](0.1585, 0.1465, 0.1158, 0.0782, 0.0452, 0.0223, 0.0128);
-  float sum = weights[0] * texture(mask, place).r;
-  for (int i = 1; i < 7; ++i) {
-    sum += weights[i] * (texture(mask, place + float(i) * step_size).r + texture(mask, place - float(i) * step_size).r);
+  // Seven of a bell's values, in pairs: a place between two texels has both.
+  const float weights[3] = float[](0.2623, 0.1234, 0.0351);
+  const float places[3] = float[](1.4415, 3.3661, 5.3638);
+  float sum = 0.1585 * textureLod(mask, place, 0.0).r;
+  for (int i = 0; i < 3; ++i) {
+    vec2 aside = places[i] * step_size;
+    sum += weights[i] * (textureLod(mask, place + aside, 0.0).r + textureLod(mask, place - aside, 0.0).r);
   }
   colour = vec4(sum, 0, 0, 1);
 })";
 
+// Rings about the centre, of which the outer ones are wider; their tones are found at the vertices, since most of a
+// picture is ground.
 const std::string_view ground_vertex = R"(#version 330 core
 uniform mat4 camera;
-uniform vec3 center;
+uniform vec3 center, tone, background;
 uniform float extent;
-out vec2 ground;
+uniform int rings, sectors;
+out vec3 tone_here;
 void main() {
-  ground = center.xy + extent * (2.0 * vec2(gl_VertexID & 1, gl_VertexID >> 1) - 1.0);
-  gl_Position = camera * vec4(ground, center.z, 1);
+  float far = float(gl_InstanceID + (gl_VertexID & 1)) / float(rings);
+  far *= far;
+  float angle = 6.2831853 * float(gl_VertexID >> 1) / float(sectors);
+  tone_here = mix(tone, background, smoothstep(0.12, 1.0, far));
+  gl_Position = camera * vec4(center.xy + extent * far * vec2(cos(angle), sin(angle)), center.z, 1);
 })";
 
 const std::string_view ground_fragment = R"(#version 330 core
-in vec2 ground;
-uniform vec3 center, tone, background;
-uniform float extent, darkness;
+in vec3 tone_here;
+out vec4 colour;
+void main() { colour = vec4(tone_here, 1); })";
+
+const std::string_view shadow_vertex = R"(#version 330 core
+uniform mat4 camera;
 uniform vec2 middle, reach;
+uniform float height;
+out vec2 place;
+void main() {
+  place = vec2(gl_VertexID & 1, gl_VertexID >> 1);
+  gl_Position = camera * vec4(middle + reach * (2.0 * place - 1.0), height, 1);
+})";
+
+const std::string_view shadow_fragment = R"(#version 330 core
+in vec2 place;
+uniform float darkness;
 uniform sampler2D mask;
 out vec4 colour;
-void main() {
-  float shadow = texture(mask, (ground - middle) / reach * 0.5 + 0.5).r;
-  float far = clamp(length(ground - center.xy) / extent, 0.0, 1.0);
-  float share = 1.0 - smoothstep(0.12, 1.0, far);
-  vec3 c = mix(background, tone, share) * (1.0 - darkness * shadow);
-  colour = vec4(c, 1);
-})";
+void main() { colour = vec4(0, 0, 0, darkness * textureLod(mask, place, 0.0).r); })";
 
 }  // namespace pliant_render::shaders

@@ -7,6 +7,8 @@ namespace pliant_render::shaders {
 // Surfaces in two tones, or coloured by a value.
 extern const std::string_view surface_vertex;
 extern const std::string_view surface_fragment;
+extern const std::string_view flat_vertex;
+extern const std::string_view flat_geometry;
 
 // Lines as ribbons of a width in pixels, and points as discs.
 extern const std::string_view stroke_vertex;
@@ -24,5 +26,7 @@ extern const std::string_view blur_fragment;
 // The ground, which fades into the background.
 extern const std::string_view ground_vertex;
 extern const std::string_view ground_fragment;
+extern const std::string_view shadow_vertex;
+extern const std::string_view shadow_fragment;
 
 }  // namespace pliant_render::shaders

@@ -127,7 +127,7 @@ void draw_wind(const WindSign& wind, const Viewpoint& viewpoint, const SignSheet
   const float unit = unit_of(sheet.height);
   const float size = 17 * unit;
   const float speed = wind.velocity.norm();
-  const ImVec2 middle(sheet.left + 56 * unit, sheet.height - 56 * unit);
+  const ImVec2 middle(56 * unit, sheet.height - 56 * unit);
   sheet.list.AddText(&sheet.font, size, {middle.x + 44 * unit, middle.y - size * 0.5F}, sheet.ink, wind.text.c_str());
   const Vec3f along = wind.velocity / speed;
   const Vec3f right = viewpoint.forward().cross(viewpoint.up);

@@ -49,9 +49,8 @@ struct SignSheet {
   ImDrawList& list;
   ImFont& font;
   std::uint32_t ink;
-  float width;     ///< of the picture, in pixels
-  float height;    ///< of the picture, in pixels
-  float left = 0;  ///< pixels at the left edge that something else covers
+  float width;   ///< of the picture, in pixels
+  float height;  ///< of the picture, in pixels
 };
 void draw_legend(const Legend& legend, const SignSheet& sheet);
 void draw_wind(const WindSign& wind, const Viewpoint& viewpoint, const SignSheet& sheet);

@@ -7,7 +7,8 @@
 namespace pliant_viewer {
 namespace {
 
-constexpr Seconds patience{0.5};  // with a step that a change waits for
+constexpr Seconds patience{0.5};     // with a step that a change waits for
+constexpr Seconds freshness{0.008};  // of what is shown
 
 bool is_same(const pliant_render::Scenery& a, const pliant_render::Scenery& b) {
   return a.vertex_count == b.vertex_count && a.triangles == b.triangles && a.ropes == b.ropes && a.edges == b.edges &&
@@ -78,8 +79,9 @@ void LiveScene::work() {
     if (is_closing_) return;
     run_commands();
     if (time_to_step() <= Seconds(0)) step();
-    // A window that has not looked yet is not shown more, unless there is time.
-    if (is_dirty_ && (!has_news() || time_to_step() > Seconds(0))) publish();
+    // A window that has not looked yet is shown newer things now and then, and whenever there is time.
+    const bool is_fresh = has_news() && Clock::now() - published_ < freshness;
+    if (is_dirty_ && (!is_fresh || time_to_step() > Seconds(0))) publish();
   }
 }
 
@@ -191,6 +193,7 @@ void LiveScene::publish() {
     has_news_ = true;
   }
   is_dirty_ = false;
+  published_ = Clock::now();
   wake_();
 }
 

@@ -95,6 +95,7 @@ class LiveScene {
   std::shared_ptr<const pliant_render::Scenery> scenery_;
   std::string note_;
   Clock::time_point step_began_{};
+  Clock::time_point published_{};
   std::uint64_t commands_done_ = 0;
   std::uint64_t restarts_seen_ = 0;
   std::shared_ptr<const std::vector<Parameter>> parameters_;

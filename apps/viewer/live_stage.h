@@ -29,7 +29,7 @@ class LiveStage final : public Stage {
   const Snapshot& snapshot() const { return *snapshot_; }
 
  private:
-  void draw_pace(const PanelStyle& style);
+  void draw_pace();
 
   LiveScene scene_;
   const Snapshot* snapshot_;

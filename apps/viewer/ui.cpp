@@ -8,7 +8,7 @@
 namespace pliant_viewer {
 namespace {
 
-constexpr float letter_height = 15.5F;  // units
+constexpr float letter_height = 15;  // units
 
 bool is_dark(const pliant::Colour& background) {
   return 0.2126 * background.red + 0.7152 * background.green + 0.0722 * background.blue < 0.5;
@@ -72,9 +72,13 @@ bool Ui::takes_text() const {
   return context_->IO.WantTextInput;
 }
 
-pliant_render::SignSheet Ui::sheet(float left) const {
-  const Vec2f size = window_.size();
-  return {*ImGui::GetBackgroundDrawList(), *font_, ink_, size.x(), size.y(), left};
+pliant_render::SignSheet Ui::sheet(const Vec2f& picture) const {
+  return {*ImGui::GetBackgroundDrawList(), *font_, ink_, picture.x(), picture.y()};
+}
+
+pliant_render::Vec3f Ui::panel_colour() const {
+  const ImVec4& colour = context_->Style.Colors[ImGuiCol_WindowBg];
+  return {colour.x, colour.y, colour.z};
 }
 
 }  // namespace pliant_viewer

@@ -29,8 +29,9 @@ class Ui {
   bool takes_text() const;
 
   const PanelStyle& style() const { return style_; }
-  /// What signs are drawn onto, behind the panels; `left`: units at the left edge that are covered.
-  pliant_render::SignSheet sheet(float left) const;
+  /// What signs are drawn onto, behind the panels: a picture of this size at the left of the window.
+  pliant_render::SignSheet sheet(const Vec2f& picture) const;
+  pliant_render::Vec3f panel_colour() const;
 
  private:
   Window& window_;

@@ -27,7 +27,17 @@ Viewpoint first_viewpoint(const Stage& stage, const pliant::ViewSettings& look, 
   const Vec3f room = Vec3f::Constant(0.12F * bounds.radius());
   bounds.add(bounds.low - room);
   bounds.add(bounds.high + room);
-  return place_camera(look.camera, bounds, size.x() / size.y(), 0.2F);
+  return place_camera(look.camera, bounds, size.x() / size.y());
+}
+
+/// A magnitude that few are beyond: single vertices beside pins do not take the colours from all others.
+float large_value(std::vector<float> values) {
+  constexpr std::size_t one_of = 200;
+  if (values.empty()) return 0;
+  for (float& value : values) value = std::isfinite(value) ? std::abs(value) : 0;
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>(values.size() - 1 - values.size() / one_of);
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
 }
 
 }  // namespace
@@ -39,7 +49,7 @@ Viewer::Viewer(Window& window, Stage& stage, ViewerOptions options)
       samples_(options.samples.value_or(window.is_software() ? 1 : 4)),
       picture_folder_(std::move(options.picture_folder)),
       ui_(window, look_.background),
-      camera_(first_viewpoint(stage, look_, window.size()), look_.camera.up.cast<float>()),
+      camera_(first_viewpoint(stage, look_, picture_size()), look_.camera.up.cast<float>()),
       hand_(stage.live() != nullptr ? stage.live()->suggested_pull() : 1),
       frame_interval_(1 / most_frames_a_second) {
   if (!stage.knows(look_.colour)) look_.colour = pliant::ColourBy::none;
@@ -115,13 +125,18 @@ float Viewer::panel_width() const {
   return is_panel_open_ ? std::min(300 * ui_.style().unit, 0.45F * window_.size().x()) : 0;
 }
 
+Vec2f Viewer::picture_size() const {
+  const Vec2f size = window_.size();
+  return {size.x() - panel_width(), size.y()};
+}
+
 void Viewer::place_screen() {
-  screen_.size = window_.size();
+  screen_.size = picture_size();
   const bool has_legend =
       pliant_render::make_legend(look_, range_, static_cast<int>(screen_.size.x()), static_cast<int>(screen_.size.y()))
           .has_value();
   const float right = has_legend ? pliant_render::legend_width(static_cast<int>(screen_.size.y())) : 0;
-  screen_.viewpoint = camera_.viewpoint(bounds_, (right - panel_width()) / screen_.size.x());
+  screen_.viewpoint = camera_.viewpoint(bounds_, right / screen_.size.x());
 }
 
 std::array<float, 2> Viewer::colour_range() {
@@ -129,12 +144,11 @@ std::array<float, 2> Viewer::colour_range() {
     return {static_cast<float>((*look_.colour_range)[0]), static_cast<float>((*look_.colour_range)[1])};
   }
   if (const auto known = stage_.range()) return *known;
-  float largest = 0;
-  for (const float value : stage_.frame().content.values) largest = std::max(largest, std::abs(value));
-  return auto_range_.update(look_.colour, largest, Clock::now());
+  return auto_range_.update(look_.colour, large_value(stage_.frame().content.values), Clock::now());
 }
 
 void Viewer::draw() {
+  last_draw_ = Clock::now();
   update_scenery();
   if (is_frame_new_) {
     update_bounds();
@@ -142,19 +156,21 @@ void Viewer::draw() {
     renderer_->set_frame(stage_.frame().content, look_.colour);
     is_frame_new_ = false;
   }
-  const auto [width, height] = window_.framebuffer_size();
-  if (width <= 0 || height <= 0) return;
   place_screen();
+  const auto [full_width, height] = window_.framebuffer_size();
+  const int width =
+      static_cast<int>(std::lround(static_cast<float>(full_width) * screen_.size.x() / window_.size().x()));
+  if (width <= 0 || height <= 0) return;
   if (wants_picture_) write_picture(width, height);
   ui_.begin();
   draw_signs();
   draw_panels();
   const pliant_render::DrawOptions options{screen_.viewpoint, range_, ground_height_, static_cast<float>(height) / 720};
   draw_picture(options, width, height);
+  fill_panel(width, full_width - width, height);
   ui_.end();
   window_.swap();
-  last_draw_ = Clock::now();
-  frames_.add({last_draw_});
+  frames_.add({Clock::now()});
   ++frame_count_;
 }
 
@@ -185,8 +201,20 @@ void Viewer::draw_picture(const pliant_render::DrawOptions& options, int width, 
   target_->show();
 }
 
+/// Faster than by ImGui, whose every pixel is a texture's.
+void Viewer::fill_panel(int left, int width, int height) const {
+  if (width <= 0) return;
+  const Vec3f colour = ui_.panel_colour();
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(left, 0, width, height);
+  glClearColor(colour.x(), colour.y(), colour.z(), 1);
+  glClear(GL_COLOR_BUFFER_BIT);
+  glDisable(GL_SCISSOR_TEST);
+  glViewport(0, 0, left + width, height);
+}
+
 void Viewer::draw_signs() {
-  const pliant_render::SignSheet sheet = ui_.sheet(panel_width());
+  const pliant_render::SignSheet sheet = ui_.sheet(screen_.size);
   const auto legend =
       pliant_render::make_legend(look_, range_, static_cast<int>(sheet.width), static_cast<int>(sheet.height));
   if (legend) draw_legend(*legend, sheet);

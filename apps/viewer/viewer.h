@@ -53,6 +53,8 @@ class Viewer {
   void update_bounds();
   void place_screen();
   float panel_width() const;
+  Vec2f picture_size() const;
+  void fill_panel(int left, int width, int height) const;
   std::array<float, 2> colour_range();
   void draw_picture(const pliant_render::DrawOptions& options, int width, int height);
   void draw_signs();
@@ -68,6 +70,7 @@ class Viewer {
   int samples_;
   std::filesystem::path picture_folder_;
   Ui ui_;
+  bool is_panel_open_ = true;
   OrbitCamera camera_;
   Hand hand_;
   AutoRange auto_range_;
@@ -89,7 +92,6 @@ class Viewer {
   std::string message_;
   Pulse frames_;
   std::uint64_t frame_count_ = 0;
-  bool is_panel_open_ = true;
   bool is_help_open_ = false;
   bool wants_picture_ = false;
 };

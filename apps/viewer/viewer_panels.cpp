@@ -18,21 +18,20 @@ constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlag
 
 void Viewer::draw_panels() {
   if (is_panel_open_) draw_main_panel();
-  const Vec2f size = window_.size();
   if (auto* playback = dynamic_cast<Playback*>(&stage_)) {
-    draw_time_bar(*playback, panel_width(), size.x(), size.y(), ui_.style());
+    draw_time_bar(*playback, screen_.size, ui_.style());
   }
-  if (is_help_open_) is_help_open_ = draw_help(stage_.live() != nullptr, size.x(), size.y(), ui_.style());
+  if (is_help_open_) is_help_open_ = draw_help(stage_.live() != nullptr, screen_.size, ui_.style());
   draw_message();
 }
 
 void Viewer::draw_main_panel() {
-  const float unit = ui_.style().unit;
-  const float margin = 12 * unit;
-  const float width = panel_width() - margin;
-  ImGui::SetNextWindowPos({margin, margin});
-  ImGui::SetNextWindowSizeConstraints({width, 0}, {width, window_.size().y() - 2 * margin});
-  ImGui::Begin("panel", nullptr, fixed);
+  const Vec2f size = window_.size();
+  ImGui::SetNextWindowPos({screen_.size.x(), 0});
+  ImGui::SetNextWindowSize({size.x() - screen_.size.x(), size.y()});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0);
+  ImGui::Begin("panel", nullptr, (fixed & ~ImGuiWindowFlags_AlwaysAutoResize) | ImGuiWindowFlags_NoBackground);
+  ImGui::PopStyleVar();
   const float third = (ImGui::GetContentRegionAvail().x - 2 * ImGui::GetStyle().ItemSpacing.x) / 3;
   if (ImGui::Button(stage_.is_playing() ? "Pause" : "Play", {third, 0})) stage_.play(!stage_.is_playing());
   explain("Space");
@@ -56,11 +55,7 @@ void Viewer::draw_main_panel() {
       hand_.set_stiffness(stiffness, *live);
     }
   }
-  ImGui::Spacing();
-  ImGui::Separator();
-  ImGui::Spacing();
-  if (draw_look_panel(look_, samples_, stage_)) change_colour();
-  ImGui::Spacing();
+  if (section_header("Picture") && draw_look_panel(look_, samples_, stage_)) change_colour();
   ImGui::Separator();
   ImGui::Spacing();
   if (ImGui::Button("Help", {third, 0})) is_help_open_ = !is_help_open_;
@@ -77,13 +72,11 @@ void Viewer::draw_message() {
   std::string text = message_;
   if (text.empty() && stage_.live() != nullptr) text = stage_.live()->shown().note;
   if (text.empty()) return;
-  const Vec2f size = window_.size();
   const float unit = ui_.style().unit;
   const float above = stage_.live() != nullptr ? 20 * unit : 70 * unit;
-  const float left = panel_width();
-  ImGui::SetNextWindowPos({(left + size.x()) / 2, size.y() - above}, ImGuiCond_Always, {0.5F, 1});
+  ImGui::SetNextWindowPos({screen_.size.x() / 2, screen_.size.y() - above}, ImGuiCond_Always, {0.5F, 1});
   ImGui::Begin("message", nullptr, fixed | ImGuiWindowFlags_NoInputs);
-  ImGui::PushTextWrapPos(0.8F * (size.x() - left));
+  ImGui::PushTextWrapPos(0.8F * screen_.size.x());
   ImGui::TextUnformatted(text.c_str());
   ImGui::PopTextWrapPos();
   ImGui::End();

@@ -2,8 +2,8 @@
 
 #include "../simulation/everything.h"
 #include "../simulation/run.h"
-#include "render/signs.h"
 #include "render/quantities.h"
+#include "render/signs.h"
 
 using namespace pliant_render;
 using pliant::ColourBy;

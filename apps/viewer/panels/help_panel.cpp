@@ -43,10 +43,11 @@ void draw_keys(const char* title, std::span<const Key> keys, float column) {
 
 }  // namespace
 
-bool draw_help(bool is_live, float width, float height, const PanelStyle& style) {
+bool draw_help(bool is_live, const Vec2f& picture, const PanelStyle& style) {
   bool is_open = true;
-  ImGui::SetNextWindowPos({width / 2, height / 2}, ImGuiCond_Always, {0.5F, 0.5F});
+  ImGui::SetNextWindowPos({picture.x() / 2, picture.y() / 2}, ImGuiCond_Always, {0.5F, 0.5F});
   ImGui::SetNextWindowFocus();
+  ImGui::SetNextWindowBgAlpha(0.98F);
   ImGui::Begin("Help", &is_open,
                ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoNav);

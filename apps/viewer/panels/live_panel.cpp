@@ -1,5 +1,5 @@
 // The controls of a scene that is simulated: how fast it goes, what takes the time, and its parameters.
-#include <cmath>
+#include <algorithm>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -20,45 +20,56 @@ void row(const char* label, const std::string& value, const char* help = "") {
   ImGui::TextUnformatted(value.c_str());
 }
 
+/// "1.00 × real time", and whether that is less than was asked for.
 std::string pace_text(const Snapshot& snapshot) {
   if (!snapshot.is_playing) return "paused";
   if (!(snapshot.pulse.speed > 0)) return "...";
-  const std::string speed = fmt::format("{:.2f} × real time", snapshot.pulse.speed);
-  return snapshot.is_behind ? speed + ", cannot keep up" : speed;
+  const double speed = snapshot.pulse.speed;
+  const std::string text = fmt::format("{:.{}f} × real time", speed, speed < 10 ? 2 : 0);
+  return snapshot.is_behind ? text + ", all it can" : text;
+}
+
+std::string steps_text(const Snapshot& snapshot) {
+  const Pulse::Means& pulse = snapshot.pulse;
+  if (!(pulse.total > 0)) return "-";
+  if (!snapshot.is_playing) return milliseconds(pulse.total) + " each";
+  return fmt::format("{:.{}f} a second, {} each", pulse.rate, pulse.rate < 10 ? 1 : 0, milliseconds(pulse.total));
 }
 
 }  // namespace
 
-void LiveStage::draw_panel(const PanelStyle& style) {
-  draw_pace(style);
-  ImGui::Separator();
-  ImGui::Spacing();
-  parameters_.draw(*snapshot_, scene_, style);
+void LiveStage::draw_panel(const PanelStyle&) {
+  draw_pace();
+  parameters_.draw(*snapshot_, scene_);
 }
 
-void LiveStage::draw_pace(const PanelStyle&) {
+void LiveStage::draw_pace() {
   const Pulse::Means& pulse = snapshot_->pulse;
-  const double time = snapshot_->frame.time;
-  row("time", fmt::format("{:.2f} s, step {}", time, snapshot_->step));
+  row("time", fmt::format("{:.2f} s, step {}", snapshot_->frame.time, snapshot_->step));
   row("pace", pace_text(*snapshot_), "simulated seconds in a second; at most four steps behind the clock");
-  row("steps", snapshot_->is_playing && pulse.rate > 0 ? fmt::format("{:.0f} a second", pulse.rate) : "-");
-  row("a step", pulse.total > 0 ? milliseconds(pulse.total) : "-", "mean of the last second");
-  if (pulse.total > 0) {
-    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-    row("  local", milliseconds(pulse.local), "projections of the constraints, and collecting them");
-    row("  global", milliseconds(pulse.global), "triangular solves");
-    if (pulse.factor > 0) row("  factor", milliseconds(pulse.factor), "after changes of stiffness, pins, time step");
-    ImGui::PopStyleColor();
-  }
+  row("steps", steps_text(*snapshot_), "means of the last second");
+  const double rest = std::max(0.0, pulse.total - pulse.local - pulse.global - pulse.factor);
+  const std::string help = fmt::format(
+      "milliseconds of a step, by phase\nlocal: projections of the constraints, and collecting them\n"
+      "global: triangular solves\nfactor: after changes of stiffness, pins, time step\nother: {:.2f} ms: forces, "
+      "prediction",
+      1e3 * rest);
+  row_label("phases", help);
+  ImGui::TextDisabled("%s", pulse.total > 0 ? fmt::format("local {:.3g}, global {:.3g}, factor {:.2g} ms",
+                                                          1e3 * pulse.local, 1e3 * pulse.global, 1e3 * pulse.factor)
+                                                  .c_str()
+                                            : "-");
   row_label("speed", "simulated seconds in a second, where the machine can; Ctrl + click: type a number");
   double speed = speed_;
   constexpr double slowest = 0.01, fastest = 10;
+  ImGui::SetNextItemWidth(-ImGui::GetFrameHeightWithSpacing() - ImGui::CalcTextSize("max").x);
   ImGui::BeginDisabled(is_unlimited_);
   bool has_changed = ImGui::SliderScalar("##speed", ImGuiDataType_Double, &speed, &slowest, &fastest, "%.3g ×",
                                          ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat);
   ImGui::EndDisabled();
-  row_label("", "");
-  has_changed |= ImGui::Checkbox("as fast as it can", &is_unlimited_);
+  ImGui::SameLine();
+  has_changed |= ImGui::Checkbox("max", &is_unlimited_);
+  explain("as fast as the machine can");
   if (!has_changed || !(speed > 0)) return;
   speed_ = speed;
   const double wanted = is_unlimited_ ? Pacer::unlimited : speed_;

@@ -26,16 +26,18 @@ bool draw_look_panel(pliant::ViewSettings& look, int& samples, const Stage& stag
   ImGui::SameLine();
   if (ImGui::Checkbox("flat", &is_flat)) look.shading = is_flat ? pliant::Shading::flat : pliant::Shading::smooth;
   explain("L: each face by itself");
+  ImGui::SameLine();
+  bool is_smoothed = samples > 1;
+  if (ImGui::Checkbox("soft", &is_smoothed)) samples = is_smoothed ? 4 : 1;
+  explain(
+      "soft edges of everything: four samples a pixel; off by itself where the processor draws, which takes twice as "
+      "long for them");
   row_label("", "");
   ImGui::Checkbox("ground", &look.ground);
   ImGui::SameLine();
   ImGui::BeginDisabled(!look.ground);
   ImGui::Checkbox("shadow", &look.shadow);
   ImGui::EndDisabled();
-  row_label("", "");
-  bool is_smoothed = samples > 1;
-  if (ImGui::Checkbox("smooth edges", &is_smoothed)) samples = is_smoothed ? 4 : 1;
-  explain("four samples a pixel; off by itself where the processor draws, which takes twice as long for them");
   return has_changed;
 }
 

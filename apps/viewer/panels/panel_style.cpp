@@ -5,7 +5,7 @@
 namespace pliant_viewer {
 namespace {
 
-constexpr float label_share = 0.36F;  // of a row
+constexpr float label_share = 0.35F;  // of a row
 
 void set_colours(bool is_dark) {
   ImVec4* colours = ImGui::GetStyle().Colors;
@@ -27,7 +27,7 @@ void set_colours(bool is_dark) {
   colours[ImGuiCol_Header] = shade(0.0F);
   colours[ImGuiCol_HeaderHovered] = shade(0.06F);
   colours[ImGuiCol_HeaderActive] = shade(0.10F);
-  colours[ImGuiCol_SliderGrab] = tint(0.85F);
+  colours[ImGuiCol_SliderGrab] = tint(0.55F);
   colours[ImGuiCol_SliderGrabActive] = accent;
   colours[ImGuiCol_CheckMark] = accent;
   colours[ImGuiCol_TextSelectedBg] = tint(0.30F);
@@ -52,13 +52,20 @@ void set_panel_style(bool is_dark, float unit) {
   now.WindowRounding = 8;
   now.FrameRounding = now.GrabRounding = now.PopupRounding = 4;
   now.WindowPadding = {12, 10};
-  now.FramePadding = {7, 4};
-  now.ItemSpacing = {8, 6};
-  now.GrabMinSize = 9;
+  now.FramePadding = {7, 2.5F};
+  now.ItemSpacing = {8, 4};
+  now.ItemInnerSpacing = {5, 4};
+  now.IndentSpacing = 12;
+  now.GrabMinSize = 7;
   now.ScrollbarSize = 10;
   now.WindowBorderSize = 1;
   now.ScaleAllSizes(unit);
   set_colours(is_dark);
+}
+
+bool section_header(const char* title, bool is_open_at_first) {
+  ImGui::Separator();
+  return ImGui::CollapsingHeader(title, is_open_at_first ? ImGuiTreeNodeFlags_DefaultOpen : 0);
 }
 
 void row_label(const std::string& label, const std::string& help) {

@@ -17,6 +17,9 @@ void set_panel_style(bool is_dark, float unit);
 /// A name at the left of a row; the widget that follows takes the rest of it. The text under the mouse explains it.
 void row_label(const std::string& label, const std::string& help);
 
+/// A line that folds and unfolds what follows; returns whether that is to be drawn.
+bool section_header(const char* title, bool is_open_at_first = true);
+
 /// The text under the mouse, for the widget before.
 void explain(const std::string& help);
 

@@ -51,52 +51,54 @@ void ParameterPanel::forget() {
   edited_.clear();
 }
 
-void ParameterPanel::draw(const Snapshot& snapshot, LiveScene& live, const PanelStyle&) {
+void ParameterPanel::draw(const Snapshot& snapshot, LiveScene& live) {
   std::erase_if(edited_, [&](const auto& entry) { return entry.second.command <= snapshot.commands; });
-  const std::vector<Parameter>& all = *snapshot.parameters;
-  for (auto begin = all.begin(); begin != all.end();) {
-    const auto end = std::find_if(begin, all.end(), [&](const auto& other) { return other.section != begin->section; });
-    draw_section({begin, end}, snapshot, live);
+  const std::span<const Parameter> all = *snapshot.parameters;
+  const auto draw_those = [&](const char* title, std::string_view kind) {
+    const auto is_meant = [kind](const Parameter& parameter) { return parameter.section.starts_with(kind); };
+    const auto begin = std::ranges::find_if(all, is_meant);
+    const auto end = std::find_if_not(begin, all.end(), is_meant);
+    if (begin == end || !section_header(title)) return;
+    draw_sections({begin, end}, live);
+  };
+  draw_those("Solver", "settings");
+  draw_those("Stiffness", "group:");
+  draw_those("Forces", "force:");
+}
+
+void ParameterPanel::draw_sections(std::span<const Parameter> sections, LiveScene& live) {
+  for (auto begin = sections.begin(); begin != sections.end();) {
+    const auto end =
+        std::find_if(begin, sections.end(), [&](const auto& other) { return other.section != begin->section; });
+    draw_section({begin, end}, live);
     begin = end;
   }
 }
 
-/// Of one stiffness a row, of several parameters a heading and a row each.
-void ParameterPanel::draw_section(std::span<const Parameter> section, const Snapshot& snapshot, LiveScene& live) {
+/// Of a stiffness one row with the name of the group, of forces a row each below their name.
+void ParameterPanel::draw_section(std::span<const Parameter> section, LiveScene& live) {
   const Parameter& first = section.front();
   ImGui::PushID(first.section.c_str());
   if (first.section.starts_with("group:")) {
-    const std::size_t colon = first.section.find(':');
-    draw_row(first, first.section.substr(colon + 1), snapshot, live);
-    ImGui::PopID();
-    return;
-  }
-  const bool is_solver = first.section == "settings";
-  if (!is_solver) {
-    ImGui::Spacing();
-    ImGui::TextDisabled("%s", first.heading.c_str());
-  }
-  const auto draw_those = [&](bool common) {
-    for (const Parameter& parameter : section) {
-      if (is_common(parameter) == common) draw_row(parameter, label_of(parameter.name), snapshot, live);
-    }
-  };
-  draw_those(true);
-  if (is_solver) {
-    if (ImGui::TreeNode("more of the solver")) {
+    draw_row(first, first.section.substr(first.section.find(':') + 1), live);
+  } else {
+    const bool is_solver = first.section == "settings";
+    if (!is_solver) ImGui::TextDisabled("%s", first.heading.c_str());
+    const auto draw_those = [&](bool common) {
+      for (const Parameter& parameter : section) {
+        if (is_common(parameter) == common) draw_row(parameter, label_of(parameter.name), live);
+      }
+    };
+    draw_those(true);
+    if (is_solver && ImGui::TreeNode("more")) {
       draw_those(false);
       ImGui::TreePop();
     }
-    ImGui::Spacing();
-    const bool has_groups = std::ranges::any_of(
-        *snapshot.parameters, [](const Parameter& parameter) { return parameter.section.starts_with("group:"); });
-    if (has_groups) ImGui::TextDisabled("stiffness");
   }
   ImGui::PopID();
 }
 
-void ParameterPanel::draw_row(const Parameter& parameter, const std::string& label, const Snapshot& snapshot,
-                              LiveScene& live) {
+void ParameterPanel::draw_row(const Parameter& parameter, const std::string& label, LiveScene& live) {
   const std::string key = parameter.key();
   const auto found = edited_.find(key);
   pliant::Vec3 value = found == edited_.end() ? parameter.value : found->second.value;
@@ -134,7 +136,6 @@ void ParameterPanel::draw_row(const Parameter& parameter, const std::string& lab
   const std::uint64_t command =
       live.post([key, value](Workshop& workshop) { workshop.session.set(key, value); }, LiveScene::Kind::changes);
   edited_[key] = {value, command};
-  (void)snapshot;
 }
 
 bool ParameterPanel::draw_real(const Parameter& parameter, double& value) {

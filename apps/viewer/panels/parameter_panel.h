@@ -10,7 +10,7 @@ namespace pliant_viewer {
 class ParameterPanel {
  public:
   /// Draws all parameters of a snapshot, and posts what is changed.
-  void draw(const Snapshot& snapshot, LiveScene& live, const PanelStyle& style);
+  void draw(const Snapshot& snapshot, LiveScene& live);
   /// Forgets the ranges of the sliders, which are chosen by the values that are first seen.
   void forget();
 
@@ -20,8 +20,9 @@ class ParameterPanel {
     pliant::Vec3 value;
     std::uint64_t command;
   };
-  void draw_section(std::span<const Parameter> section, const Snapshot& snapshot, LiveScene& live);
-  void draw_row(const Parameter& parameter, const std::string& label, const Snapshot& snapshot, LiveScene& live);
+  void draw_sections(std::span<const Parameter> sections, LiveScene& live);
+  void draw_section(std::span<const Parameter> section, LiveScene& live);
+  void draw_row(const Parameter& parameter, const std::string& label, LiveScene& live);
   bool draw_real(const Parameter& parameter, double& value);
 
   std::map<std::string, Edited> edited_;

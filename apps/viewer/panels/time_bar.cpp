@@ -5,10 +5,10 @@
 
 namespace pliant_viewer {
 
-void draw_time_bar(Playback& playback, float left, float right, float bottom, const PanelStyle& style) {
+void draw_time_bar(Playback& playback, const Vec2f& picture, const PanelStyle& style) {
   const float margin = 12 * style.unit;
-  ImGui::SetNextWindowPos({left + margin, bottom - margin}, ImGuiCond_Always, {0, 1});
-  ImGui::SetNextWindowSize({right - left - 2 * margin, 0});
+  ImGui::SetNextWindowPos({margin, picture.y() - margin}, ImGuiCond_Always, {0, 1});
+  ImGui::SetNextWindowSize({picture.x() - 2 * margin, 0});
   ImGui::Begin("time bar", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                    ImGuiWindowFlags_NoNav);
