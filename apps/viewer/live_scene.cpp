@@ -78,6 +78,8 @@ void LiveScene::work() {
     wait_for_work();
     if (is_closing_) return;
     run_commands();
+    // What was asked for is shown to have come before a step that may take long.
+    if (is_dirty_ && commands_published_ != commands_done_) publish();
     if (time_to_step() <= Seconds(0)) step();
     // A window that has not looked yet is shown newer things now and then, and whenever there is time.
     const bool is_fresh = has_news() && Clock::now() - published_ < freshness;
@@ -186,7 +188,7 @@ void LiveScene::publish() {
   back_.is_behind = workshop_.is_playing && pacer_.steps_behind() > Pacer::most_behind - 1.5;
   back_.note = !note_.empty() ? note_ : session_.note();
   back_.restarts = workshop_.restarts;
-  back_.commands = commands_done_;
+  back_.commands = commands_published_ = commands_done_;
   {
     const std::lock_guard lock(mutex_);
     std::swap(back_, middle_);

@@ -97,6 +97,7 @@ class LiveScene {
   Clock::time_point step_began_{};
   Clock::time_point published_{};
   std::uint64_t commands_done_ = 0;
+  std::uint64_t commands_published_ = 0;
   std::uint64_t restarts_seen_ = 0;
   std::shared_ptr<const std::vector<Parameter>> parameters_;
   Clock::time_point parameters_listed_{};
