@@ -10,7 +10,7 @@ packages=(
   libeigen3-dev libfmt-dev zlib1g-dev nlohmann-json3-dev libcli11-dev doctest-dev
   libsuitesparse-dev libopenblas-serial-dev
   pkg-config libepoxy-dev libegl-dev libglfw3-dev libgl1 libgl1-mesa-dri libimgui-dev libstb-dev fonts-inter ffmpeg
-  python3 python3-numpy python3-jsonschema assimp-utils
+  python3 python3-numpy python3-jsonschema assimp-utils xvfb xauth xdotool
 )
 dev_packages=(ccache clang clang-format clang-tidy git libclang-rt-14-dev libtinyobjloader-dev)
 # Whoever has them from elsewhere could not install Debian's beside them.

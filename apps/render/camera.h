@@ -11,6 +11,7 @@ struct Bounds {
   Vec3f high = -low;
 
   void add(const Vec3f& point) {
+    if (!point.allFinite()) return;  // past what single precision holds
     low = low.cwiseMin(point);
     high = high.cwiseMax(point);
   }

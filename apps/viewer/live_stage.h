@@ -27,6 +27,7 @@ class LiveStage final : public Stage {
   LiveScene* live() override { return &scene_; }
 
   const Snapshot& snapshot() const { return *snapshot_; }
+  const ParameterPanel& parameter_panel() const { return parameters_; }
 
  private:
   void draw_pace();

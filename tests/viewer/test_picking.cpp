@@ -80,8 +80,8 @@ TEST_CASE("what is drawn stands where the mouse finds it, also where a place of 
       float count = 0;
       for (int y = 0; y < image.height; ++y) {
         for (int x = 0; x < image.width; ++x) {
-          const auto at = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
-                               static_cast<std::size_t>(x));
+          const auto at =
+              3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x));
           // Marks are a purer red than the sheet.
           if (image.pixels[at] < 90 || image.pixels[at + 1] > 45) continue;
           sum += Vec2f(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);

@@ -1,6 +1,6 @@
-#include <doctest/doctest.h>
-
 #include <random>
+
+#include <doctest/doctest.h>
 
 #include "pliant/core/error.h"
 #include "viewer/session.h"
@@ -54,7 +54,8 @@ Pull pull_at_middle(const Session& session, Real stiffness) {
 Vec3f grip(const Session& session, const Pull& pull) {
   Vec3f sum = Vec3f::Zero();
   for (int i = 0; i < 3; ++i) {
-    sum += pull.point.weights[i] * position(session, static_cast<Index>(pull.point.vertices[static_cast<std::size_t>(i)]));
+    sum +=
+        pull.point.weights[i] * position(session, static_cast<Index>(pull.point.vertices[static_cast<std::size_t>(i)]));
   }
   return sum;
 }

@@ -46,9 +46,10 @@ std::string help_of(const Parameter& parameter) {
 
 }  // namespace
 
-void ParameterPanel::forget() {
-  ranges_.clear();
-  edited_.clear();
+std::optional<std::array<float, 4>> ParameterPanel::place_of(const std::string& key) const {
+  const auto found = places_.find(key);
+  if (found == places_.end()) return {};
+  return found->second;
 }
 
 void ParameterPanel::draw(const Snapshot& snapshot, LiveScene& live) {
@@ -131,6 +132,8 @@ void ParameterPanel::draw_row(const Parameter& parameter, const std::string& lab
           ImGui::DragScalarN(id.c_str(), ImGuiDataType_Double, value.data(), 3, 0.05F, nullptr, nullptr, "%.3g");
       break;
   }
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  places_[key] = {low.x, low.y, high.x, high.y};
   if (parameter.kind == ParameterKind::vector) explain(parameter.unit);
   if (!has_changed || !value.allFinite()) return;
   const std::uint64_t command =

@@ -1,6 +1,8 @@
 #pragma once
 // A slider for each parameter of the simulation.
+#include <array>
 #include <map>
+#include <optional>
 
 #include "viewer/live_scene.h"
 #include "viewer/panels/panel_style.h"
@@ -11,8 +13,8 @@ class ParameterPanel {
  public:
   /// Draws all parameters of a snapshot, and posts what is changed.
   void draw(const Snapshot& snapshot, LiveScene& live);
-  /// Forgets the ranges of the sliders, which are chosen by the values that are first seen.
-  void forget();
+  /// Where the widget of a parameter stands in the window, as of the last drawing: left, top, right, bottom.
+  std::optional<std::array<float, 4>> place_of(const std::string& key) const;
 
  private:
   /// What a slider shows while the simulation has not taken it over yet.
@@ -26,7 +28,8 @@ class ParameterPanel {
   bool draw_real(const Parameter& parameter, double& value);
 
   std::map<std::string, Edited> edited_;
-  std::map<std::string, std::array<double, 2>> ranges_;
+  std::map<std::string, std::array<double, 2>> ranges_;  // of sliders, by the values that were seen first
+  std::map<std::string, std::array<float, 4>> places_;
 };
 
 }  // namespace pliant_viewer

@@ -1,0 +1,134 @@
+"""pliant view, as its users meet it: what it says where there is no display, no OpenGL, no scene, and how it ends."""
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+PLIANT = os.environ["PLIANT"]
+# The drivers keep memory to the end of the program.
+ENVIRONMENT = os.environ | {"ASAN_OPTIONS": "detect_leaks=0"}
+WITHOUT_DISPLAY = {key: value for key, value in ENVIRONMENT.items() if key not in ("DISPLAY", "WAYLAND_DISPLAY")}
+QUAD = "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nf 1 2 3 4\n"
+
+
+def view(*arguments, environment=ENVIRONMENT):
+    return subprocess.run([PLIANT, "view", *map(str, arguments)], capture_output=True, text=True, env=environment,
+                          timeout=600, check=False)
+
+
+class WithoutDisplay(unittest.TestCase):
+    def test_it_says_so_and_names_the_command_that_needs_none(self):
+        result = view("flag", environment=WITHOUT_DISPLAY)
+        self.assertEqual(result.returncode, 2)
+        self.assertEqual(result.stderr.count("\n"), 1)
+        self.assertIn("there is no display", result.stderr)
+        self.assertIn("`pliant render`", result.stderr)
+
+    def test_a_display_that_is_not_there_is_named(self):
+        result = view("flag", environment=WITHOUT_DISPLAY | {"DISPLAY": ":9876"})
+        self.assertEqual(result.returncode, 2)
+        self.assertIn(":9876", result.stderr)
+        self.assertIn("`pliant render`", result.stderr)
+
+
+@unittest.skipUnless(shutil.which("Xvfb"), "Xvfb is not installed")
+class WithDisplay(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        read_end, write_end = os.pipe()
+        cls.server = subprocess.Popen(["Xvfb", "-displayfd", str(write_end), "-screen", "0", "900x700x24"],
+                                      pass_fds=[write_end], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        os.close(write_end)
+        with os.fdopen(read_end) as pipe:
+            number = pipe.readline().strip()
+        cls.environment = WITHOUT_DISPLAY | {"DISPLAY": ":" + number}
+        cls.folder = pathlib.Path(tempfile.mkdtemp())
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.server.terminate()
+        cls.server.wait()
+        shutil.rmtree(cls.folder)
+
+    def refuse(self, *arguments, says, environment=None):
+        result = view(*arguments, environment=environment or self.environment)
+        self.assertEqual(result.returncode, 2, result.stderr)
+        self.assertEqual(result.stdout, "")
+        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+        for text in says:
+            self.assertIn(text, result.stderr)
+
+    def test_what_cannot_be_shown_is_refused(self):
+        broken = self.folder / "broken.json"
+        broken.write_text('{ "pliant": 1, "bodies": [ { } ] }')
+        empty = self.folder / "empty.obj"
+        empty.write_text("")
+        self.refuse("nothing_of_the_kind", says=["neither a file nor a built-in scene"])
+        self.refuse(broken, says=["bodies[0]"])
+        self.refuse(empty, says=["empty"])
+        self.refuse(self.folder, says=["run.json"])
+        self.refuse("flag", "--size", "3", says=["--size"])
+        self.refuse("flag", "--samples", "17", says=["--samples"])
+        self.refuse("flag", "--set", "nonsense=1", says=["nonsense"])
+        mesh = self.folder / "quad.obj"
+        mesh.write_text(QUAD)
+        self.refuse(mesh, "--set", "steps=1", says=["--set"])
+
+    def test_without_opengl_it_says_what_is_missing(self):
+        self.refuse("flag", says=["OpenGL", "`pliant render`"],
+                    environment=self.environment | {"MESA_GL_VERSION_OVERRIDE": "2.1"})
+
+    def start(self, *arguments):
+        return subprocess.Popen([PLIANT, "view", *map(str, arguments)], env=self.environment, stdout=subprocess.PIPE,
+                                stderr=subprocess.PIPE, text=True)
+
+    def wait_for_window(self, process, name):
+        while process.poll() is None:
+            found = subprocess.run(["xdotool", "search", "--onlyvisible", "--name", name], env=self.environment,
+                                   capture_output=True, text=True, check=False)
+            if found.stdout.strip():
+                return found.stdout.split()[0]
+            time.sleep(0.05)
+        self.fail(process.stderr.read())
+
+    @unittest.skipUnless(shutil.which("xdotool"), "xdotool is not installed")
+    def test_an_interrupt_ends_it_and_so_does_its_key(self):
+        process = self.start("flag")
+        self.wait_for_window(process, "flag - Pliant")
+        process.send_signal(signal.SIGTERM)
+        _, errors = process.communicate()
+        self.assertEqual((process.returncode, errors), (130, ""))
+        process = self.start("chain")
+        window = self.wait_for_window(process, "chain - Pliant")
+        while process.poll() is None:
+            subprocess.run(["xdotool", "windowfocus", window, "key", "ctrl+q"], env=self.environment,
+                           stderr=subprocess.DEVNULL, check=False)
+            time.sleep(0.1)
+        _, errors = process.communicate()
+        self.assertEqual((process.returncode, errors), (0, ""))
+
+    @unittest.skipUnless(shutil.which("xdotool"), "xdotool is not installed")
+    def test_a_mesh_and_a_run_are_shown(self):
+        mesh = self.folder / "shown.obj"
+        mesh.write_text(QUAD)
+        process = self.start(mesh)
+        self.wait_for_window(process, "shown - Pliant")
+        process.terminate()
+        output, _ = process.communicate()
+        self.assertIn("cloth of 4 vertices", output)
+        run = self.folder / "run"
+        subprocess.run([PLIANT, "run", "flag", "--steps", "5", "--out", run, "--quiet"], check=True)
+        process = self.start(run, "--colour", "speed")
+        self.wait_for_window(process, "Pliant")
+        process.terminate()
+        process.communicate()
+        self.assertEqual(process.returncode, 130)
+
+
+if __name__ == "__main__":
+    sys.exit(unittest.main())

@@ -1,0 +1,353 @@
+// The real window on a display of its own, driven by real events of mouse and keys (xdotool). CTest runs it under
+// xvfb-run. Nothing is said about how long things take: what is waited for comes, or the test is ended from outside.
+#define DOCTEST_CONFIG_IMPLEMENT
+#include <cstdlib>
+#include <filesystem>
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+#include <stb/stb_image.h>
+
+#include "../support/temporary_folder.h"
+#include "pliant/core/error.h"
+#include "pliant/pliant.h"
+#include "pliant/recorder/animation.h"
+#include "viewer/live_stage.h"
+#include "viewer/playback.h"
+#include "viewer/viewer.h"
+
+using namespace pliant_viewer;
+using pliant::Scene;
+
+namespace {
+
+constexpr pliant::Index side = 12;
+
+/// A sheet of a metre, hung by two corners; it comes to rest soon.
+Scene make_sheet() {
+  Scene scene;
+  scene.name = "sheet";
+  scene.simulation.set_settings({.iterations = 20, .threads = 1});
+  const pliant::BodyId sheet = scene.simulation.add_body(
+      pliant::grid({.columns = side, .rows = side, .plane = pliant::Plane::xz}), pliant::Mass::area_density(0.3));
+  scene.simulation.add(sheet, pliant::TriangleStrain{.stiffness = 500}, "stretch");
+  scene.simulation.add(sheet, pliant::HingeBending{.stiffness = 1e-3}, "bend");
+  scene.simulation.add(sheet, pliant::Position{.on = {side * (side - 1), side * side - 1}}, "hooks");
+  scene.simulation.add_force(std::make_unique<pliant::Gravity>());
+  scene.simulation.add_wind(sheet, {.velocity = {0, 0, 0}, .drag = 3});
+  return scene;
+}
+
+void xdotool(const std::string& arguments) {
+  REQUIRE(std::system(("xdotool " + arguments).c_str()) == 0);  // NOLINT(cert-env33-c): what the test is about
+}
+
+/// A window with a stage, and hands on mouse and keys.
+struct Desk {
+  pliant_tests::TemporaryFolder folder;
+  Window window{"Pliant test", 1000, 640};
+  LiveStage stage;
+  Viewer viewer;
+
+  explicit Desk(MakeScene make = make_sheet, int samples = 1)
+      : stage(std::move(make), 1, true, Window::wake),
+        viewer(window, stage, {.look = stage.look(), .samples = samples, .picture_folder = folder.path()}) {
+    turn_until([&] { return viewer.frame_count() > 3; });
+    xdotool("search --sync --name 'Pliant test' windowfocus");
+    turns(3);
+  }
+  void turns(int count) {
+    for (int i = 0; i < count; ++i) viewer.turn(0.05);
+  }
+  void turn_until(const std::function<bool()>& is_so) {
+    while (!is_so()) viewer.turn(0.05);
+  }
+  void key(const std::string& name) {
+    xdotool("key " + name);
+    turns(3);
+  }
+  void move(const Vec2f& to) {
+    xdotool(fmt::format("mousemove {} {}", std::lround(to.x()), std::lround(to.y())));
+    turns(2);
+  }
+  void press(int button = 1) {
+    xdotool(fmt::format("mousedown {}", button));
+    turns(2);
+  }
+  void release(int button = 1) {
+    xdotool(fmt::format("mouseup {}", button));
+    turns(2);
+  }
+  void click(const Vec2f& at) {
+    move(at);
+    press();
+    release();
+  }
+  void drag(const Vec2f& from, const Vec2f& to, int button = 1) {
+    move(from);
+    press(button);
+    move(from + 0.3F * (to - from));
+    move(to);
+  }
+  const Snapshot& shown() { return stage.snapshot(); }
+  Vec3f position(std::uint32_t vertex) { return shown().frame.content.positions[vertex]; }
+  Vec2f place(std::uint32_t vertex) { return viewer.screen().place_of(position(vertex)).value(); }
+  bool is_pinned(std::uint32_t vertex) { return std::ranges::binary_search(shown().pins, vertex); }
+  double parameter(std::string_view key) {
+    for (const Parameter& parameter : *shown().parameters) {
+      if (parameter.key() == key) return parameter.value[0];
+    }
+    throw std::logic_error("no such parameter");
+  }
+  /// Lets the sheet hang still, and pauses.
+  void settle() {
+    stage.live()->post([](Workshop& workshop) { workshop.pacer.set_speed(Pacer::unlimited); });
+    turn_until([&] { return shown().step > 1500; });
+    stage.live()->post([](Workshop& workshop) { workshop.pacer.set_speed(1); });
+  }
+  struct Picture {
+    int width = 0, height = 0;
+    std::vector<unsigned char> pixels;
+  };
+  /// What the window shows, saved by its own key.
+  Picture picture() {
+    const std::size_t before = folder.file_count();
+    key("p");
+    turn_until([&] { return folder.file_count() > before; });
+    const auto file = folder.path() / fmt::format("pliant-{:04}.png", before + 1);
+    Picture picture;
+    int channels = 0;
+    unsigned char* data = stbi_load(file.c_str(), &picture.width, &picture.height, &channels, 3);
+    REQUIRE(data != nullptr);
+    picture.pixels.assign(data, data + 3 * static_cast<std::ptrdiff_t>(picture.width) * picture.height);
+    stbi_image_free(data);
+    return picture;
+  }
+};
+
+/// Share of the pixels that differ by more than a little.
+double difference(const Desk::Picture& a, const Desk::Picture& b) {
+  if (a.width != b.width || a.height != b.height) return 1;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < a.pixels.size(); i += 3) {
+    int most = 0;
+    for (std::size_t c = 0; c < 3; ++c) most = std::max(most, std::abs(int{a.pixels[i + c]} - int{b.pixels[i + c]}));
+    count += most > 12 ? 1 : 0;
+  }
+  return static_cast<double>(count) / (static_cast<double>(a.pixels.size()) / 3);
+}
+
+constexpr std::uint32_t middle = side * 5 + 6;
+
+}  // namespace
+
+TEST_CASE("the surface follows the mouse that pulls at it, and comes back") {
+  Desk desk;
+  desk.settle();
+  const Vec3f home = desk.position(middle);
+  const Vec2f from = desk.place(middle);
+  const Vec2f to = from + Vec2f(90, 60);
+  const float depth = desk.viewer.screen().depth_of(home);
+  desk.drag(from, to);
+  REQUIRE(desk.viewer.hand().pull().has_value());
+  const Vec3f target = desk.viewer.hand().pull()->target;
+  // The mouse counts whole pixels; the target is under it, at the depth of what was taken hold of.
+  CHECK((desk.viewer.screen().place_of(target).value() - to).norm() < 1);
+  CHECK(std::abs(desk.viewer.screen().depth_of(target) - depth) < 0.02F);
+  desk.turn_until([&] { return desk.shown().pull.has_value() && (desk.place(middle) - to).norm() < 45; });
+  CHECK((desk.shown().pull->target - target).norm() < 1e-4F);
+  desk.release();
+  desk.turn_until([&] { return !desk.shown().pull.has_value(); });
+  desk.turn_until([&] { return (desk.position(middle) - home).norm() < 0.05F; });
+}
+
+TEST_CASE("a click pins, another lets go, and a pin is dragged to where the mouse takes it") {
+  Desk desk;
+  desk.settle();
+  const Vec3f before = desk.position(middle);
+  desk.click(desk.place(middle));
+  desk.turn_until([&] { return desk.shown().pins.size() == 3; });
+  // The sheet hangs almost still: the nearest vertex is the one that was aimed at.
+  CHECK(desk.is_pinned(middle));
+  const Vec2f to = desk.place(middle) + Vec2f(-50, -70);
+  desk.drag(desk.place(middle), to);
+  desk.turn_until([&] { return (desk.place(middle) - to).norm() < 2; });
+  desk.release();
+  CHECK((desk.position(middle) - before).norm() > 0.05F);
+  const Vec3f there = desk.position(middle);
+  const std::int64_t step = desk.shown().step;
+  desk.turn_until([&] { return desk.shown().step > step + 30; });
+  CHECK((desk.position(middle) - there).norm() < 1e-5F);
+  desk.click(desk.place(middle));
+  desk.turn_until([&] { return !desk.is_pinned(middle); });
+  desk.turn_until([&] { return (desk.position(middle) - there).norm() > 0.02F; });
+}
+
+TEST_CASE("keys play, step, start over, colour and help") {
+  Desk desk;
+  desk.key("space");
+  desk.turn_until([&] { return !desk.shown().is_playing; });
+  const std::int64_t step = desk.shown().step;
+  desk.key("s");
+  desk.turn_until([&] { return desk.shown().step == step + 1; });
+  desk.key("r");
+  desk.turn_until([&] { return desk.shown().step == 0 && desk.shown().restarts == 1; });
+  desk.key("c");
+  CHECK(desk.viewer.look().colour == pliant::ColourBy::stretch);
+  desk.turn_until([&] { return desk.shown().frame.content.values.size() == side * side; });
+  desk.key("w");
+  CHECK(desk.viewer.look().wireframe);
+  desk.key("h");
+  CHECK(desk.viewer.is_help_open());
+  desk.key("Escape");
+  CHECK_FALSE(desk.viewer.is_help_open());
+  desk.key("space");
+  desk.turn_until([&] { return desk.shown().is_playing && desk.shown().step > 5; });
+  desk.key("ctrl+q");
+  CHECK(desk.window.wants_to_close());
+}
+
+TEST_CASE("a slider changes what it stands for, and a restart keeps that") {
+  Desk desk;
+  const std::string name = "settings.iterations";
+  CHECK(desk.parameter(name) == 20);
+  const auto rect = desk.stage.parameter_panel().place_of(name);
+  REQUIRE(rect.has_value());
+  const float y = ((*rect)[1] + (*rect)[3]) / 2;
+  desk.click({(*rect)[2] - 3, y});
+  desk.turn_until([&] { return desk.parameter(name) > 60; });
+  desk.key("r");
+  desk.turn_until([&] { return desk.shown().restarts == 1; });
+  CHECK(desk.parameter(name) > 60);
+  desk.key("shift+r");
+  desk.turn_until([&] { return desk.shown().restarts == 2; });
+  desk.turn_until([&] { return desk.parameter(name) == 20; });
+  // Beside the sliders nothing of this has turned the camera or taken hold of the sheet.
+  CHECK(desk.shown().pins.size() == 2);
+}
+
+TEST_CASE("the camera turns, moves, nears, and frames everything again") {
+  Desk desk;
+  desk.key("space");
+  const Desk::Picture first = desk.picture();
+  CHECK(difference(first, desk.picture()) < 0.001);
+  const auto view = [&] { return desk.viewer.screen().viewpoint; };
+  const Vec3f eye = view().eye;
+  desk.drag({100, 500}, {220, 470});  // beside the sheet
+  desk.release();
+  CHECK((view().eye - eye).norm() > 0.2F);
+  CHECK((view().eye - view().target).norm() == doctest::Approx((eye - view().target).norm()).epsilon(1e-3));
+  CHECK(view().right().z() == doctest::Approx(0).epsilon(1e-3));  // the horizon stays level
+  CHECK(difference(first, desk.picture()) > 0.02);
+  desk.drag({100, 500}, {140, 500}, 2);
+  desk.release(2);
+  CHECK((view().target - view().eye).norm() > 0);
+  xdotool("click 4 click 4");
+  desk.turns(3);
+  const float near = (view().eye - view().target).norm();
+  CHECK(near < 0.9F * (eye - view().target).norm() + 1);
+  desk.key("f");
+  for (const Vec3f& p : desk.shown().frame.content.positions) {
+    const auto place = desk.viewer.screen().place_of(p);
+    REQUIRE(place.has_value());
+    CHECK(place->x() > 0);
+    CHECK(place->x() < desk.viewer.screen().size.x());
+    CHECK(place->y() > 0);
+    CHECK(place->y() < desk.viewer.screen().size.y());
+  }
+}
+
+TEST_CASE("the window may be resized, hidden and closed while it simulates; picking is right after it") {
+  for (const int samples : {1, 4}) {
+    Desk desk(make_sheet, samples);
+    for (const char* size : {"400 300", "333 641", "980 600"}) {
+      xdotool(fmt::format("search --name 'Pliant test' windowsize --sync {}", size));
+      desk.turns(5);
+    }
+    CHECK(desk.window.size().x() == 980);
+    desk.settle();
+    desk.click(desk.place(middle));
+    desk.turn_until([&] { return desk.shown().pins.size() == 3; });
+    CHECK(desk.is_pinned(middle));
+    xdotool("search --name 'Pliant test' windowunmap");
+    desk.turns(5);
+    const std::int64_t step = desk.shown().step;
+    desk.turn_until([&] { return desk.shown().step > step + 10; });
+    xdotool("search --name 'Pliant test' windowmap");
+    desk.turns(5);
+  }
+}
+
+TEST_CASE("yanking the mouse across the screen explodes nothing") {
+  Desk desk;
+  desk.settle();
+  const Vec3f home = desk.position(middle);
+  for (int i = 0; i < 30; ++i) desk.key("plus");  // the stiffest pull there is
+  desk.drag(desk.place(middle), {5, 5});
+  for (const Vec2f& to : {Vec2f(650, 600), Vec2f(3, 400), Vec2f(690, 3), Vec2f(300, 630), Vec2f(20, 20)}) {
+    desk.move(to);
+  }
+  desk.release();
+  for (const Vec3f& p : desk.shown().frame.content.positions) REQUIRE(p.allFinite());
+  desk.stage.live()->post([](Workshop& workshop) { workshop.pacer.set_speed(Pacer::unlimited); });
+  desk.turn_until([&] { return (desk.position(middle) - home).norm() < 0.1F; });
+  CHECK(desk.shown().note.empty());
+}
+
+TEST_CASE("a run is played at its own times, frame by frame, and from where the time bar is clicked") {
+  const Scene scene = make_sheet();
+  const pliant::Mesh& mesh = scene.simulation.body(pliant::BodyId{0}).mesh;
+  std::vector<pliant::Positions> frames;
+  std::vector<pliant::Real> times;
+  for (int i = 0; i < 41; ++i) {
+    frames.push_back(mesh.vertices.rowwise() + Eigen::RowVector3d(0.02 * i, 0, 0));
+    times.push_back(0.01 * i);
+  }
+  Playback stage(pliant_render::RunFrames(pliant::animate(mesh, "run", pliant::PointCache::from_frames(frames, times))),
+                 {}, true);
+  Window window("Pliant test", 1000, 640);
+  Viewer viewer(window, stage, {});
+  const auto turn_until = [&](const std::function<bool()>& is_so) {
+    while (!is_so()) viewer.turn(0.05);
+  };
+  const auto x = [&] { return stage.frame().content.positions[0].x(); };
+  const float start = static_cast<float>(mesh.vertices(0, 0));
+  turn_until([&] { return !stage.is_playing(); });  // to its end, where it stops
+  CHECK(stage.place() == 40);
+  CHECK(x() == doctest::Approx(start + 0.8F));
+  xdotool("search --sync --name 'Pliant test' windowfocus key Left key Left");
+  turn_until([&] { return stage.place() == 38; });
+  viewer.turn(0.05);
+  CHECK(x() == doctest::Approx(start + 0.76F));
+  xdotool("key r");
+  turn_until([&] { return stage.place() == 0; });
+  // The bar lies at the lower edge; its slider begins behind the button.
+  xdotool("mousemove 390 615");
+  for (int i = 0; i < 3; ++i) viewer.turn(0.05);
+  xdotool("mousedown 1");
+  turn_until([&] { return stage.place() > 10; });
+  xdotool("mouseup 1");
+  for (int i = 0; i < 3; ++i) viewer.turn(0.05);
+  CHECK(stage.place() < 30);
+  xdotool("key c");
+  turn_until([&] { return viewer.look().colour == pliant::ColourBy::stretch; });
+  xdotool("key c");
+  turn_until([&] { return viewer.look().colour == pliant::ColourBy::speed; });  // energy is not known of a run
+  viewer.turn(0.05);
+  CHECK(stage.frame().content.values.front() == doctest::Approx(2));
+  CHECK(stage.range().value()[1] == doctest::Approx(2));
+}
+
+int main(int argc, char** argv) {
+  try {
+    Window::require_display();
+  } catch (const pliant::Error&) {
+    fmt::print("skipped: there is no display\n");
+    return 77;
+  }
+  if (std::system("xdotool version > /dev/null 2>&1") != 0) {  // NOLINT(cert-env33-c,concurrency-mt-unsafe)
+    fmt::print("skipped: xdotool is not installed\n");
+    return 77;
+  }
+  return doctest::Context(argc, argv).run();
+}
