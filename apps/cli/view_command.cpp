@@ -29,6 +29,22 @@ struct ViewArguments : LookArguments {
   bool is_paused = false;
 };
 
+void check(const ViewArguments& arguments) {
+  std::error_code ignored;
+  const bool exists = fs::exists(arguments.scene, ignored);
+  const bool is_mesh_name = pliant::mesh_format(arguments.scene).has_value();
+  if (is_mesh_name && !exists) {
+    pliant::fail_input(pliant::printable_place(arguments.scene) + ": no such file; give a mesh that there is");
+  }
+  const pliant::ImportOptions plain;
+  const bool is_placed = arguments.import.scale != plain.scale || arguments.import.up != plain.up;
+  if (is_placed && !is_mesh_name) {
+    pliant::fail_input(
+        "--scale, --up: only meshes are scaled and turned; a scene says it of its own, see docs/scenes.md");
+  }
+  if (arguments.overrides.steps) pliant::fail_input("--steps: a window goes on until it is closed; leave it out");
+}
+
 /// Threads that draw and those that simulate shall not take the processors from each other: the driver that draws with
 /// the processor leaves one to the simulation, unless its user has said something else.
 int spare_threads() {
@@ -91,6 +107,9 @@ int show(pliant_viewer::Window& window, pliant_viewer::Stage& stage, const ViewA
 
 int view_run(const ViewArguments& arguments) {
   const pliant::ViewSettings look = look_of_run(arguments);
+  if (arguments.colour == pliant::ColourBy::energy) {
+    pliant::fail_input("--colour: a run does not say the energy of its vertices; give its scene, or another colour");
+  }
   pliant_viewer::Playback stage(pliant_render::RunFrames(pliant::read_run(arguments.scene)), look,
                                 !arguments.is_paused);
   pliant_viewer::Window window(stage.name() + " - Pliant", look.size[0], look.size[1]);
@@ -107,6 +126,7 @@ int view_scene(const ViewArguments& arguments) {
 }
 
 int view(const ViewArguments& arguments) {
+  check(arguments);
   catch_interrupts();
   limit_software_driver();
   pliant_viewer::Window::require_display();  // before anyone waits for a scene to be read

@@ -99,7 +99,7 @@ std::array<float, 2> quantity_range(ColourBy colour, std::span<const float> valu
 
 std::vector<Rgb> colour_map(ColourBy colour) {
   // Lightness rises evenly in the first; the second is as dark at both ends.
-  constexpr std::array<Rgb, 6> rising = {Rgb{24, 28, 74},   Rgb{44, 76, 132},  Rgb{33, 130, 141},
+  constexpr std::array<Rgb, 6> rising = {Rgb{58, 62, 128},  Rgb{55, 96, 150},  Rgb{38, 138, 148},
                                          Rgb{68, 178, 124}, Rgb{158, 215, 98}, Rgb{250, 238, 150}};
   constexpr std::array<Rgb, 5> both_ways = {Rgb{33, 86, 163}, Rgb{134, 178, 216}, Rgb{240, 238, 233},
                                             Rgb{231, 151, 119}, Rgb{176, 42, 48}};

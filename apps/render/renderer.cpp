@@ -16,10 +16,16 @@ constexpr float marker_radius = 5.0F;
 constexpr int ground_rings = 24;
 constexpr int ground_sectors = 48;
 constexpr float shadow_darkness = 0.34F;
-constexpr float lift = 2e-4F;  // of depth, so that lines stand before what they lie on
+constexpr float lift = 1.5e-3F;  // towards the eye, of the radius of the scene, for lines on what they lie on
 
 Vec3f tone_of(const pliant::Colour& colour) {
   return {static_cast<float>(colour.red), static_cast<float>(colour.green), static_cast<float>(colour.blue)};
+}
+
+/// What shifts a point at the middle of the scene that far towards the eye, in the depths of OpenGL.
+float depth_shift(const Viewpoint& view, const Bounds& bounds, float shift) {
+  const float depth = std::max((bounds.center() - view.eye).dot(view.forward()), view.near);
+  return shift * 2 * view.far * view.near / ((view.far - view.near) * depth * depth);
 }
 
 Vec3f light_of(const pliant::ViewSettings& look) {
@@ -235,7 +241,7 @@ void Renderer::draw_lines(const pliant::ViewSettings& look, const DrawOptions& o
   line_.use();
   line_.set("camera", camera);
   line_.set("picture", picture);
-  line_.set("lift", lift);
+  line_.set("lift", depth_shift(options.viewpoint, bounds_, lift * bounds_.radius()));
   line_.set("low", options.range[0]);
   line_.set("high", options.range[1]);
   line_.set("colours", 0);
@@ -263,7 +269,7 @@ void Renderer::draw_markers(const DrawOptions& options, const Mat4f& camera, con
   marker_.use();
   marker_.set("camera", camera);
   marker_.set("picture", picture);
-  marker_.set("lift", 4 * lift);
+  marker_.set("lift", depth_shift(options.viewpoint, bounds_, 4 * lift * bounds_.radius()));
   marker_.set("radius", marker_radius * options.scale);
   marker_.set("tone", Vec3f(0.86F, 0.10F, 0.13F));
   glBindVertexArray(markers_array_.id());

@@ -45,26 +45,35 @@ void Hand::press(const MouseEvent& event, const Place& place) {
   }
 }
 
-void Hand::press_left(const Vec2f& at, const Place& place) {
-  action_ = Action::orbit;
-  if (place.live == nullptr || place.snapshot->scenery == nullptr) return;
+Hand::Aim Hand::aim(const Vec2f& at, const Place& place) {
+  if (place.live == nullptr || place.snapshot->scenery == nullptr) return {};
   const std::span<const Vec3f> positions = place.snapshot->frame.content.positions;
-  const auto picked = pick_surface(*place.snapshot->scenery, positions, place.screen, at, rope_reach * place.unit);
-  const auto pin = pick_vertex(place.snapshot->pins, positions, place.screen, at, pin_reach * place.unit);
+  Aim aim;
+  aim.point = pick_surface(*place.snapshot->scenery, positions, place.screen, at, rope_reach * place.unit);
+  aim.pin = pick_vertex(place.snapshot->pins, positions, place.screen, at, pin_reach * place.unit);
+  if (!aim.pin || !aim.point) return aim;
   // A pin behind the surface is not the one that is meant.
   constexpr float nearly = 1.02F;
-  const bool is_hidden =
-      pin && picked &&
-      place.screen.depth_of(positions[*pin]) > nearly * place.screen.depth_of(picked->position(positions));
-  if (pin && !is_hidden) {
+  const float depth = place.screen.depth_of(aim.point->position(positions));
+  if (place.screen.depth_of(positions[*aim.pin]) > nearly * depth) aim.pin.reset();
+  return aim;
+}
+
+void Hand::press_left(const Vec2f& at, const Place& place) {
+  action_ = Action::orbit;
+  const Aim aimed = aim(at, place);
+  const std::span<const Vec3f> positions = place.snapshot != nullptr
+                                               ? std::span<const Vec3f>(place.snapshot->frame.content.positions)
+                                               : std::span<const Vec3f>();
+  if (aimed.pin) {
     action_ = Action::touch_pin;
-    vertex_ = *pin;
-    depth_ = place.screen.depth_of(positions[*pin]);
-    grip_ = positions[*pin] - place.screen.point_at(at, depth_);
-  } else if (picked) {
+    vertex_ = *aimed.pin;
+    depth_ = place.screen.depth_of(positions[vertex_]);
+    grip_ = positions[vertex_] - place.screen.point_at(at, depth_);
+  } else if (aimed.point) {
     action_ = Action::touch_body;
-    point_ = *picked;
-    depth_ = place.screen.depth_of(picked->position(positions));
+    point_ = *aimed.point;
+    depth_ = place.screen.depth_of(point_.position(positions));
     grip_ = Vec3f::Zero();
   }
 }
@@ -79,7 +88,7 @@ void Hand::move(const Vec2f& to, const Place& place) {
   const bool is_click = (to - pressed_).norm() <= slack * place.unit;
   switch (action_) {
     case Action::orbit:
-      place.camera.orbit(by);
+      place.camera.orbit(by, place.floor);
       break;
     case Action::pan:
       place.camera.pan(by);

@@ -16,8 +16,15 @@ class Hand {
     OrbitCamera& camera;
     LiveScene* live;  ///< null: nothing can be taken hold of
     const Snapshot* snapshot;
-    float unit = 1;  ///< of the mouse, to one at the common size of letters
+    float unit = 1;                ///< of the mouse, to one at the common size of letters
+    std::optional<float> floor{};  ///< that the camera stays above [m]
   };
+  /// What a press of the left button would take hold of: a pin, else a point of a body, else nothing.
+  struct Aim {
+    std::optional<std::uint32_t> pin{};
+    std::optional<SurfacePoint> point{};
+  };
+  static Aim aim(const Vec2f& at, const Place& place);
   void handle(const MouseEvent& event, const Place& place);
   /// Sends what has moved since the last call.
   void flush(const Place& place);

@@ -67,9 +67,14 @@ bool LiveScene::has_news() const {
   return has_news_;
 }
 
+Seconds LiveScene::step_age() const {
+  const Clock::rep began = step_began_;
+  return began == 0 ? Seconds(0) : Clock::now() - Clock::time_point(Clock::duration(began));
+}
+
 /// Asked before each iteration, on the thread of the simulation.
 bool LiveScene::shall_give_up() const {
-  return is_closing_ || ends_waiting_ > 0 || (changes_waiting_ > 0 && Clock::now() - step_began_ > patience);
+  return is_closing_ || ends_waiting_ > 0 || (changes_waiting_ > 0 && step_age() > patience);
 }
 
 void LiveScene::work() {
@@ -117,6 +122,7 @@ void LiveScene::run_commands() {
   }
   for (const auto& [command, kind] : commands) {
     const bool was_playing = workshop_.is_playing;
+    const double speed = pacer_.speed();
     try {
       command(workshop_);
     } catch (const std::exception& error) {
@@ -127,6 +133,7 @@ void LiveScene::run_commands() {
       pulse_.clear();
       note_.clear();
     }
+    if (pacer_.speed() != speed) pulse_.clear();
     ++commands_done_;
     is_dirty_ = true;
   }
@@ -141,7 +148,7 @@ void LiveScene::run_commands() {
 
 void LiveScene::step() {
   if (workshop_.single_steps > 0) --workshop_.single_steps;
-  step_began_ = Clock::now();
+  step_began_ = Clock::now().time_since_epoch().count();
   try {
     const double before = session_.simulation().state().time;
     const pliant::StepReport report = session_.step();
@@ -155,6 +162,7 @@ void LiveScene::step() {
       workshop_.is_playing = false;
     }
   }
+  step_began_ = 0;
   is_dirty_ = true;
 }
 

@@ -65,6 +65,8 @@ class LiveScene {
   const Snapshot& shown() const { return front_; }
   /// Whether there is one that newest() has not returned yet.
   bool has_news() const;
+  /// How long the step under way has taken; zero between steps.
+  Seconds step_age() const;
   const pliant::ViewSettings& look() const { return look_; }
   const std::string& name() const { return name_; }
   Real suggested_pull() const { return suggested_pull_; }
@@ -94,7 +96,6 @@ class LiveScene {
   Pulse pulse_;
   std::shared_ptr<const pliant_render::Scenery> scenery_;
   std::string note_;
-  Clock::time_point step_began_{};
   Clock::time_point published_{};
   std::uint64_t commands_done_ = 0;
   std::uint64_t commands_published_ = 0;
@@ -109,6 +110,7 @@ class LiveScene {
   std::condition_variable work_;
   std::deque<std::pair<Command, Kind>> queue_;
   std::uint64_t commands_posted_ = 0;
+  std::atomic<Clock::rep> step_began_ = 0;  // 0: between steps
   std::atomic<int> changes_waiting_ = 0;
   std::atomic<int> ends_waiting_ = 0;
   std::atomic<bool> is_closing_ = false;

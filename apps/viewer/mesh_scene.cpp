@@ -1,6 +1,8 @@
 #include "viewer/mesh_scene.h"
 
 #include <algorithm>
+#include <functional>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -48,16 +50,21 @@ Kind kind_of(const Mesh& mesh) {
   return pliant::boundary_edges(mesh).empty() ? Kind::skin : Kind::cloth;
 }
 
-/// Vertices of a band at the top or at the bottom.
-std::vector<Index> band(const Mesh& mesh, bool at_top, Real share) {
+/// The highest vertices, or the lowest: those in a band of some share of the height, and at least some share of all.
+std::vector<Index> band(const Mesh& mesh, bool at_top, Real share_of_height, Real share_of_vertices) {
+  constexpr Index least = 3;
+  const Real sign = at_top ? 1 : -1;
+  std::vector<Index> vertices(static_cast<std::size_t>(mesh.vertex_count()));
+  std::iota(vertices.begin(), vertices.end(), Index{0});
+  std::ranges::stable_sort(vertices, std::greater{}, [&](Index i) { return sign * mesh.vertices(i, 2); });
   const pliant::BoundingBox box = pliant::bounding_box(mesh.vertices);
-  const Real low = box.min.z(), high = box.max.z();
-  const Real reach = share * (high - low);
-  std::vector<Index> vertices;
-  for (Index i = 0; i < mesh.vertex_count(); ++i) {
-    const Real z = mesh.vertices(i, 2);
-    if (at_top ? z >= high - reach : z <= low + reach) vertices.push_back(i);
-  }
+  const Real edge = sign * mesh.vertices(vertices.front(), 2) - share_of_height * (box.max.z() - box.min.z());
+  const auto in_band = static_cast<std::size_t>(
+      std::ranges::count_if(vertices, [&](Index i) { return sign * mesh.vertices(i, 2) >= edge; }));
+  const auto wanted = std::max<std::size_t>(
+      least, static_cast<std::size_t>(share_of_vertices * static_cast<Real>(mesh.vertex_count())));
+  vertices.resize(std::min(vertices.size(), std::max(in_band, wanted)));
+  std::ranges::sort(vertices);
   return vertices;
 }
 
@@ -79,9 +86,9 @@ std::vector<Index> corners(const Mesh& mesh) {
 
 std::vector<Index> pins_of(const Mesh& mesh, Kind kind) {
   const pliant::BoundingBox box = pliant::bounding_box(mesh.vertices);
-  if (kind == Kind::solid || kind == Kind::skin) return band(mesh, false, 0.03);
+  if (kind == Kind::solid || kind == Kind::skin) return band(mesh, false, 0.03, 0.02);
   if (box.max.z() - box.min.z() < 0.02 * box.diagonal()) return corners(mesh);
-  return band(mesh, true, 0.01);
+  return band(mesh, true, 0.01, 0.005);
 }
 
 void add_constraints(pliant::Simulation& simulation, pliant::BodyId body, Kind kind, const Material& material) {

@@ -10,6 +10,8 @@ namespace pliant_viewer {
 namespace {
 
 constexpr float turn_a_height = 1.2F * std::numbers::pi_v<float>;  // [rad]
+constexpr float tilt_a_height = 0.7F * std::numbers::pi_v<float>;  // [rad]
+constexpr float clearance = 0.02F;                                 // of the distance, over the floor
 constexpr float steepest = 0.49F * std::numbers::pi_v<float>;      // of the view, from the horizon [rad]
 constexpr float least_distance = 1e-4F;                            // [m]
 constexpr float largest_distance = 1e7F;                           // [m]
@@ -19,14 +21,19 @@ constexpr float largest_distance = 1e7F;                           // [m]
 OrbitCamera::OrbitCamera(const pliant_render::Viewpoint& viewpoint, const Vec3f& up)
     : viewpoint_(viewpoint), axis_(up.normalized()) {}
 
-void OrbitCamera::orbit(const Vec2f& by) {
+void OrbitCamera::orbit(const Vec2f& by, std::optional<float> floor) {
   const Vec3f forward = viewpoint_.forward();
   const float height = std::asin(std::clamp(-forward.dot(axis_), -1.0F, 1.0F));  // of the eye over the horizon
-  const float turned =
-      std::clamp(height + by.y() * turn_a_height, std::min(-steepest, height), std::max(steepest, height));
+  const float distance = (viewpoint_.target - viewpoint_.eye).norm();
+  float lowest = -steepest;
+  if (floor) {
+    const float below = (*floor - viewpoint_.target.dot(axis_)) / std::max(distance, least_distance);
+    lowest = std::max(lowest, std::asin(std::clamp(below + clearance, -1.0F, 1.0F)));
+  }
+  lowest = std::min(lowest, height);
+  const float turned = std::clamp(height + by.y() * tilt_a_height, lowest, std::max(steepest, height));
   const Eigen::AngleAxisf sideways(-by.x() * turn_a_height, axis_);
   const Eigen::AngleAxisf upwards(-(turned - height), viewpoint_.right().normalized());
-  const float distance = (viewpoint_.target - viewpoint_.eye).norm();
   const Vec3f new_forward = (sideways * (upwards * forward)).normalized();
   const Vec3f new_up = sideways * (upwards * viewpoint_.up);
   viewpoint_.eye = viewpoint_.target - distance * new_forward;

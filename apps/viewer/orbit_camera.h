@@ -10,7 +10,8 @@ class OrbitCamera {
   OrbitCamera(const pliant_render::Viewpoint& viewpoint, const Vec3f& up);
 
   /// Turns about the target: `by` in shares of the height of the picture, to the right and down.
-  void orbit(const Vec2f& by);
+  /// The eye does not go below `floor`, a height along the up direction, unless it is there already.
+  void orbit(const Vec2f& by, std::optional<float> floor = {});
   /// Moves sideways, so that what is at the depth of the target keeps under the mouse; in shares of the height.
   void pan(const Vec2f& by);
   /// Goes to `factor` times the distance from the target, > 0.

@@ -5,6 +5,11 @@
 #include "render/quantities.h"
 
 namespace pliant_viewer {
+namespace {
+
+constexpr Seconds rest_at_end{0.5};  // before it begins again
+
+}  // namespace
 
 Playback::Playback(pliant_render::RunFrames frames, pliant::ViewSettings look, bool is_playing)
     : frames_(std::move(frames)),
@@ -33,7 +38,9 @@ bool Playback::refresh(Clock::time_point now) {
     while (next + 1 < count() && frames_.time(next + 1) <= time) ++next;
     if (next != place_) is_stale_ = true;
     place_ = next;
-    if (place_ + 1 == count()) play(false);
+    const double end = frames_.time(count() - 1);
+    if (place_ + 1 == count() && !is_looping_) play(false);
+    if (is_looping_ && time > end + speed_ * rest_at_end.count()) go_to(0);
   }
   if (!is_stale_) return false;
   frame_ = frames_.frame(place_, colour_);
@@ -43,7 +50,8 @@ bool Playback::refresh(Clock::time_point now) {
 
 Seconds Playback::time_to_news(Clock::time_point now) const {
   if (is_stale_) return Seconds(0);
-  if (!is_playing_ || place_ + 1 >= count()) return Seconds::max();
+  if (!is_playing_) return Seconds::max();
+  if (place_ + 1 >= count()) return rest_at_end;
   return Seconds(std::max(0.0, (frames_.time(place_ + 1) - run_time(now)) / speed_));
 }
 

@@ -32,6 +32,8 @@ class Playback final : public Stage {
   void go_to(std::size_t frame);
   double speed() const { return speed_; }
   void set_speed(double speed);
+  bool is_looping() const { return is_looping_; }
+  void set_looping(bool on) { is_looping_ = on; }
   /// Of everything, in all frames.
   const pliant_render::Bounds& bounds() const { return bounds_; }
 
@@ -47,6 +49,7 @@ class Playback final : public Stage {
   std::map<pliant::ColourBy, std::array<float, 2>> ranges_;
   pliant::ColourBy colour_;
   bool is_playing_;
+  bool is_looping_ = true;
   double speed_ = 1;
   std::size_t place_ = 0;
   bool is_stale_ = true;

@@ -158,8 +158,8 @@ pliant::BodyId Session::body_of(Index vertex) const {
 }
 
 Real suggest_pull_stiffness(const pliant::Simulation& simulation) {
-  constexpr Real weight_at_stretch = 10 * 9.81;  // [m/s²]: the spring holds ten times the weight
-  constexpr Real stretch = 0.1;                  // of the bodies' size
+  constexpr Real weight_at_stretch = 3 * 9.81;  // [m/s²]: the spring holds three times the weight
+  constexpr Real stretch = 0.1;                 // of the bodies' size
   Real mass = 0;
   for (const Real of_vertex : simulation.state().masses) mass += of_vertex;
   const pliant::Positions& x = simulation.state().positions;

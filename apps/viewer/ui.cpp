@@ -64,6 +64,14 @@ bool Ui::has_panel_at(const Vec2f& place) const {
   return false;
 }
 
+Vec2f Ui::mouse() const {
+  return {context_->IO.MousePos.x, context_->IO.MousePos.y};
+}
+
+void Ui::show_hand() {
+  ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+}
+
 bool Ui::holds_mouse() const {
   return context_->ActiveId != 0;
 }

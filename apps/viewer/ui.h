@@ -28,6 +28,11 @@ class Ui {
   bool holds_mouse() const;
   bool takes_text() const;
 
+  /// Where the mouse is, beyond the window's edges too.
+  Vec2f mouse() const;
+  /// Turns the arrow of the mouse into a hand, for this frame.
+  static void show_hand();
+
   const PanelStyle& style() const { return style_; }
   /// What signs are drawn onto, behind the panels: a picture of this size at the left of the window.
   pliant_render::SignSheet sheet(const Vec2f& picture) const;

@@ -32,7 +32,7 @@ Viewpoint first_viewpoint(const Stage& stage, const pliant::ViewSettings& look, 
 
 /// A magnitude that few are beyond: single vertices beside pins do not take the colours from all others.
 float large_value(std::vector<float> values) {
-  constexpr std::size_t one_of = 200;
+  constexpr std::size_t one_of = 20;
   if (values.empty()) return 0;
   for (float& value : values) value = std::isfinite(value) ? std::abs(value) : 0;
   const auto place = values.begin() + static_cast<std::ptrdiff_t>(values.size() - 1 - values.size() / one_of);
@@ -50,6 +50,7 @@ Viewer::Viewer(Window& window, Stage& stage, ViewerOptions options)
       picture_folder_(std::move(options.picture_folder)),
       ui_(window, look_.background),
       camera_(first_viewpoint(stage, look_, picture_size()), look_.camera.up.cast<float>()),
+      first_camera_(camera_),
       hand_(stage.live() != nullptr ? stage.live()->suggested_pull() : 1),
       frame_interval_(1 / most_frames_a_second) {
   if (!stage.knows(look_.colour)) look_.colour = pliant::ColourBy::none;
@@ -101,6 +102,7 @@ void Viewer::update_scenery() {
   if (stage_.restarts() != restarts_) {
     restarts_ = stage_.restarts();
     hand_.cancel();
+    has_ground_ = false;
   }
   if (stage_.scenery() == scenery_) return;
   scenery_ = stage_.scenery();
@@ -109,7 +111,6 @@ void Viewer::update_scenery() {
 }
 
 void Viewer::update_bounds() {
-  const bool is_first = bounds_.is_empty();
   bounds_ = pliant_render::bounds_of(stage_.frame().content.positions);
   if (look_.ground_height) {
     ground_height_ = static_cast<float>(*look_.ground_height);
@@ -118,11 +119,14 @@ void Viewer::update_bounds() {
   // A little below everything, and lower where something falls.
   if (bounds_.is_empty()) return;
   const float below = bounds_.low.z() - 0.03F * bounds_.radius();
-  ground_height_ = is_first ? bounds_.low.z() - 0.10F * bounds_.radius() : std::min(ground_height_, below);
+  ground_height_ = has_ground_ ? std::min(ground_height_, below) : bounds_.low.z() - 0.10F * bounds_.radius();
+  has_ground_ = true;
 }
 
 float Viewer::panel_width() const {
-  return is_panel_open_ ? std::min(300 * ui_.style().unit, 0.45F * window_.size().x()) : 0;
+  constexpr float width = 316, least_window = 640;  // a smaller window is left to the picture
+  const float unit = ui_.style().unit;
+  return is_panel_open_ && window_.size().x() >= least_window * unit ? width * unit : 0;
 }
 
 Vec2f Viewer::picture_size() const {
@@ -217,8 +221,15 @@ void Viewer::draw_signs() {
   const pliant_render::SignSheet sheet = ui_.sheet(screen_.size);
   const auto legend =
       pliant_render::make_legend(look_, range_, static_cast<int>(sheet.width), static_cast<int>(sheet.height));
+  sheet.list.PushClipRect({0, 0}, {sheet.width, sheet.height});
+  draw_marks(sheet);
+  sheet.list.PopClipRect();
   if (legend) draw_legend(*legend, sheet);
   if (stage_.frame().wind) draw_wind(*stage_.frame().wind, screen_.viewpoint, sheet);
+}
+
+/// What the mouse holds, is about to take hold of, and has asked for.
+void Viewer::draw_marks(const pliant_render::SignSheet& sheet) {
   LiveScene* live = stage_.live();
   if (live == nullptr) return;
   const std::vector<Vec3f>& positions = stage_.frame().content.positions;
@@ -230,6 +241,11 @@ void Viewer::draw_signs() {
   for (const std::uint32_t vertex : hand_.pending(live->shown())) {
     draw_ring(screen_, positions[vertex], unit, sheet.list);
   }
+  const Vec2f mouse = ui_.mouse();
+  if (hand_.is_busy() || ui_.has_panel_at(mouse) || (mouse.array() < 0).any() || mouse.x() > screen_.size.x()) return;
+  const Hand::Aim aim = Hand::aim(mouse, place_of_mouse());
+  if (aim.pin) draw_ring(screen_, positions[*aim.pin], unit, sheet.list);
+  if (aim.pin || aim.point) Ui::show_hand();
 }
 
 /// Draws the picture and the signs as they are, without panels, and reads it back.

@@ -47,6 +47,7 @@ class Viewer {
   void toggle_colour();
   void change_colour();
   void frame_everything();
+  void view_as_at_first();
 
   void draw();
   void update_scenery();
@@ -58,6 +59,7 @@ class Viewer {
   std::array<float, 2> colour_range();
   void draw_picture(const pliant_render::DrawOptions& options, int width, int height);
   void draw_signs();
+  void draw_marks(const pliant_render::SignSheet& sheet);
   void draw_panels();
   void draw_main_panel();
   void draw_message();
@@ -72,6 +74,7 @@ class Viewer {
   Ui ui_;
   bool is_panel_open_ = true;
   OrbitCamera camera_;
+  OrbitCamera first_camera_;
   Hand hand_;
   AutoRange auto_range_;
   std::optional<pliant_render::Renderer> renderer_;
@@ -83,6 +86,7 @@ class Viewer {
   pliant_render::Bounds bounds_;  // of the frame that is shown
   std::array<float, 2> range_ = {0, 1};
   float ground_height_ = 0;
+  bool has_ground_ = false;  // at a height that suits what is shown
   Screen screen_;
   bool is_frame_new_ = true;
   int draws_left_ = 0;  // after something was touched: the panels need one or two more to settle

@@ -15,7 +15,12 @@ constexpr double stiffer = 1.5;  // a key
 
 Hand::Place Viewer::place_of_mouse() {
   LiveScene* live = stage_.live();
-  return {screen_, camera_, live, live != nullptr ? &live->shown() : nullptr, ui_.style().unit};
+  return {screen_,
+          camera_,
+          live,
+          live != nullptr ? &live->shown() : nullptr,
+          ui_.style().unit,
+          look_.ground ? std::optional(ground_height_) : std::nullopt};
 }
 
 void Viewer::take_input() {
@@ -50,7 +55,7 @@ void Viewer::take_key(const KeyEvent& event) {
     case GLFW_KEY_R:
       return stage_.restart(!event.shift);
     case GLFW_KEY_F:
-      return frame_everything();
+      return event.shift ? view_as_at_first() : frame_everything();
     case GLFW_KEY_C:
       return toggle_colour();
     case GLFW_KEY_W:
@@ -79,7 +84,13 @@ void Viewer::take_key(const KeyEvent& event) {
   }
 }
 
+void Viewer::view_as_at_first() {
+  camera_ = first_camera_;
+}
+
 void Viewer::frame_everything() {
+  has_ground_ = false;
+  update_bounds();
   camera_.frame(bounds_, screen_.aspect(), screen_.viewpoint.inset);
 }
 

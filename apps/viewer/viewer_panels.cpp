@@ -17,7 +17,7 @@ constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlag
 }  // namespace
 
 void Viewer::draw_panels() {
-  if (is_panel_open_) draw_main_panel();
+  if (panel_width() > 0) draw_main_panel();
   if (auto* playback = dynamic_cast<Playback*>(&stage_)) {
     draw_time_bar(*playback, screen_.size, ui_.style());
   }
@@ -40,21 +40,22 @@ void Viewer::draw_main_panel() {
   explain("S");
   ImGui::SameLine();
   if (ImGui::Button("Restart", {third, 0})) stage_.restart(true);
-  explain(stage_.live() != nullptr ? "R: from the start, with the values that are set here\n"
+  explain(stage_.live() != nullptr ? "R: from the start, with the scene's pins and the values that are set here\n"
                                      "Shift + R: the scene's file is read again"
                                    : "R: to the first frame");
   ImGui::Spacing();
-  stage_.draw_panel(ui_.style());
   if (LiveScene* live = stage_.live()) {
-    row_label("pull", "+ and −: stiffness of the spring that the mouse pulls with");
+    row_label("pull", "+ and −: stiffness of the spring by which the mouse pulls");
     double stiffness = hand_.stiffness();
     const double low = live->suggested_pull() / 1e3, high = live->suggested_pull() * 1e6;
-    if (ImGui::SliderScalar("##pull", ImGuiDataType_Double, &stiffness, &low, &high, "%.3g N/m",
+    if (ImGui::SliderScalar("##pull", ImGuiDataType_Double, &stiffness, &low, &high,
+                            number_format(stiffness, "N/m").c_str(),
                             ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat) &&
         stiffness > 0) {
       hand_.set_stiffness(stiffness, *live);
     }
   }
+  stage_.draw_panel(ui_.style());
   if (section_header("Picture") && draw_look_panel(look_, samples_, stage_)) change_colour();
   ImGui::Separator();
   ImGui::Spacing();
@@ -67,14 +68,16 @@ void Viewer::draw_main_panel() {
   ImGui::End();
 }
 
-/// What was done, or went wrong, at the lower edge.
+/// What was done, or went wrong, at the upper edge.
 void Viewer::draw_message() {
   std::string text = message_;
-  if (text.empty() && stage_.live() != nullptr) text = stage_.live()->shown().note;
+  if (const LiveScene* live = stage_.live(); text.empty() && live != nullptr) {
+    const double age = live->step_age().count();
+    text = age > 1 ? fmt::format("a step has taken {:.0f} s so far; fewer iterations end it", age) : live->shown().note;
+  }
   if (text.empty()) return;
   const float unit = ui_.style().unit;
-  const float above = stage_.live() != nullptr ? 20 * unit : 70 * unit;
-  ImGui::SetNextWindowPos({screen_.size.x() / 2, screen_.size.y() - above}, ImGuiCond_Always, {0.5F, 1});
+  ImGui::SetNextWindowPos({screen_.size.x() / 2, 16 * unit}, ImGuiCond_Always, {0.5F, 0});
   ImGui::Begin("message", nullptr, fixed | ImGuiWindowFlags_NoInputs);
   ImGui::PushTextWrapPos(0.8F * screen_.size.x());
   ImGui::TextUnformatted(text.c_str());

@@ -41,7 +41,7 @@ class WithDisplay(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         read_end, write_end = os.pipe()
-        cls.server = subprocess.Popen(["Xvfb", "-displayfd", str(write_end), "-screen", "0", "900x700x24"],
+        cls.server = subprocess.Popen(["Xvfb", "-displayfd", str(write_end), "-screen", "0", "900x700x24", "-noreset"],
                                       pass_fds=[write_end], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         os.close(write_end)
         with os.fdopen(read_end) as pipe:

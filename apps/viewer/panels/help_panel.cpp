@@ -16,15 +16,16 @@ struct Key {
 constexpr std::array<Key, 4> hand_keys = {Key{"drag a body", "pull at it by a spring; it stays at its depth"},
                                           Key{"click a body", "pin the nearest vertex"},
                                           Key{"click a pin", "let it go"}, Key{"drag a pin", "move it"}};
-constexpr std::array<Key, 4> camera_keys = {
+constexpr std::array<Key, 5> camera_keys = {
     Key{"drag beside, right drag", "turn about the middle"}, Key{"middle or Shift drag", "move sideways"},
-    Key{"wheel", "nearer or further away"}, Key{"F", "everything in the picture"}};
-constexpr std::array<Key, 5> live_keys = {
-    Key{"Space", "play or pause"}, Key{"S or →", "one step"}, Key{"R", "start over with the values that are set"},
-    Key{"Shift + R", "read the scene's file again, and start over"}, Key{"+ and −", "stiffer or softer pull"}};
+    Key{"wheel", "nearer or further away"}, Key{"F", "everything in the picture"}, Key{"Shift + F", "as at the start"}};
+constexpr std::array<Key, 5> live_keys = {Key{"Space", "play or pause"}, Key{"S or →", "one step"},
+                                          Key{"R", "start over: the scene's pins, the values that are set"},
+                                          Key{"Shift + R", "read the scene's file again, and start over"},
+                                          Key{"+ and −", "stiffer or softer pull"}};
 constexpr std::array<Key, 3> run_keys = {Key{"Space", "play or pause"}, Key{"→ and ←", "one frame on or back"},
                                          Key{"R", "to the first frame"}};
-constexpr std::array<Key, 6> look_keys = {Key{"C", "colour by stretch, energy, speed, or none"},
+constexpr std::array<Key, 6> look_keys = {Key{"C", "colour by the next quantity, or none"},
                                           Key{"W", "wireframe"},
                                           Key{"L", "smooth or flat"},
                                           Key{"P", "save the picture as a PNG file"},
@@ -48,6 +49,7 @@ bool draw_help(bool is_live, const Vec2f& picture, const PanelStyle& style) {
   ImGui::SetNextWindowPos({picture.x() / 2, picture.y() / 2}, ImGuiCond_Always, {0.5F, 0.5F});
   ImGui::SetNextWindowFocus();
   ImGui::SetNextWindowBgAlpha(0.98F);
+  ImGui::SetNextWindowSizeConstraints({0, 0}, {picture.x(), picture.y()});
   ImGui::Begin("Help", &is_open,
                ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoNav);

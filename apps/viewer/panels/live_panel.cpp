@@ -51,18 +51,19 @@ void LiveStage::draw_pace() {
   const double rest = std::max(0.0, pulse.total - pulse.local - pulse.global - pulse.factor);
   const std::string help = fmt::format(
       "milliseconds of a step, by phase\nlocal: projections of the constraints, and collecting them\n"
-      "global: triangular solves\nfactor: after changes of stiffness, pins, time step\nother: {:.2f} ms: forces, "
-      "prediction",
-      1e3 * rest);
+      "global: triangular solves\nfactor, after changes of stiffness, pins, time step: {:.3g}\nforces, prediction and "
+      "others: {:.3g}",
+      1e3 * pulse.factor, 1e3 * rest);
   row_label("phases", help);
-  ImGui::TextDisabled("%s", pulse.total > 0 ? fmt::format("local {:.3g}, global {:.3g}, factor {:.2g} ms",
-                                                          1e3 * pulse.local, 1e3 * pulse.global, 1e3 * pulse.factor)
-                                                  .c_str()
-                                            : "-");
+  const std::string phases =
+      pulse.total > 0 ? fmt::format("local {:.3g}, global {:.3g} ms", 1e3 * pulse.local, 1e3 * pulse.global) : "-";
+  ImGui::TextDisabled("%s", phases.c_str());
   row_label("speed", "simulated seconds in a second, where the machine can; Ctrl + click: type a number");
   double speed = speed_;
   constexpr double slowest = 0.01, fastest = 10;
-  ImGui::SetNextItemWidth(-ImGui::GetFrameHeightWithSpacing() - ImGui::CalcTextSize("max").x);
+  const ImGuiStyle& spaces = ImGui::GetStyle();
+  ImGui::SetNextItemWidth(
+      -(ImGui::GetFrameHeight() + spaces.ItemInnerSpacing.x + ImGui::CalcTextSize("max").x + spaces.ItemSpacing.x));
   ImGui::BeginDisabled(is_unlimited_);
   bool has_changed = ImGui::SliderScalar("##speed", ImGuiDataType_Double, &speed, &slowest, &fastest, "%.3g ×",
                                          ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat);

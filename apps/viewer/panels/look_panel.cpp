@@ -29,9 +29,7 @@ bool draw_look_panel(pliant::ViewSettings& look, int& samples, const Stage& stag
   ImGui::SameLine();
   bool is_smoothed = samples > 1;
   if (ImGui::Checkbox("soft", &is_smoothed)) samples = is_smoothed ? 4 : 1;
-  explain(
-      "soft edges of everything: four samples a pixel; off by itself where the processor draws, which takes twice as "
-      "long for them");
+  explain("smooth outlines, with four samples a pixel: twice the time, and off at first without a graphics card");
   row_label("", "");
   ImGui::Checkbox("ground", &look.ground);
   ImGui::SameLine();

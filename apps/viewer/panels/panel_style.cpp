@@ -1,5 +1,7 @@
 #include "viewer/panels/panel_style.h"
 
+#include <cmath>
+
 #include <imgui.h>
 
 namespace pliant_viewer {
@@ -27,7 +29,7 @@ void set_colours(bool is_dark) {
   colours[ImGuiCol_Header] = shade(0.0F);
   colours[ImGuiCol_HeaderHovered] = shade(0.06F);
   colours[ImGuiCol_HeaderActive] = shade(0.10F);
-  colours[ImGuiCol_SliderGrab] = tint(0.55F);
+  colours[ImGuiCol_SliderGrab] = tint(0.42F);
   colours[ImGuiCol_SliderGrabActive] = accent;
   colours[ImGuiCol_CheckMark] = accent;
   colours[ImGuiCol_TextSelectedBg] = tint(0.30F);
@@ -63,6 +65,15 @@ void set_panel_style(bool is_dark, float unit) {
   set_colours(is_dark);
 }
 
+std::string number_format(double number, const std::string& unit) {
+  const double size = std::abs(number);
+  std::string format = size >= 1e4 && size < 1e8 ? "%.0f" : "%.4g";
+  if (unit.empty()) return format;
+  format += ' ';
+  for (const char c : unit) format += c == '%' ? std::string("%%") : std::string(1, c);
+  return format;
+}
+
 bool section_header(const char* title, bool is_open_at_first) {
   ImGui::Separator();
   return ImGui::CollapsingHeader(title, is_open_at_first ? ImGuiTreeNodeFlags_DefaultOpen : 0);
@@ -70,8 +81,13 @@ bool section_header(const char* title, bool is_open_at_first) {
 
 void row_label(const std::string& label, const std::string& help) {
   ImGui::AlignTextToFramePadding();
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float room = label_share * ImGui::GetWindowWidth() - ImGui::GetStyle().WindowPadding.x - 3;
+  ImGui::PushClipRect(at, {at.x + room, at.y + ImGui::GetFrameHeight()}, true);
   ImGui::TextUnformatted(label.c_str());
-  explain(help);
+  ImGui::PopClipRect();
+  const bool is_cut = ImGui::GetItemRectSize().x > room;
+  explain(is_cut ? label + (help.empty() ? "" : "\n") + help : help);
   ImGui::SameLine(label_share * ImGui::GetWindowWidth());
   ImGui::SetNextItemWidth(-1);
 }

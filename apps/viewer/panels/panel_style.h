@@ -14,6 +14,9 @@ struct PanelStyle {
 /// Sets colours, roundings and distances of all panels, on a light background or a dark one.
 void set_panel_style(bool is_dark, float unit);
 
+/// printf's format of a number of about this size with its unit, without an exponent where that can be.
+std::string number_format(double number, const std::string& unit);
+
 /// A name at the left of a row; the widget that follows takes the rest of it. The text under the mouse explains it.
 void row_label(const std::string& label, const std::string& help);
 

@@ -23,15 +23,6 @@ std::string label_of(std::string name) {
   return name;
 }
 
-/// printf's format of a value with its unit.
-std::string format_of(const Parameter& parameter) {
-  std::string format = parameter.kind == ParameterKind::integer ? "%d" : "%.4g";
-  if (parameter.unit.empty()) return format;
-  format += ' ';
-  for (const char c : parameter.unit) format += c == '%' ? std::string("%%") : std::string(1, c);
-  return format;
-}
-
 /// The ends of a slider: the parameter's own where they are near, else some way up and down from its value.
 std::array<double, 2> range_of(const Parameter& parameter) {
   const pliant::Range& range = parameter.range;
@@ -114,8 +105,8 @@ void ParameterPanel::draw_row(const Parameter& parameter, const std::string& lab
     case ParameterKind::integer: {
       int number = static_cast<int>(std::min(value[0], 1e9));
       const int most = static_cast<int>(std::min<double>(parameter.range.max, 100));
-      has_changed = ImGui::SliderInt(id.c_str(), &number, static_cast<int>(parameter.range.min), most,
-                                     format_of(parameter).c_str(), ImGuiSliderFlags_Logarithmic);
+      has_changed = ImGui::SliderInt(id.c_str(), &number, static_cast<int>(parameter.range.min), most, "%d",
+                                     ImGuiSliderFlags_Logarithmic);
       value[0] = number;
       break;
     }
@@ -143,7 +134,7 @@ void ParameterPanel::draw_row(const Parameter& parameter, const std::string& lab
 
 bool ParameterPanel::draw_real(const Parameter& parameter, double& value) {
   const std::string id = "##" + parameter.name;
-  const std::string format = format_of(parameter);
+  const std::string format = number_format(value, parameter.unit);
   auto found = ranges_.find(parameter.key());
   if (found == ranges_.end()) found = ranges_.emplace(parameter.key(), range_of(parameter)).first;
   auto [low, high] = found->second;

@@ -20,6 +20,8 @@ void Playback::draw_panel(const PanelStyle&) {
       speed > 0) {
     set_speed(speed);
   }
+  row_label("at the end", "");
+  ImGui::Checkbox("begin again", &is_looping_);
 }
 
 }  // namespace pliant_viewer

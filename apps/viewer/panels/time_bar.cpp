@@ -12,9 +12,6 @@ void draw_time_bar(Playback& playback, const Vec2f& picture, const PanelStyle& s
   ImGui::Begin("time bar", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                    ImGuiWindowFlags_NoNav);
-  if (ImGui::Button(playback.is_playing() ? "Pause" : "Play", {64 * style.unit, 0}))
-    playback.play(!playback.is_playing());
-  ImGui::SameLine();
   int place = static_cast<int>(playback.place());
   ImGui::SetNextItemWidth(-1);
   const std::string text = fmt::format("{:.2f} s", playback.time(playback.place()));
