@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds Pliant, simulates a curtain in the wind and films it.
+# Installs what is missing, builds Pliant, simulates a curtain in the wind and films it; where there is a display, it
+# opens a window with the curtain at the end.
 #   scripts/demo.sh [OPTION...]   options are handed to `pliant run`, for example --steps 60
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -26,7 +27,15 @@ Next:
   change $scene, say the wind's velocity, and run this again;
   write a mesh a frame, for Blender and others:
     build/release/bin/pliant run $scene --format obj --out ${out}_obj
+  pull at it with the mouse:
+    build/release/bin/pliant view $scene
   see the other scenes and options:
     build/release/bin/pliant scenes
     build/release/bin/pliant run --help
 EOF
+
+if [[ -n "${DISPLAY-}${WAYLAND_DISPLAY-}" ]]; then
+  echo
+  echo "The window shows the same curtain: pull at it, press H for all keys. Closing it ends this."
+  build/release/bin/pliant view "$scene" || echo "No window, for the reason above."
+fi

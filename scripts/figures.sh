@@ -3,9 +3,26 @@
 #   scripts/figures.sh [PROGRAM]   default: build/release/bin/pliant
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-pliant="${1:-build/release/bin/pliant}"
 out=docs/pictures
 mkdir -p "$out"
+
+# The window, pulled at by a real mouse: what this script does with --window, on a display of its own.
+draw_window() { # PROGRAM
+  "$1" view trampoline --colour energy --size 1200x700 &
+  local program=$!
+  xdotool search --sync --onlyvisible --name 'trampoline - Pliant' windowfocus
+  sleep 3
+  xdotool mousemove 560 335 sleep 0.3 mousedown 1 sleep 0.3 mousemove 570 315 sleep 0.3 mousemove 640 150 sleep 1.5
+  import -window root "$out/window.png"
+  xdotool mouseup 1
+  kill -TERM "$program"
+  wait "$program" || true # ended from outside
+}
+if [[ "${1-}" == --window ]]; then
+  draw_window "$2"
+  exit
+fi
+pliant="${1:-build/release/bin/pliant}"
 
 picture() { # NAME SCENE OPTION...
   "$pliant" render "$2" --out "$out/$1.png" --size 640x360 --quiet "${@:3}"
@@ -15,3 +32,9 @@ picture bridge rope_bridge --steps 170
 picture pillow pillow --steps 150 --colour energy
 picture net net --steps 200
 "$pliant" render torus --out "$out/torus.png" --size 960x540 --steps 140 --frames 6 --sheet --wireframe --quiet
+
+if command -v xvfb-run >/dev/null && command -v xdotool >/dev/null && command -v import >/dev/null; then
+  xvfb-run -a -s "-screen 0 1200x700x24 -noreset" bash scripts/figures.sh --window "$pliant"
+else
+  echo "figures.sh: $out/window.png is left as it is; it needs xvfb, xdotool and imagemagick" >&2
+fi

@@ -32,7 +32,7 @@ Viewpoint first_viewpoint(const Stage& stage, const pliant::ViewSettings& look, 
 
 /// A magnitude that few are beyond: single vertices beside pins do not take the colours from all others.
 float large_value(std::vector<float> values) {
-  constexpr std::size_t one_of = 20;
+  constexpr std::size_t one_of = 50;
   if (values.empty()) return 0;
   for (float& value : values) value = std::isfinite(value) ? std::abs(value) : 0;
   const auto place = values.begin() + static_cast<std::ptrdiff_t>(values.size() - 1 - values.size() / one_of);

@@ -86,8 +86,8 @@ class Timeline {
   /// was due still is. Allocates nothing in a step without events.
   StepReport step(Simulation& simulation);
 
-  /// Takes away the events that are due at the next step, for whoever changed the simulation by hand so that one of them
-  /// can no longer act. Returns how many there were. A checkpoint does not know of it.
+  /// Takes away the events that are due at the next step, for whoever changed the simulation by hand so that one of
+  /// them can no longer act. Returns how many there were. A checkpoint does not know of it.
   Index skip_due(const Simulation& simulation);
 
   std::size_t event_count() const { return events_.size(); }
