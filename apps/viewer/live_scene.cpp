@@ -8,6 +8,7 @@ namespace pliant_viewer {
 namespace {
 
 constexpr Seconds patience{0.5};     // with a step that a change waits for
+constexpr Seconds longest_wait{1};   // a clock cannot count the seconds of any time step
 constexpr Seconds freshness{0.008};  // of what is shown
 
 bool is_same(const pliant_render::Scenery& a, const pliant_render::Scenery& b) {
@@ -106,7 +107,7 @@ void LiveScene::wait_for_work() {
   std::unique_lock lock(mutex_);
   const auto has_work = [this] { return is_closing_ || !queue_.empty(); };
   if (workshop_.is_playing) {
-    work_.wait_for(lock, wait, has_work);
+    work_.wait_for(lock, std::min(wait, longest_wait), has_work);
   } else {
     work_.wait(lock, has_work);
   }

@@ -20,6 +20,7 @@ class Playback final : public Stage {
   bool knows(pliant::ColourBy colour) const override { return colour != pliant::ColourBy::energy; }
   void show(pliant::ColourBy colour) override;
   std::optional<std::array<float, 2>> range() const override;
+  std::optional<pliant_render::Bounds> known_bounds() const override { return bounds_; }
   bool is_playing() const override { return is_playing_; }
   void play(bool on) override;
   void step(int direction) override;
@@ -34,8 +35,6 @@ class Playback final : public Stage {
   void set_speed(double speed);
   bool is_looping() const { return is_looping_; }
   void set_looping(bool on) { is_looping_ = on; }
-  /// Of everything, in all frames.
-  const pliant_render::Bounds& bounds() const { return bounds_; }
 
  private:
   /// Where it stands in the times of the run [s].

@@ -32,6 +32,9 @@ class Stage {
   /// The ends of the colour map, where they are known for all frames.
   virtual std::optional<std::array<float, 2>> range() const { return {}; }
 
+  /// The box around all frames, where they are known.
+  virtual std::optional<pliant_render::Bounds> known_bounds() const { return {}; }
+
   virtual bool is_playing() const = 0;
   virtual void play(bool on) = 0;
   /// One step or frame on, or back where that is possible.

@@ -21,6 +21,7 @@ constexpr double most_frames_a_second = 60;
 constexpr double idle_turn = 0.25;  // [s]
 
 Viewpoint first_viewpoint(const Stage& stage, const pliant::ViewSettings& look, const Vec2f& size) {
+  if (const auto known = stage.known_bounds()) return place_camera(look.camera, *known, size.x() / size.y());
   Bounds bounds = pliant_render::bounds_of(stage.frame().content.positions);
   if (bounds.is_empty()) bounds.add(Vec3f::Zero());
   // Room for what moves: nobody knows yet where to.
@@ -84,7 +85,6 @@ bool Viewer::turn(double most_wait) {
   if (!is_frame_new_ && draws_left_ == 0 && !wants_picture_) return false;
   draws_left_ = std::max(draws_left_ - 1, 0);
   if (!window_.is_visible()) {
-    is_frame_new_ = false;
     std::this_thread::sleep_for(Seconds(frame_interval_));  // what cannot be seen is not drawn
     return false;
   }
@@ -114,6 +114,10 @@ void Viewer::update_bounds() {
   bounds_ = pliant_render::bounds_of(stage_.frame().content.positions);
   if (look_.ground_height) {
     ground_height_ = static_cast<float>(*look_.ground_height);
+    return;
+  }
+  if (const auto known = stage_.known_bounds()) {
+    ground_height_ = known->low.z() - 0.03F * known->radius();
     return;
   }
   // A little below everything, and lower where something falls.
