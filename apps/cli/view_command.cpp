@@ -45,14 +45,13 @@ void check(const ViewArguments& arguments) {
   if (arguments.overrides.steps) pliant::fail_input("--steps: a window goes on until it is closed; leave it out");
 }
 
-/// Threads that draw and those that simulate shall not take the processors from each other: the driver that draws with
-/// the processor leaves one to the simulation, unless its user has said something else.
+/// A driver that draws with the processor and the simulation each leave one to the other, unless their user has said
+/// something else.
 int spare_threads() {
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1);
 }
 void limit_software_driver() {
-  setenv("LP_NUM_THREADS", std::to_string(spare_threads()).c_str(),
-         0);  // NOLINT(concurrency-mt-unsafe): no threads yet
+  setenv("LP_NUM_THREADS", std::to_string(spare_threads()).c_str(), 0);
 }
 
 bool is_run(const ViewArguments& arguments) {

@@ -100,7 +100,9 @@ void fit_into_picture(Viewpoint& view, const Bounds& bounds, float aspect) {
   const Vec3f forward = view.forward();
   const float tan_y = std::tan(view.field_of_view / 2) / margin;
   const float free_width = 1 - std::min(std::abs(view.inset), 0.9F);
-  view.eye = fit(bounds, forward, view.up, tan_y * aspect * free_width, tan_y);
+  Bounds room = bounds;  // a single point has none
+  room.add(bounds.center() + Vec3f::Constant(1e-3F));
+  view.eye = fit(room, forward, view.up, tan_y * aspect * free_width, tan_y);
   view.target = view.eye + (bounds.center() - view.eye).dot(forward) * forward;
 }
 

@@ -11,6 +11,15 @@ constexpr float pin_reach = 9;   // units about a pin that count as the pin
 constexpr float rope_reach = 7;  // units about a rope that count as the rope
 constexpr float zoom_a_notch = 0.88F;
 
+/// Lets something act on the scene that is seen; after a restart, which may have another mesh, nothing happens.
+std::uint64_t post(const Hand::Place& place, LiveScene::Kind kind, std::function<void(Session&)> act) {
+  return place.live->post(
+      [act = std::move(act), restarts = place.snapshot->restarts](Workshop& workshop) {
+        if (workshop.restarts == restarts) act(workshop.session);
+      },
+      kind);
+}
+
 }  // namespace
 
 void Hand::handle(const MouseEvent& event, const Place& place) {
@@ -28,6 +37,7 @@ void Hand::handle(const MouseEvent& event, const Place& place) {
       }
       break;
     case MouseEvent::Kind::wheel:
+      if (pull_ || action_ == Action::move_pin) break;  // the depth of what is held stays
       place.camera.zoom(std::pow(zoom_a_notch, event.wheel));
       break;
   }
@@ -114,14 +124,14 @@ void Hand::move(const Vec2f& to, const Place& place) {
 void Hand::begin_pull(const Place& place) {
   action_ = Action::pull;
   pull_ = Pull{point_, target(last_, place), stiffness_};
-  place.live->post([pull = *pull_](Workshop& workshop) { workshop.session.grab(pull); });
+  post(place, LiveScene::Kind::changes, [pull = *pull_](Session& session) { session.grab(pull); });
 }
 
 void Hand::release(const MouseEvent& event, const Place& place) {
   const Action action = std::exchange(action_, Action::none);
   if (action == Action::pull) {
     pull_.reset();
-    place.live->post([](Workshop& workshop) { workshop.session.let_go(); });
+    post(place, LiveScene::Kind::changes, [](Session& session) { session.let_go(); });
   } else if (action == Action::move_pin) {
     action_ = action;
     flush(place);
@@ -135,11 +145,11 @@ void Hand::release(const MouseEvent& event, const Place& place) {
 
 void Hand::toggle_pin(std::uint32_t vertex, bool is_pinned, const Place& place) {
   const auto index = static_cast<Index>(vertex);
-  const std::uint64_t command = place.live->post([index, is_pinned](Workshop& workshop) {
+  const std::uint64_t command = post(place, LiveScene::Kind::changes, [index, is_pinned](Session& session) {
     if (is_pinned) {
-      workshop.session.unpin(index);
+      session.unpin(index);
     } else {
-      workshop.session.pin(index);
+      session.pin(index);
     }
   });
   pending_.push_back({vertex, command});
@@ -152,11 +162,10 @@ void Hand::flush(const Place& place) {
   last_target_ = to;
   if (action_ == Action::pull) {
     pull_->target = to;
-    place.live->post([to](Workshop& workshop) { workshop.session.pull_to(to); }, LiveScene::Kind::steers);
+    post(place, LiveScene::Kind::steers, [to](Session& session) { session.pull_to(to); });
   } else if (action_ == Action::move_pin) {
     const auto vertex = static_cast<Index>(vertex_);
-    place.live->post([to, vertex](Workshop& workshop) { workshop.session.move_pin(vertex, to); },
-                     LiveScene::Kind::steers);
+    post(place, LiveScene::Kind::steers, [to, vertex](Session& session) { session.move_pin(vertex, to); });
   }
 }
 

@@ -83,14 +83,25 @@ void LiveScene::work() {
   while (true) {
     wait_for_work();
     if (is_closing_) return;
-    run_commands();
-    // What was asked for is shown to have come before a step that may take long.
-    if (is_dirty_ && commands_published_ != commands_done_) publish();
-    if (time_to_step() <= Seconds(0)) step();
-    // A window that has not looked yet is shown newer things now and then, and whenever there is time.
-    const bool is_fresh = has_news() && Clock::now() - published_ < freshness;
-    if (is_dirty_ && (!is_fresh || time_to_step() > Seconds(0))) publish();
+    try {
+      turn();
+    } catch (
+        const std::exception& error) {  // of what is shown, such as no memory for it; steps and commands tell theirs
+      note_ = error.what();
+      workshop_.is_playing = false;
+      workshop_.single_steps = 0;
+    }
   }
+}
+
+void LiveScene::turn() {
+  run_commands();
+  // What was asked for is shown to have come before a step that may take long.
+  if (is_dirty_ && commands_published_ != commands_done_) publish();
+  if (time_to_step() <= Seconds(0)) step();
+  // A window that has not looked yet is shown newer things now and then, and whenever there is time.
+  const bool is_fresh = has_news() && Clock::now() - published_ < freshness;
+  if (is_dirty_ && (!is_fresh || time_to_step() > Seconds(0))) publish();
 }
 
 /// Until the next step is due.
@@ -124,8 +135,10 @@ void LiveScene::run_commands() {
   for (const auto& [command, kind] : commands) {
     const bool was_playing = workshop_.is_playing;
     const double speed = pacer_.speed();
+    const std::uint64_t restarts = workshop_.restarts;
     try {
       command(workshop_);
+      if (workshop_.restarts != restarts) note_.clear();
     } catch (const std::exception& error) {
       note_ = error.what();
     }
@@ -140,7 +153,6 @@ void LiveScene::run_commands() {
   }
   if (workshop_.restarts == restarts_seen_) return;
   restarts_seen_ = workshop_.restarts;
-  note_.clear();
   pulse_.clear();
   pacer_.start(Clock::now());
   set_thread_count();
@@ -148,12 +160,12 @@ void LiveScene::run_commands() {
 }
 
 void LiveScene::step() {
-  if (workshop_.single_steps > 0) --workshop_.single_steps;
   step_began_ = Clock::now().time_since_epoch().count();
   try {
     const double before = session_.simulation().state().time;
     const pliant::StepReport report = session_.step();
     pacer_.took_step();
+    workshop_.single_steps = std::max<std::int64_t>(workshop_.single_steps - 1, 0);
     pulse_.add({Clock::now(), session_.simulation().state().time - before, report.seconds_local, report.seconds_global,
                 report.seconds_factor, report.seconds_total});
   } catch (const std::exception& error) {
@@ -161,6 +173,7 @@ void LiveScene::step() {
     if (known == nullptr || known->kind() != pliant::ErrorKind::interrupted) {
       note_ = error.what();
       workshop_.is_playing = false;
+      workshop_.single_steps = 0;
     }
   }
   step_began_ = 0;
@@ -186,6 +199,7 @@ void LiveScene::publish() {
   const pliant::Simulation& simulation = session_.simulation();
   back_.scenery = scenery_;
   back_.frame = pliant_render::take_frame(simulation, *scenery_, workshop_.colour);
+  back_.colour = workshop_.colour;
   back_.pins = pliant_render::pinned_vertices(simulation);
   back_.pull = session_.pull();
   list_parameters();

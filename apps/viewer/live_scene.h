@@ -18,7 +18,8 @@ namespace pliant_viewer {
 struct Snapshot {
   std::shared_ptr<const pliant_render::Scenery> scenery;
   pliant_render::TakeFrame frame;
-  std::vector<std::uint32_t> pins;  ///< vertices that can be taken hold of, ascending
+  pliant::ColourBy colour = pliant::ColourBy::none;  ///< that the values of the frame are for
+  std::vector<std::uint32_t> pins;                   ///< vertices that can be taken hold of, ascending
   std::optional<Pull> pull;
   std::shared_ptr<const std::vector<Parameter>> parameters;
   Pulse::Means pulse;
@@ -73,6 +74,7 @@ class LiveScene {
 
  private:
   void work();
+  void turn();
   void run_commands();
   void wait_for_work();
   void step();

@@ -30,10 +30,12 @@ void LiveStage::play(bool on) {
 void LiveStage::step(int direction) {
   if (direction < 0) return;
   is_playing_ = false;
-  play_command_ = scene_.post([](Workshop& workshop) {
-    workshop.is_playing = false;
-    workshop.single_steps = 1;
-  });
+  play_command_ = scene_.post(
+      [](Workshop& workshop) {
+        workshop.is_playing = false;
+        workshop.single_steps = 1;  // a key that is held asks for no more than are taken
+      },
+      LiveScene::Kind::steers);
 }
 
 void LiveStage::restart(bool keep_values) {

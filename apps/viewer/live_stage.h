@@ -19,6 +19,7 @@ class LiveStage final : public Stage {
   std::uint64_t restarts() const override { return snapshot_->restarts; }
   bool knows(pliant::ColourBy) const override { return true; }
   void show(pliant::ColourBy colour) override;
+  pliant::ColourBy colour() const override { return snapshot_->colour; }
   bool is_playing() const override { return is_playing_; }
   void play(bool on) override;
   void step(int direction) override;

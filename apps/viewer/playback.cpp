@@ -25,6 +25,7 @@ Playback::Playback(pliant_render::RunFrames frames, pliant::ViewSettings look, b
   }
   show(colour_);
   refresh(began_);
+  has_begun_ = false;
 }
 
 double Playback::run_time(Clock::time_point now) const {
@@ -32,6 +33,8 @@ double Playback::run_time(Clock::time_point now) const {
 }
 
 bool Playback::refresh(Clock::time_point now) {
+  if (!has_begun_) began_ = now;  // whatever it took until somebody looked
+  has_begun_ = true;
   if (is_playing_) {
     const double time = run_time(now);
     std::size_t next = place_;

@@ -19,6 +19,7 @@ class Playback final : public Stage {
   std::uint64_t restarts() const override { return 0; }
   bool knows(pliant::ColourBy colour) const override { return colour != pliant::ColourBy::energy; }
   void show(pliant::ColourBy colour) override;
+  pliant::ColourBy colour() const override { return colour_; }
   std::optional<std::array<float, 2>> range() const override;
   std::optional<pliant_render::Bounds> known_bounds() const override { return bounds_; }
   bool is_playing() const override { return is_playing_; }
@@ -31,9 +32,7 @@ class Playback final : public Stage {
   std::size_t place() const { return place_; }
   pliant::Real time(std::size_t i) const { return frames_.time(i); }
   void go_to(std::size_t frame);
-  double speed() const { return speed_; }
   void set_speed(double speed);
-  bool is_looping() const { return is_looping_; }
   void set_looping(bool on) { is_looping_ = on; }
 
  private:
@@ -52,6 +51,7 @@ class Playback final : public Stage {
   double speed_ = 1;
   std::size_t place_ = 0;
   bool is_stale_ = true;
+  bool has_begun_ = false;
   Clock::time_point began_;  // when the frame at began_at_ was shown
   double began_at_;          // [s]
 };

@@ -29,6 +29,8 @@ class Stage {
 
   virtual bool knows(pliant::ColourBy colour) const = 0;
   virtual void show(pliant::ColourBy colour) = 0;
+  /// What the values of the frame tell, which is a little later what was asked for.
+  virtual pliant::ColourBy colour() const = 0;
   /// The ends of the colour map, where they are known for all frames.
   virtual std::optional<std::array<float, 2>> range() const { return {}; }
 

@@ -17,7 +17,7 @@ bool is_dark(const pliant::Colour& background) {
 }  // namespace
 
 Ui::Ui(Window& window, const pliant::Colour& background)
-    : window_(window), context_(ImGui::CreateContext()), ink_(pliant_render::ink_on(background)) {
+    : context_(ImGui::CreateContext()), ink_(pliant_render::ink_on(background)) {
   ImGui::SetCurrentContext(context_);
   ImGui::GetIO().IniFilename = nullptr;
   const float scale = window.content_scale();
@@ -48,10 +48,6 @@ void Ui::begin() {
 void Ui::end() {
   ImGui::Render();
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-}
-
-void Ui::drop() {
-  ImGui::EndFrame();
 }
 
 bool Ui::has_panel_at(const Vec2f& place) const {

@@ -19,9 +19,6 @@ class Ui {
   /// Between these two, panels and signs are put together; end() draws them onto the framebuffer that is bound.
   void begin();
   void end();
-  /// Begins again, without what was put together so far.
-  void drop();
-
   /// Whether a panel, and not the picture, is at a place; as of the last frame.
   bool has_panel_at(const Vec2f& place) const;
   /// Whether a panel holds the mouse, or takes what is typed.
@@ -39,7 +36,6 @@ class Ui {
   pliant_render::Vec3f panel_colour() const;
 
  private:
-  Window& window_;
   ImGuiContext* context_;
   ImFont* font_ = nullptr;
   PanelStyle style_;

@@ -81,7 +81,15 @@ bool Viewer::turn(double most_wait) {
     message_.clear();
     draws_left_ = 1;
   }
+  // A step that takes long is told of, and counted.
+  const LiveScene* live = stage_.live();
+  if (live != nullptr && live->step_age() > Seconds(1) && Clock::now() - last_draw_ > Seconds(0.5)) draws_left_ = 1;
   if (stage_.refresh(Clock::now())) is_frame_new_ = true;
+  if (stage_.restarts() != restarts_) {
+    restarts_ = stage_.restarts();
+    hand_.cancel();
+    has_ground_ = false;
+  }
   if (!is_frame_new_ && draws_left_ == 0 && !wants_picture_) return false;
   draws_left_ = std::max(draws_left_ - 1, 0);
   if (!window_.is_visible()) {
@@ -99,11 +107,6 @@ void Viewer::say(std::string message) {
 }
 
 void Viewer::update_scenery() {
-  if (stage_.restarts() != restarts_) {
-    restarts_ = stage_.restarts();
-    hand_.cancel();
-    has_ground_ = false;
-  }
   if (stage_.scenery() == scenery_) return;
   scenery_ = stage_.scenery();
   renderer_.emplace(*scenery_);
@@ -152,7 +155,7 @@ std::array<float, 2> Viewer::colour_range() {
     return {static_cast<float>((*look_.colour_range)[0]), static_cast<float>((*look_.colour_range)[1])};
   }
   if (const auto known = stage_.range()) return *known;
-  return auto_range_.update(look_.colour, large_value(stage_.frame().content.values), Clock::now());
+  return auto_range_.update(stage_.colour(), large_value(stage_.frame().content.values), Clock::now());
 }
 
 void Viewer::draw() {
@@ -161,7 +164,7 @@ void Viewer::draw() {
   if (is_frame_new_) {
     update_bounds();
     range_ = colour_range();
-    renderer_->set_frame(stage_.frame().content, look_.colour);
+    renderer_->set_frame(stage_.frame().content, stage_.colour());
     is_frame_new_ = false;
   }
   place_screen();

@@ -32,8 +32,7 @@ class Viewer {
   const Screen& screen() const { return screen_; }
   const Hand& hand() const { return hand_; }
   const pliant::ViewSettings& look() const { return look_; }
-  /// Of pictures that were drawn.
-  Pulse::Means pulse() const { return frames_.means(Clock::now()); }
+  /// Pictures that were drawn.
   std::uint64_t frame_count() const { return frame_count_; }
   bool is_help_open() const { return is_help_open_; }
   /// Writes what is seen, without the panels, to the next free pliant-0001.png, and says so in the window.

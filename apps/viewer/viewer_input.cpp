@@ -15,12 +15,13 @@ constexpr double stiffer = 1.5;  // a key
 
 Hand::Place Viewer::place_of_mouse() {
   LiveScene* live = stage_.live();
+  const bool has_floor = look_.ground && look_.camera.up.normalized().z() > 0.999;
   return {screen_,
           camera_,
           live,
           live != nullptr ? &live->shown() : nullptr,
           ui_.style().unit,
-          look_.ground ? std::optional(ground_height_) : std::nullopt};
+          has_floor ? std::optional(ground_height_) : std::nullopt};
 }
 
 void Viewer::take_input() {

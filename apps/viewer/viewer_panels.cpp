@@ -41,7 +41,7 @@ void Viewer::draw_main_panel() {
   ImGui::SameLine();
   if (ImGui::Button("Restart", {third, 0})) stage_.restart(true);
   explain(stage_.live() != nullptr ? "R: from the start, with the scene's pins and the values that are set here\n"
-                                     "Shift + R: the scene's file is read again"
+                                     "Shift + R: all values as the scene's file has them"
                                    : "R: to the first frame");
   ImGui::Spacing();
   if (LiveScene* live = stage_.live()) {

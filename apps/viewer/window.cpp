@@ -23,7 +23,7 @@ std::string last_error() {
 
 bool has_display() {
   const auto is_set = [](const char* name) {
-    const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): before there are threads
+    const char* value = std::getenv(name);
     return value != nullptr && *value != '\0';
   };
   return is_set("DISPLAY") || is_set("WAYLAND_DISPLAY");
@@ -131,10 +131,6 @@ bool Window::wants_to_close() const {
 
 void Window::close() {
   glfwSetWindowShouldClose(window_, GLFW_TRUE);
-}
-
-void Window::set_title(const std::string& title) {
-  glfwSetWindowTitle(window_, title.c_str());
 }
 
 Vec2f Window::size() const {

@@ -45,7 +45,6 @@ class Window {
   GLFWwindow* handle() const { return window_; }
   bool wants_to_close() const;
   void close();
-  void set_title(const std::string& title);
 
   Vec2f size() const;                           ///< in units of the mouse
   std::array<int, 2> framebuffer_size() const;  ///< in pixels; 0 while it is minimised

@@ -21,7 +21,7 @@ constexpr std::array<Key, 5> camera_keys = {
     Key{"wheel", "nearer or further away"}, Key{"F", "everything in the picture"}, Key{"Shift + F", "as at the start"}};
 constexpr std::array<Key, 5> live_keys = {Key{"Space", "play or pause"}, Key{"S or →", "one step"},
                                           Key{"R", "start over: the scene's pins, the values that are set"},
-                                          Key{"Shift + R", "read the scene's file again, and start over"},
+                                          Key{"Shift + R", "start over, all values as in the scene's file"},
                                           Key{"+ and −", "stiffer or softer pull"}};
 constexpr std::array<Key, 3> run_keys = {Key{"Space", "play or pause"}, Key{"→ and ←", "one frame on or back"},
                                          Key{"R", "to the first frame"}};
