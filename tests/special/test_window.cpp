@@ -159,7 +159,7 @@ TEST_CASE("the surface follows the mouse that pulls at it, and comes back") {
   CHECK((desk.shown().pull->target - target).norm() < 1e-4F);
   desk.release();
   desk.turn_until([&] { return !desk.shown().pull.has_value(); });
-  desk.turn_until([&] { return (desk.position(middle) - home).norm() < 0.05F; });
+  desk.turn_until([&] { return (desk.position(middle) - home).norm() < 0.1F; });
 }
 
 TEST_CASE("a click pins, another lets go, and a pin is dragged to where the mouse takes it") {
@@ -288,7 +288,6 @@ TEST_CASE("the window may be resized, hidden and closed while it simulates; pick
 TEST_CASE("yanking the mouse across the screen explodes nothing") {
   Desk desk;
   desk.settle();
-  const Vec3f home = desk.position(middle);
   for (int i = 0; i < 30; ++i) desk.key("plus");  // the stiffest pull there is
   desk.drag(desk.place(middle), {5, 5});
   for (const Vec2f& to : {Vec2f(650, 600), Vec2f(3, 400), Vec2f(690, 3), Vec2f(300, 630), Vec2f(20, 20)}) {
@@ -297,8 +296,15 @@ TEST_CASE("yanking the mouse across the screen explodes nothing") {
   desk.release();
   for (const Vec3f& p : desk.shown().frame.content.positions) REQUIRE(p.allFinite());
   desk.stage.live()->post([](Workshop& workshop) { workshop.pacer.set_speed(Pacer::unlimited); });
-  // It may have passed through itself and hang in other folds.
-  desk.turn_until([&] { return (desk.position(middle) - home).norm() < 0.35F; });
+  // It may have passed through itself and hang in other folds, but it hangs from its hooks again.
+  const auto reach = [&] {
+    float farthest = 0;
+    for (const Vec3f& p : desk.shown().frame.content.positions) {
+      farthest = std::max(farthest, (p - desk.position(side * side - 1)).norm());
+    }
+    return farthest;
+  };
+  desk.turn_until([&] { return reach() < 1.6F; });
   CHECK(desk.shown().note.empty());
 }
 

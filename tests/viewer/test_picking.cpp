@@ -63,7 +63,8 @@ TEST_CASE("a point of the surface, projected, is hit to half a pixel, whatever t
 
 TEST_CASE("what is drawn stands where the mouse finds it, also where a place of the mouse has four pixels") {
   Sheet sheet;
-  for (const auto& [width, height] : {std::pair{800, 450}, std::pair{400, 600}, std::pair{900, 300}}) {
+  for (const auto& size : {std::pair{800, 450}, std::pair{400, 600}, std::pair{900, 300}}) {
+    const int width = size.first, height = size.second;
     for (const int scale : {1, 2}) {
       CAPTURE(width);
       CAPTURE(scale);
