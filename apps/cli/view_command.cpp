@@ -40,7 +40,8 @@ void check(const ViewArguments& arguments) {
   const bool is_placed = arguments.import.scale != plain.scale || arguments.import.up != plain.up;
   if (is_placed && !is_mesh_name) {
     pliant::fail_input(
-        "--scale, --up: only meshes are scaled and turned; a scene says it of its own, see docs/scenes.md");
+        "--scale, --up: only a mesh alone is scaled and turned so; a scene has \"scale\" and \"up\" with its meshes, "
+        "see docs/scenes.md");
   }
   if (arguments.overrides.steps) pliant::fail_input("--steps: a window goes on until it is closed; leave it out");
 }

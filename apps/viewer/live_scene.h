@@ -40,6 +40,13 @@ struct Workshop {
   std::int64_t single_steps = 0;  ///< to take although it is not playing
   pliant::ColourBy colour = pliant::ColourBy::none;
   std::uint64_t restarts = 0;
+
+  /// As Session::restart, and single steps that were asked for are forgotten.
+  void restart(bool keep_values) {
+    session.restart(keep_values);
+    single_steps = 0;
+    ++restarts;
+  }
 };
 
 class LiveScene {

@@ -39,13 +39,7 @@ void LiveStage::step(int direction) {
 }
 
 void LiveStage::restart(bool keep_values) {
-  scene_.post(
-      [keep_values](Workshop& workshop) {
-        workshop.single_steps = 0;
-        workshop.session.restart(keep_values);
-        ++workshop.restarts;
-      },
-      LiveScene::Kind::ends);
+  scene_.post([keep_values](Workshop& workshop) { workshop.restart(keep_values); }, LiveScene::Kind::ends);
 }
 
 }  // namespace pliant_viewer

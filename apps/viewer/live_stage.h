@@ -24,7 +24,7 @@ class LiveStage final : public Stage {
   void play(bool on) override;
   void step(int direction) override;
   void restart(bool keep_values) override;
-  void draw_panel(const PanelStyle& style) override;
+  void draw_panel() override;
   LiveScene* live() override { return &scene_; }
 
   const Snapshot& snapshot() const { return *snapshot_; }

@@ -26,7 +26,7 @@ class Playback final : public Stage {
   void play(bool on) override;
   void step(int direction) override;
   void restart(bool keep_values) override;
-  void draw_panel(const PanelStyle& style) override;
+  void draw_panel() override;
 
   std::size_t count() const { return frames_.count(); }
   std::size_t place() const { return place_; }

@@ -8,7 +8,6 @@
 namespace pliant_viewer {
 
 class LiveScene;
-struct PanelStyle;
 
 class Stage {
  public:
@@ -45,7 +44,7 @@ class Stage {
   virtual void restart(bool keep_values) = 0;
 
   /// Draws its part of the panel.
-  virtual void draw_panel(const PanelStyle& style) = 0;
+  virtual void draw_panel() = 0;
   /// What can be pulled and pinned; null for what is only played.
   virtual LiveScene* live() { return nullptr; }
 };

@@ -55,7 +55,7 @@ void Viewer::draw_main_panel() {
       hand_.set_stiffness(stiffness, *live);
     }
   }
-  stage_.draw_panel(ui_.style());
+  stage_.draw_panel();
   if (section_header("Picture") && draw_look_panel(look_, samples_, stage_)) change_colour();
   ImGui::Separator();
   ImGui::Spacing();

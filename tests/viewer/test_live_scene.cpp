@@ -71,12 +71,7 @@ TEST_CASE("a step that would last for hours is given up for a change, and for th
   wait_until([&] { return live.newest().step > 3; });
   live.post([](Workshop& workshop) { workshop.session.set("settings.iterations", {1e9, 0, 0}); });
   wait_for(live, 2);
-  live.post(
-      [](Workshop& workshop) {
-        workshop.session.restart(false);
-        ++workshop.restarts;
-      },
-      LiveScene::Kind::ends);
+  live.post([](Workshop& workshop) { workshop.restart(false); }, LiveScene::Kind::ends);
   wait_until([&] { return live.newest().restarts == 1; });
   CHECK(live.shown().step == 0);
 }  // the destructor does not wait for a thousand million iterations
@@ -97,12 +92,7 @@ TEST_CASE("a simulation that diverges pauses and says so; starting over helps") 
     is_finite = workshop.session.simulation().state().positions.allFinite();
   }));
   CHECK(is_finite);
-  live.post(
-      [](Workshop& workshop) {
-        workshop.session.restart(false);
-        ++workshop.restarts;
-      },
-      LiveScene::Kind::ends);
+  live.post([](Workshop& workshop) { workshop.restart(false); }, LiveScene::Kind::ends);
   wait_until([&] { return live.newest().restarts == 1; });
   CHECK(live.shown().step == 0);
   CHECK(live.shown().note.empty());
@@ -117,12 +107,7 @@ TEST_CASE("a mesh that is another one after a restart is shown as what it is") {
         return scene;
       },
       1, false, [] {});
-  const auto restart = [&] {
-    wait_for(live, live.post([](Workshop& workshop) {
-      workshop.session.restart(true);
-      ++workshop.restarts;
-    }));
-  };
+  const auto restart = [&] { wait_for(live, live.post([](Workshop& workshop) { workshop.restart(true); })); };
   const auto first = live.newest().scenery;
   restart();
   CHECK(live.shown().scenery == first);

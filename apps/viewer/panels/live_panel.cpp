@@ -38,7 +38,7 @@ std::string steps_text(const Snapshot& snapshot) {
 
 }  // namespace
 
-void LiveStage::draw_panel(const PanelStyle&) {
+void LiveStage::draw_panel() {
   draw_pace();
   parameters_.draw(*snapshot_, scene_);
 }

@@ -2,13 +2,10 @@
 // What the panels have in common.
 #include <string>
 
-struct ImFont;
-
 namespace pliant_viewer {
 
 struct PanelStyle {
-  float unit = 1;           ///< pixels of a length that is given for letters of common size
-  ImFont* small = nullptr;  ///< for remarks
+  float unit = 1;  ///< pixels of a length that is given for letters of common size
 };
 
 /// Sets colours, roundings and distances of all panels, on a light background or a dark one.

@@ -7,7 +7,7 @@
 
 namespace pliant_viewer {
 
-void Playback::draw_panel(const PanelStyle&) {
+void Playback::draw_panel() {
   row_label("time", "");
   ImGui::TextUnformatted(fmt::format("{:.2f} of {:.2f} s", time(place_), time(count() - 1)).c_str());
   row_label("frame", "");
