@@ -119,6 +119,10 @@ TEST_CASE("resume at every tenth step: the same bits") {
   SUBCASE("the pillow, with a gas in it") {
     check_resume(builtin("pillow", {.steps = 60}));
   }
+  SUBCASE("BDF2 in substeps with damping, with what it remembers of the step before") {
+    const std::vector<std::string> set = {"settings.integrator=bdf2", "settings.substeps=2", "settings.damping=3"};
+    check_resume(parse_scene(busy_scene, {}, "busy.json", {.set = set}));
+  }
 }
 
 TEST_CASE("a checkpoint says how far to go, and can be asked to go further") {

@@ -67,7 +67,7 @@ Positions solution(const Factorization& factorization, const Positions& b, int t
 
 struct Trial {
   GlobalStep step;
-  FreeParts parts;
+  ConnectedParts parts;
   std::vector<Real> weights;
   ThreadPool threads{2};
   SetUpTimes times;

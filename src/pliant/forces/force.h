@@ -24,6 +24,10 @@ class Force {
   /// Potential energy [J] of a conservative force; 0 for every other.
   virtual Real potential(const StateView& state) const;
 
+  /// Whether it draws back like a spring that is evaluated at qₙ: such a force makes every step of BDF2 gain energy,
+  /// however small, so the two are refused together.
+  virtual bool is_explicit_spring() const { return false; }
+
   /// A warning when this force may be unstable with this time step, with the limit in it.
   virtual std::optional<std::string> warning(const StateView& state, Real time_step) const;
 };

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "pliant/core/atomic_file.h"
+#include "pliant/core/base64.h"
 #include "pliant/core/error.h"
 #include "pliant/core/version.h"
 #include "pliant/recorder/detail/array_format.h"
@@ -257,21 +258,6 @@ class GltfExport {
   std::vector<std::size_t> moving_nodes_;
   Positions positions_;  ///< scratch
 };
-
-/// RFC 4648, Sec. 4.
-std::string base64(std::string_view bytes) {
-  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t group = 0;
-    for (std::size_t j = 0; j < 3; ++j) {
-      group = group << 8U | (i + j < bytes.size() ? static_cast<unsigned char>(bytes[i + j]) : 0U);
-    }
-    for (std::size_t j = 0; j < 4; ++j) text += i + j > bytes.size() ? '=' : digits[group >> (18 - 6 * j) & 63U];
-  }
-  return text;
-}
 
 std::string dump(const Json& json) {
   // Names may hold bytes that are not UTF-8; they must not cost the file.

@@ -126,6 +126,12 @@ void restore_groups(const Node& list, const Simulation& simulation) {
   }
 }
 
+void read_rows(const Node& node, Positions& positions, Positions& velocities) {
+  for (const auto& [key, rows] : {std::pair{"positions", &positions}, {"velocities", &velocities}}) {
+    read_numbers(node.require(key), {rows->data(), static_cast<std::size_t>(rows->size())});
+  }
+}
+
 State read_state(const Node& node, const State& fresh) {
   State state = fresh;
   read(node.require("step"), state.step);
@@ -134,8 +140,11 @@ State read_state(const Node& node, const State& fresh) {
   }
   state.time = read_real(node.require("time"));
   state.time_excess = read_real(node.require("time_excess"));
-  for (const auto& [key, rows] : {std::pair{"positions", &state.positions}, {"velocities", &state.velocities}}) {
-    read_numbers(node.require(key), {rows->data(), static_cast<std::size_t>(rows->size())});
+  read_rows(node, state.positions, state.velocities);
+  if (const auto previous = node.find("previous")) {
+    state.previous_time_step = read_real(previous->require("time_step"));
+    for (Positions* rows : {&state.previous_positions, &state.previous_velocities}) rows->resizeLike(state.positions);
+    read_rows(*previous, state.previous_positions, state.previous_velocities);
   }
   return state;
 }

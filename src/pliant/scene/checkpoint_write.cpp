@@ -75,11 +75,17 @@ Json write_files(const std::vector<SceneFile>& files) {
 }
 
 Json write_state(const State& state) {
-  return {{"step", state.step},
-          {"time", state.time},
-          {"time_excess", state.time_excess},
-          {"positions", bytes_of(state.positions)},
-          {"velocities", bytes_of(state.velocities)}};
+  Json json = {{"step", state.step},
+               {"time", state.time},
+               {"time_excess", state.time_excess},
+               {"positions", bytes_of(state.positions)},
+               {"velocities", bytes_of(state.velocities)}};
+  if (state.previous_time_step > 0) {
+    json["previous"] = {{"time_step", state.previous_time_step},
+                        {"positions", bytes_of(state.previous_positions)},
+                        {"velocities", bytes_of(state.previous_velocities)}};
+  }
+  return json;
 }
 
 Json write_groups(const Simulation& simulation) {

@@ -36,6 +36,15 @@ void Simulation::check_force(const Force* force) const {
     fail_input(std::string(force->type()) + ": vertex " + std::to_string(*vertex) +
                " is out of range; the simulation has " + std::to_string(state_.vertex_count()) + " vertices");
   }
+  if (settings_.integrator == Integrator::bdf2) check_under_bdf2(*force);
+}
+
+void Simulation::check_under_bdf2(const Force& force) {
+  if (!force.is_explicit_spring()) return;
+  fail_input(
+      std::string(force.type()) +
+      ": an explicit spring gains energy under the integrator `bdf2`, however small the time step; use a drag, which "
+      "is implicit, or the integrator `implicit_euler`");
 }
 
 ForceId Simulation::add_force(std::unique_ptr<Force> force, std::string name) {
@@ -106,7 +115,8 @@ std::optional<ForceId> Simulation::find_force(std::string_view name) const {
 
 void Simulation::check_forces() {
   for (const auto& [id, force] : forces_) {
-    std::optional<std::string> warning = force->warning(state_.view(), settings_.time_step);
+    std::optional<std::string> warning =
+        force->warning(state_.view(), settings_.time_step / static_cast<Real>(settings_.substeps));
     if (!warning) {
       warned_forces_.erase(id);  // to be warned of again
     } else if (warned_forces_.insert(id).second && std::ranges::find(warnings_, *warning) == warnings_.end()) {

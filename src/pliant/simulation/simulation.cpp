@@ -60,6 +60,7 @@ BodyId Simulation::add_body(Mesh mesh, const Mass& mass, BodyOptions options) {
   const Index first_vertex = state_.vertex_count();
   append(state_.positions, start);
   append(state_.velocities, velocities);
+  state_.previous_time_step = 0;
   state_.masses.insert(state_.masses.end(), masses.begin(), masses.end());
   bodies_.push_back({std::move(options.name), std::move(mesh), first_vertex});
   groups_changed_ = true;
@@ -84,8 +85,11 @@ Index Simulation::vertex(BodyId id, Index vertex_of_body) const {
 }
 
 void Simulation::set_settings(const SolverSettings& settings) {
+  if (settings.integrator == Integrator::bdf2) {
+    for (const auto& [id, force] : forces_) check_under_bdf2(*force);
+  }
   solver_->set_settings(settings);
-  const bool new_limits = settings.time_step != settings_.time_step;
+  const bool new_limits = settings.time_step != settings_.time_step || settings.substeps != settings_.substeps;
   settings_ = settings;
   if (new_limits) check_forces();
 }
@@ -155,6 +159,7 @@ void Simulation::set_state(const Positions& positions, const Positions& velociti
   if (undo_ != nullptr) undo_->save_state();
   state_.positions = positions;
   state_.velocities = velocities;
+  state_.previous_time_step = 0;
   solver_->forget_prediction();
 }
 
@@ -166,6 +171,10 @@ void Simulation::restore(const State& state) {
   if (state.step < 0 || !std::isfinite(state.time) || !std::isfinite(state.time_excess)) {
     fail_input("restore: step " + std::to_string(state.step) + ", time " + std::to_string(state.time) +
                " s: this is no state of a simulation; give one that state() has returned");
+  }
+  if (state.previous_time_step > 0) {
+    check_rows(state.previous_positions, state_.vertex_count(), "restore: previous positions");
+    check_rows(state.previous_velocities, state_.vertex_count(), "restore: previous velocities");
   }
   if (undo_ != nullptr) undo_->save_state();
   state_ = state;

@@ -101,6 +101,7 @@ class Simulation {
   Index vertex(BodyId id, Index vertex_of_body) const;
 
   const SolverSettings& settings() const { return settings_; }
+  /// Refuses BDF2 with a force that is an explicit spring (MouseSpring).
   void set_settings(const SolverSettings& settings);
 
   /// Asked before each iteration whether the step is to be given up, so that even one of a thousand million iterations
@@ -162,6 +163,7 @@ class Simulation {
   void warn_of(const ConstraintSet& set, const std::string& place);
   void exchange_set(GroupId id, ConstraintSet set, std::string type, std::vector<Index> points, Index next_point);
   void check_force(const Force* force) const;
+  static void check_under_bdf2(const Force& force);
   void check_forces();
   void update_problem();
 

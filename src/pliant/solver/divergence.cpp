@@ -31,7 +31,7 @@ void Solver::check_finite(const State& state) const {
 }
 
 void Solver::report_divergence(const State& state) const {
-  const Real h = settings_.time_step;
+  const Real h = substep();
   // In the order of the step. One solve takes the whole body along, so the cause is looked for before that.
   for (Index i = 0; i < vertex_count_; ++i) {
     if (!is_held_[static_cast<std::size_t>(i)] && is_far(s_.row(i))) {
@@ -60,7 +60,7 @@ void Solver::report_divergence(const State& state) const {
 }
 
 std::string Solver::force_reason(const State& state, Index vertex) const {
-  const Real h = settings_.time_step;
+  const Real h = substep();
   const Real mass = state.masses[static_cast<std::size_t>(vertex)];
   Positions alone(vertex_count_, 3);
   for (Force* force : forces_) {

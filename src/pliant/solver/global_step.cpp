@@ -54,7 +54,7 @@ void GlobalStep::analyze(const LowerMatrix& matrix) {
 }
 
 void GlobalStep::factorize(const LowerMatrix& matrix, Precision precision, std::span<const Real> weights,
-                           const FreeParts& parts, ThreadPool& threads, SetUpTimes& times) {
+                           const ConnectedParts& parts, ThreadPool& threads, SetUpTimes& times) {
   Stopwatch watch;
   weights_ = weights;
   parts_ = &parts;

@@ -6,6 +6,14 @@
 
 namespace pliant {
 
+/// What a step is made of. `implicit_euler`: first order, damps what vibrates faster than the step. `bdf2`: second
+/// order (Gear's two-step formula), damps far less; its first step, and the one after a change of the time step, is one
+/// of implicit Euler.
+enum class Integrator { implicit_euler, bdf2 };
+constexpr std::array<std::string_view, 2> choice_names(Integrator) {
+  return {"implicit_euler", "bdf2"};
+}
+
 /// Where the iterations of a step begin.
 enum class Start { prediction, positions };
 constexpr std::array<std::string_view, 2> choice_names(Start) {
@@ -33,7 +41,10 @@ constexpr std::array<std::string_view, 2> choice_names(Precision) {
 
 struct SolverSettings {
   Real time_step = 1.0 / 60;
+  Integrator integrator = Integrator::implicit_euler;
+  Index substeps = 1;
   Index iterations = 10;
+  Real damping = 0;
   Real tolerance = 0;
   Start start = Start::prediction;
   Backend backend = Backend::automatic;
@@ -46,9 +57,22 @@ struct SolverSettings {
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& field) {
     field(OptionInfo{"time_step", "s", "h; a larger one is as stable, with more damping", positive}, self.time_step);
+    field(
+        OptionInfo{"integrator", "", "`implicit_euler`, which damps, or `bdf2`, of second order, which damps far less"},
+        self.integrator);
+    field(OptionInfo{"substeps", "",
+                     "a step is taken in so many parts, each with its iterations; more damp less, at their cost",
+                     Range{1, 1e6}},
+          self.substeps);
     field(OptionInfo{"iterations", "", "local and global steps in each step; more are stiffer and livelier",
                      Range{1, 1e9}},
           self.iterations);
+    field(
+        OptionInfo{"damping", "1/s",
+                   "of vibrations, whose amplitude it lets decay as e^(-damping t); each body's flight and turning are "
+                   "left alone",
+                   not_negative},
+        self.damping);
     field(OptionInfo{"tolerance", "N",
                      "iterate no further once no vertex has a larger residual force; 0: only at exact rest",
                      not_negative},

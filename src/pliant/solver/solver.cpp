@@ -5,6 +5,7 @@
 
 #include "pliant/core/error.h"
 #include "pliant/core/stopwatch.h"
+#include "pliant/solver/integrator.h"
 
 namespace pliant {
 namespace {
@@ -41,9 +42,9 @@ void Solver::set_settings(const SolverSettings& settings) {
   if (other) {
     global_step_.set_factorization(std::move(other));
     pattern_analyzed_ = false;
-    factor_time_step_ = 0;
+    factor_step_ = 0;
   }
-  if (settings.precision != settings_.precision) factor_time_step_ = 0;
+  if (settings.precision != settings_.precision) factor_step_ = 0;
   settings_ = settings;
   history_.reserve(std::min(history_limit, static_cast<std::size_t>(settings_.iterations)));
 }
@@ -60,7 +61,7 @@ void Solver::set_groups(Index vertex_count, std::vector<ConstraintGroup*> groups
   if (s_.rows() == vertex_count) return;
   local_groups_.set({});
   for (Positions* x : {&force_, &s_, &q_, &residual_}) x->setZero(vertex_count, 3);
-  predicted_time_step_ = 0;
+  predicted_step_ = 0;
 }
 
 bool Solver::groups_changed() const {
@@ -87,13 +88,13 @@ SetUpTimes Solver::prepare(const State& state) {
   } else {
     local_groups_.take_numbers();
   }
-  if (factor_time_step_ != settings_.time_step || stiffness_changed()) factorize(state, times);
+  if (factor_step_ != inertia_step(settings_.integrator, substep()) || stiffness_changed()) factorize(state, times);
   history_.clear();
   return times;
 }
 
 void Solver::begin_groups(const State& state) {
-  for (ConstraintGroup* group : groups_) group->begin_step(state.view(), settings_.time_step);
+  for (ConstraintGroup* group : groups_) group->begin_step(state.view(), substep());
 }
 
 /// That of the simulation, unless its constraints are scattered and an order of our own is much better.
@@ -125,33 +126,44 @@ void Solver::lay_out_groups() {
   for (const ConstraintGroup* group : groups) {
     for (const Index vertex : group->held_vertices()) is_held_[static_cast<std::size_t>(vertex)] = 1;
   }
-  free_parts_ = find_free_parts(system_matrix_.matrix(), groups, is_held_);
+  lay_out_parts(groups);
   groups_laid_out_ = true;
-  factor_time_step_ = 0;
+  factor_step_ = 0;
 }
 
-void Solver::weigh_inertia(const State& state, Real time_step) {
+void Solver::lay_out_parts(std::span<ConstraintGroup* const> groups) {
+  ConnectedParts parts = find_parts(system_matrix_.matrix());
+  free_parts_ = find_free_parts(parts, groups, is_held_);
+  for (Index& vertex : parts.vertices) vertex = local_groups_.vertex(vertex);
+  std::vector<char> is_held(is_held_.size());
+  for (std::size_t i = 0; i < is_held.size(); ++i) {
+    is_held[static_cast<std::size_t>(local_groups_.vertex(static_cast<Index>(i)))] = is_held_[i];
+  }
+  damping_.set_parts(std::move(parts), std::move(is_held));
+}
+
+void Solver::weigh_inertia(const State& state, Real step) {
   masses_.resize(state.masses.size());
   inertia_weights_.resize(state.masses.size());
   for (std::size_t i = 0; i < inertia_weights_.size(); ++i) {
     masses_[i] = state.masses[static_cast<std::size_t>(local_groups_.vertex(static_cast<Index>(i)))];
-    inertia_weights_[i] = is_held_[i] ? 0 : masses_[i] / (time_step * time_step);
+    inertia_weights_[i] = is_held_[i] ? 0 : masses_[i] / (step * step);
   }
 }
 
 void Solver::factorize(const State& state, SetUpTimes& times) {
   Stopwatch watch;
-  const Real h = settings_.time_step;
+  const Real step = inertia_step(settings_.integrator, substep());
   for (std::size_t g = 0; g < groups_.size(); ++g) stamps_[g].stiffness = groups_[g]->stiffness();
-  factor_time_step_ = 0;  // until this succeeds
-  weigh_inertia(state, h);
-  system_matrix_.sum(masses_, h, local_groups_.in_use(), is_held_);
+  factor_step_ = 0;  // until this succeeds
+  weigh_inertia(state, step);
+  system_matrix_.sum(masses_, step, local_groups_.in_use(), is_held_);
   times.assembly = watch.lap();
   if (!pattern_analyzed_) global_step_.analyze(system_matrix_.matrix());
   pattern_analyzed_ = true;
   times.symbolic = watch.lap();
   global_step_.factorize(system_matrix_.matrix(), settings_.precision, inertia_weights_, free_parts_, *threads_, times);
-  factor_time_step_ = h;
+  factor_step_ = step;
 }
 
 Real Solver::elastic_energy(const ConstraintGroup& group) const {

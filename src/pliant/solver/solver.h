@@ -8,6 +8,7 @@
 #include "pliant/solver/global_step.h"
 #include "pliant/solver/local_step.h"
 #include "pliant/solver/locality.h"
+#include "pliant/solver/rigid_damping.h"
 #include "pliant/solver/state.h"
 #include "pliant/solver/system_info.h"
 
@@ -28,20 +29,20 @@ class Solver {
   /// Asked before each iteration whether the step is to be given up; none: never.
   void set_stop(std::function<bool()> stop) { stop_ = std::move(stop); }
 
-  /// Takes one step. Never allocates, unless a group, the time step or the back end has changed. Throws Error(diverged)
-  /// and leaves the state as it was when a position would not be finite; Error(interrupted), as well, when it is given
-  /// up.
+  /// Takes one step, in its substeps. Never allocates, unless a group, a setting or the state has changed. Throws
+  /// Error(diverged) and leaves the state as it was when a position would not be finite; Error(interrupted), as well,
+  /// when it is given up.
   StepReport step(State& state);
 
   /// One local step at the positions of the state, against the prediction that the last step made for it; without
   /// one, after a state was replaced, there is no inertia term.
   Evaluation evaluate(const State& state);
   /// To be told when the state is another than the last step left.
-  void forget_prediction() { predicted_time_step_ = 0; }
+  void forget_prediction() { predicted_step_ = 0; }
   /// Elastic energy of a group at the last evaluate() [J]; 0 for a group that it did not have.
   Real elastic_energy(const ConstraintGroup& group) const;
 
-  /// E(q) before each solve of the last step, of the first `history_limit` solves.
+  /// E(q) before each solve of the last step, of its last substep, of the first `history_limit` solves.
   std::span<const Real> objective_history() const { return history_; }
   static constexpr std::size_t history_limit = 4096;
 
@@ -60,12 +61,16 @@ class Solver {
     Real stiffness;
   };
 
+  void take_substep(State& state, StepReport& report);
+  void take_substeps(State& state, StepReport& report);
+  Real substep() const { return settings_.time_step / static_cast<Real>(settings_.substeps); }
   SetUpTimes prepare(const State& state);
   void lay_out_groups();
   void choose_order();
   void begin_groups(const State& state);
   void start_threads(Index asked);
-  void weigh_inertia(const State& state, Real time_step);
+  void lay_out_parts(std::span<ConstraintGroup* const> groups);
+  void weigh_inertia(const State& state, Real step);
   void factorize(const State& state, SetUpTimes& times);
   bool groups_changed() const;
   bool stiffness_changed() const;
@@ -78,6 +83,8 @@ class Solver {
   [[noreturn]] void report_divergence(const State& state) const;
   std::string force_reason(const State& state, Index vertex) const;
   void commit(State& state);
+  void damp(State& state) const;
+  void advance_time(State& state) const;
 
   SolverSettings settings_;
   std::function<bool()> stop_;
@@ -93,17 +100,20 @@ class Solver {
   GlobalStep global_step_;
   std::vector<GroupStamp> stamps_;  // of the groups in the factor
   std::unordered_map<const ConstraintGroup*, std::size_t> places_;
-  Real factor_time_step_ = 0;  // 0: there is no factor
+  Real factor_step_ = 0;  // η of the matrix that was factorized; 0: there is no factor
   bool groups_laid_out_ = false;
   bool pattern_analyzed_ = false;
 
   std::vector<char> is_held_;
-  FreeParts free_parts_;
+  ConnectedParts free_parts_;
   std::vector<Real> masses_;
-  std::vector<Real> inertia_weights_;  // M/h², 0 at held vertices
-  Real predicted_time_step_ = 0;       // h of s_; 0: s_ does not belong to the state
+  std::vector<Real> inertia_weights_;  // M/η², 0 at held vertices
+  Real predicted_step_ = 0;            // η of s_; 0: s_ does not belong to the state
   Positions s_, q_, residual_;
-  Positions force_;  // in the order of the simulation
+  Positions force_;  // in the order of the simulation, as are the two that follow
+  RigidDamping damping_;
+  State begin_;   // of a step with substeps
+  Real way_ = 1;  // share of the step's way that held vertices have gone with the substep under way
   std::vector<Real> history_;
 };
 

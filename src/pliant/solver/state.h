@@ -12,6 +12,12 @@ struct State {
   Real time = 0;             ///< tₙ [s]
   Real time_excess = 0;      ///< what rounding has put too much into tₙ so far [s]
 
+  /// What BDF2 goes on from besides: qₙ₋₁ and vₙ₋₁, which were a step of `previous_time_step` before. 0: there are
+  /// none, and the next step is one of implicit Euler.
+  Positions previous_positions{};
+  Positions previous_velocities{};
+  Real previous_time_step = 0;  ///< [s]
+
   Index vertex_count() const { return static_cast<Index>(positions.rows()); }
   StateView view() const { return {positions, velocities, masses, step, time}; }
 };
@@ -40,8 +46,8 @@ struct SetUpTimes {
 
 /// What a step tells about itself.
 struct StepReport {
-  Index iterations = 0;  ///< global solves made
-  bool reached_tolerance = false;
+  Index iterations = 0;            ///< global solves made, in all substeps
+  bool reached_tolerance = false;  ///< in every substep
   Real residual = 0;               ///< largest force left on a vertex [N], of the iterate before the last solve
   double seconds_local = 0;        ///< projections and the sum of the residual
   double seconds_projections = 0;  ///< the first part of it
@@ -55,7 +61,7 @@ struct StepReport {
 /// The objective at the positions that the last step ended with.
 struct Evaluation {
   Real residual = 0;  ///< largest force left on a vertex that is not held [N]
-  Real inertia = 0;   ///< 1/(2h²) ‖M^½ (q − s)‖² [J]
+  Real inertia = 0;   ///< 1/(2h²) ‖M^½ (q − s)‖² [J], with 2h/3 for h in BDF2
   Real elastic = 0;   ///< Σ wᵢ/2 ‖zᵢ − pᵢ‖² [J]
   Real objective() const { return inertia + elastic; }
 };

@@ -7,6 +7,7 @@
 
 #include "pliant/core/error.h"
 #include "pliant/core/stopwatch.h"
+#include "pliant/solver/integrator.h"
 #include "pliant/solver/solver.h"
 
 namespace pliant {
@@ -14,13 +15,24 @@ namespace pliant {
 StepReport Solver::step(State& state) {
   const Stopwatch total;
   StepReport report;
-  report.set_up = prepare(state);
-  report.seconds_factor = total.seconds();
+  report.reached_tolerance = true;
+  settings_.substeps == 1 ? take_substep(state, report) : take_substeps(state, report);
+  advance_time(state);
+  report.seconds_total = total.seconds();
+  return report;
+}
+
+void Solver::take_substep(State& state, StepReport& report) {
+  const Stopwatch preparation;
+  const SetUpTimes set_up = prepare(state);
+  if (set_up.numeric > 0 || report.seconds_factor == 0) report.set_up = set_up;
+  report.seconds_factor += preparation.seconds();
 
   /* 1-2 */ predict(state);  // s = q + h v + h² M⁻¹ f
   /* 3   */ settings_.start == Start::prediction ? void(q_ = s_) : start_from_positions(state);
   place_held_vertices(q_);
-  /* 4   */ while (report.iterations < settings_.iterations) {
+  bool reached_tolerance = false;
+  /* 4   */ for (Index i = 0; i < settings_.iterations && !reached_tolerance; ++i) {
     if (stop_ && stop_()) give_up(state);
     const Stopwatch local;
     /* 5 */ const LocalResult found = local_step_.run(q_, s_, inertia_weights_, is_held_, residual_, *threads_);
@@ -29,18 +41,34 @@ StepReport Solver::step(State& state) {
     report.residual = found.residual;
     report.seconds_local += local.seconds();
     report.seconds_projections += found.seconds_projections;
-    report.reached_tolerance = found.residual <= settings_.tolerance;
-    if (report.reached_tolerance) break;
+    reached_tolerance = found.residual <= settings_.tolerance;
+    if (reached_tolerance) break;
 
     const Stopwatch global;
     /* 6 */ report.solves += global_step_.move(residual_, found.residual, q_, *threads_);
     ++report.iterations;
     report.seconds_global += global.seconds();
   }
+  report.reached_tolerance = report.reached_tolerance && reached_tolerance;
   check_finite(state);
   /* 8   */ commit(state);  // v = (q − qₙ)/h, qₙ = q
-  report.seconds_total = total.seconds();
-  return report;
+}
+
+void Solver::take_substeps(State& state, StepReport& report) {
+  begin_ = state;
+  try {
+    for (Index i = 0; i < settings_.substeps; ++i) {
+      way_ = static_cast<Real>(i + 1) / static_cast<Real>(settings_.substeps);
+      state.time = begin_.time + static_cast<Real>(i) * substep();
+      take_substep(state, report);
+    }
+  } catch (...) {
+    state = begin_;
+    forget_prediction();
+    way_ = 1;
+    throw;
+  }
+  state.time = begin_.time;
 }
 
 void Solver::give_up(const State& state) const {
@@ -49,15 +77,16 @@ void Solver::give_up(const State& state) const {
 }
 
 void Solver::predict(const State& state) {
-  predicted_time_step_ = 0;  // until commit: s is of a step that may yet be refused
-  weigh_inertia(state, settings_.time_step);
+  predicted_step_ = 0;  // until commit: s is of a step that may yet be refused
+  const StepForm form(state, settings_.integrator, substep());
+  const Real h = form.inertia_step();
+  weigh_inertia(state, h);
   force_.setZero();
-  for (Force* force : forces_) force->add_to(force_, state.view(), settings_.time_step);
-  const Real h = settings_.time_step;
+  for (Force* force : forces_) force->add_to(force_, state.view(), substep());
   for (Index i = 0; i < vertex_count_; ++i) {
     const Index v = local_groups_.vertex(i);
     const Real mass = masses_[static_cast<std::size_t>(i)];
-    s_.row(i) = state.positions.row(v) + h * state.velocities.row(v) + h * h / mass * force_.row(v);
+    s_.row(i) = form.position(v) + h * form.velocity(v) + h * h / mass * force_.row(v);
   }
 }
 
@@ -70,8 +99,12 @@ void Solver::place_held_vertices(Positions& q) const {
     const std::span<const Index> held = group->held_vertices();
     const std::span<const Real> targets = group->targets();
     for (std::size_t i = 0; i < held.size(); ++i) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        q(held[i], static_cast<Index>(axis)) = targets[3 * i + axis];
+      const Eigen::Map<const Vec3> target(targets.data() + 3 * i);
+      if (way_ == 1) {
+        q.row(held[i]) = target.transpose();
+      } else {
+        const Vec3 begin = row(begin_.positions, local_groups_.vertex(held[i]));
+        q.row(held[i]) = (begin + way_ * (target - begin)).transpose();
       }
     }
   }
@@ -82,14 +115,37 @@ void Solver::record(const LocalResult& result) {
 }
 
 void Solver::commit(State& state) {
+  const bool is_bdf2 = settings_.integrator == Integrator::bdf2;
+  const StepForm form(state, settings_.integrator, substep());
+  predicted_step_ = form.inertia_step();
+  if (is_bdf2) make_room_for_history(state);
   for (Index i = 0; i < vertex_count_; ++i) {
     const Index v = local_groups_.vertex(i);
-    state.velocities.row(v) = (q_.row(i) - state.positions.row(v)) / settings_.time_step;
+    const Vec3 from = form.position(v);
+    if (is_bdf2) {
+      state.previous_positions.row(v) = state.positions.row(v);
+      state.previous_velocities.row(v) = state.velocities.row(v);
+    }
+    state.velocities.row(v) = (q_.row(i) - from.transpose()) / predicted_step_;
     state.positions.row(v) = q_.row(i);
   }
-  predicted_time_step_ = settings_.time_step;
+  state.previous_time_step = is_bdf2 ? substep() : 0;
+  if (settings_.damping > 0) damp(state);
+}
+
+/// Velocities that are damped as e^(-2ch) a step make the amplitude of an oscillation decay as e^(-ct), besides what
+/// the integrator takes. Those before, from which BDF2 goes on, are then a step further away.
+void Solver::damp(State& state) const {
+  const Real factor = std::exp(-2 * settings_.damping * substep());
+  damping_.apply(state.positions, state.masses, factor, state.velocities);
+  if (state.previous_time_step > 0) {
+    damping_.apply(state.previous_positions, state.masses, factor, state.previous_velocities);
+  }
+}
+
+/// Kahan's sum: after n steps of h the time is n h to the last digit.
+void Solver::advance_time(State& state) const {
   ++state.step;
-  // Kahan's sum: after n steps of h the time is n h to the last digit.
   const Real step = settings_.time_step - state.time_excess;
   const Real time = state.time + step;
   state.time_excess = (time - state.time) - step;
@@ -98,12 +154,12 @@ void Solver::commit(State& state) {
 
 Evaluation Solver::evaluate(const State& state) {
   const bool is_new = !groups_laid_out_ || groups_changed();
-  const bool is_predicted = predicted_time_step_ > 0;
+  const bool is_predicted = predicted_step_ > 0;
   if (!is_predicted || is_new) begin_groups(state);
   is_new ? lay_out_groups() : local_groups_.take_numbers();
   start_from_positions(state);
   if (!is_predicted) s_ = q_;
-  weigh_inertia(state, is_predicted ? predicted_time_step_ : settings_.time_step);
+  weigh_inertia(state, is_predicted ? predicted_step_ : substep());
   const LocalResult found = local_step_.run(q_, s_, inertia_weights_, is_held_, residual_, *threads_);
   return {found.residual, found.inertia, found.elastic};
 }

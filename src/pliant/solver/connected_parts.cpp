@@ -1,4 +1,4 @@
-#include "pliant/solver/free_parts.h"
+#include "pliant/solver/connected_parts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -51,30 +51,34 @@ std::vector<Index> find_roots(const LowerMatrix& matrix) {
 
 }  // namespace
 
-FreeParts find_free_parts(const LowerMatrix& matrix, std::span<ConstraintGroup* const> groups,
-                          std::span<const char> is_held) {
+ConnectedParts find_parts(const LowerMatrix& matrix) {
+  const std::vector<Index> roots = find_roots(matrix);
+  ConnectedParts parts;
+  std::vector<std::size_t> next(roots.size(), 0);  // of the part of a root
+  for (const Index root : roots) ++next[at(root)];
+  for (std::size_t& place : next) {
+    if (place == 0) continue;
+    const std::size_t first = parts.starts.back();
+    parts.starts.push_back(first + place);
+    place = first;
+  }
+  parts.vertices.resize(roots.size());
+  for (std::size_t i = 0; i < roots.size(); ++i) parts.vertices[next[at(roots[i])]++] = static_cast<Index>(i);
+  return parts;
+}
+
+ConnectedParts find_free_parts(const ConnectedParts& parts, std::span<ConstraintGroup* const> groups,
+                               std::span<const char> is_held) {
   std::vector<char> is_anchored(is_held.begin(), is_held.end());
   for (const ConstraintGroup* group : groups) mark_anchored(*group, is_anchored);
-  const std::vector<Index> roots = find_roots(matrix);
-  for (std::size_t i = 0; i < roots.size(); ++i) {
-    if (is_anchored[i]) is_anchored[at(roots[i])] = 1;
+  ConnectedParts free;
+  for (std::size_t i = 0; i < parts.count(); ++i) {
+    const std::span<const Index> part = parts.part(i);
+    if (std::ranges::any_of(part, [&](Index vertex) { return is_anchored[at(vertex)] != 0; })) continue;
+    free.vertices.insert(free.vertices.end(), part.begin(), part.end());
+    free.starts.push_back(free.vertices.size());
   }
-  FreeParts parts;
-  std::vector<std::size_t> next(roots.size(), 0);  // of the part of a root
-  for (std::size_t i = 0; i < roots.size(); ++i) {
-    if (!is_anchored[at(roots[i])]) ++next[at(roots[i])];
-  }
-  for (std::size_t root = 0; root < roots.size(); ++root) {
-    if (next[root] == 0) continue;
-    const std::size_t first = parts.starts.back();
-    parts.starts.push_back(first + next[root]);
-    next[root] = first;
-  }
-  parts.vertices.resize(parts.starts.back());
-  for (std::size_t i = 0; i < roots.size(); ++i) {
-    if (!is_anchored[at(roots[i])]) parts.vertices[next[at(roots[i])]++] = static_cast<Index>(i);
-  }
-  return parts;
+  return free;
 }
 
 }  // namespace pliant
