@@ -1,5 +1,7 @@
-# Writes the C++ source of pliant::builtin_scenes().
-#   cmake -Dscenes=FILE|FILE|... -Doutput=FILE.cpp -P embed_scenes.cmake
+# Writes the C++ source of a function that returns scenes, std::span<const pliant::BuiltinScene> NAMESPACE::FUNCTION().
+#   cmake -Dscenes=FILE|FILE|... -Dfolder=FOLDER -Dheader=HEADER -Dnamespace=NAMESPACE -Dfunction=FUNCTION
+#     -Doutput=FILE.cpp -P embed_scenes.cmake
+# A scene's name is its path below the folder, without ".json".
 # A scene becomes a sequence of raw string literals, which the compiler joins. They are cut at line ends, below the
 # 16 kB that every compiler accepts, and never inside a character.
 cmake_minimum_required(VERSION 3.25)
@@ -35,25 +37,26 @@ list(LENGTH scenes scene_count)
 
 set(entries "")
 foreach(scene IN LISTS scenes)
-  cmake_path(GET scene STEM LAST_ONLY name)
+  cmake_path(RELATIVE_PATH scene BASE_DIRECTORY "${folder}" OUTPUT_VARIABLE name)
+  string(REGEX REPLACE "\\.json$" "" name "${name}")
   to_literals("${scene}" literals)
-  string(APPEND entries "    BuiltinScene{\"${name}\",${literals}},\n")
+  string(APPEND entries "    pliant::BuiltinScene{\"${name}\",${literals}},\n")
 endforeach()
 
-file(WRITE "${output}" "// Made by cmake/embed_scenes.cmake from scenes/*.json.
-#include \"pliant/scene/builtin_scenes.h\"
+file(WRITE "${output}" "// Made by cmake/embed_scenes.cmake.
+#include \"${header}\"
 
 #include <array>
 
-namespace pliant {
+namespace ${namespace} {
 namespace {
 
-constexpr std::array<BuiltinScene, ${scene_count}> scenes{
+constexpr std::array<pliant::BuiltinScene, ${scene_count}> scenes{
 ${entries}};
 
 }  // namespace
 
-std::span<const BuiltinScene> builtin_scenes() { return scenes; }
+std::span<const pliant::BuiltinScene> ${function}() { return scenes; }
 
-}  // namespace pliant
+}  // namespace ${namespace}
 ")

@@ -34,7 +34,7 @@ USERS = ["apps", "benchmarks", "examples", "experiments", "python", "tests", "we
 THIRD_PARTY = {
     "Eigen/": ["src/pliant", "apps", "benchmarks", "examples", "experiments", "python", "tests", "web"],
     "unsupported/Eigen/": [],
-    "fmt/": ["src/pliant", "apps", "benchmarks", "tests"],
+    "fmt/": ["src/pliant", "apps", "benchmarks", "experiments", "tests"],
     "nlohmann/": ["src/pliant/scene", "src/pliant/recorder", "apps", "tests"],
     "CLI/": ["apps"],
     "zlib": ["src/pliant/core"],

@@ -11,8 +11,6 @@
 #include "pliant/solver/factorization/sweeps.h"
 
 namespace pliant_bench {
-namespace {
-
 Machine this_machine() {
   return {processor_name(),
           std::max(1U, std::thread::hardware_concurrency()),
@@ -22,8 +20,6 @@ Machine this_machine() {
           pliant::fastest_sweeps<float>().instruction_set,
           utc_date()};
 }
-
-}  // namespace
 
 bool BenchOptions::has(BaselineKind kind) const {
   return std::ranges::find(baselines, kind) != baselines.end();

@@ -49,6 +49,9 @@ struct BenchOptions {
 /// Told what is measured next.
 using Progress = std::function<void(std::string_view)>;
 
+/// What this program runs on, and what it was built with.
+Machine this_machine();
+
 /// Throws Error(input) on settings that the solver refuses, and when a baseline does not give what Pliant gives.
 BenchResult run_bench(const BenchOptions& options, const Progress& progress);
 

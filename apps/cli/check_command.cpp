@@ -11,6 +11,7 @@
 #include "commands.h"
 #include "pliant/core/printable.h"
 #include "pliant/mesh/geometry.h"
+#include "pliant/solver/integrator.h"
 #include "scene_options.h"
 
 namespace pliant_cli {
@@ -40,29 +41,48 @@ Real mass_of(const Body& body, const Simulation& simulation) {
   return std::accumulate(masses, masses + body.mesh.vertex_count(), Real(0));
 }
 
-/// The share of its swing that a vibration of this frequency [rad/s] loses in a step of implicit Euler.
-Real loss_per_step(Real frequency, Real time_step) {
-  return 1 - 1 / std::hypot(1, frequency * time_step);
+/// The share of its swing that a vibration of this frequency [rad/s] loses in a step to the integrator.
+Real loss_per_step(Real frequency, const pliant::SolverSettings& settings) {
+  const auto substeps = static_cast<Real>(settings.substeps);
+  const Real kept = amplification(settings.integrator, frequency * settings.time_step / substeps);
+  return 1 - std::pow(kept, substeps);
 }
 
-/// The frequency [Hz] at which half of the swing is gone after a second: ½ ln(1 + h²ω²)/h = ln 2.
-Real half_life_frequency(Real time_step) {
-  const Real exponent = std::min(2 * std::numbers::ln2 * time_step, Real(700));
-  return std::sqrt(std::expm1(exponent)) / time_step / (2 * std::numbers::pi);
+/// The frequency [Hz] at which the integrator takes half of the swing in a second.
+Real half_life_frequency(const pliant::SolverSettings& settings) {
+  const Real h = settings.time_step / static_cast<Real>(settings.substeps);
+  const Real kept = std::exp2(-h);  // in a substep
+  Real low = 1e-12;                 // h ω
+  Real high = 1e12;
+  for (int i = 0; i < 100; ++i) {
+    const Real middle = std::sqrt(low * high);
+    (amplification(settings.integrator, middle) > kept ? low : high) = middle;
+  }
+  return low / h / (2 * std::numbers::pi);
 }
 
-std::string frequency_text(const SystemInfo& info, Real time_step) {
-  const Real product = info.fastest_frequency * time_step;
+/// How to damp less.
+std::string less_damping_text(pliant::SolverSettings settings) {
+  if (settings.integrator != pliant::Integrator::implicit_euler) return "";
+  settings.integrator = pliant::Integrator::bdf2;
+  return fmt::format(", with `integrator` `bdf2` {:.2g} Hz", half_life_frequency(settings));
+}
+
+std::string frequency_text(const SystemInfo& info, const pliant::SolverSettings& settings) {
+  const Real product = info.fastest_frequency * settings.time_step;
   std::string text =
       fmt::format("{:.3g} rad/s = {:.3g} Hz; times the time step of {:.3g} s: {:.3g}\n", info.fastest_frequency,
-                  info.fastest_frequency / (2 * std::numbers::pi), time_step, product);
+                  info.fastest_frequency / (2 * std::numbers::pi), settings.time_step, product);
   if (!(info.fastest_frequency > 0)) return text + "  nothing vibrates: no constraint moves a free vertex";
   text += fmt::format("  the fastest vibration loses {:.0f} % of its swing in each step",
-                      100 * loss_per_step(info.fastest_frequency, time_step));
+                      100 * loss_per_step(info.fastest_frequency, settings));
   text += product > 1 ? ", so it is not seen; it is stable all the same\n" : "\n";
-  text += fmt::format(
-      "  what swings faster than {:.2g} Hz loses half of it in a second; a quarter of the time step doubles that",
-      half_life_frequency(time_step));
+  text += fmt::format("  what swings faster than {:.2g} Hz loses half of it in a second{}",
+                      half_life_frequency(settings), less_damping_text(settings));
+  if (settings.damping > 0) {
+    text += fmt::format("\n  `damping` takes half of every vibration in {:.2g} s besides",
+                        std::numbers::ln2 / settings.damping);
+  }
   return text;
 }
 
@@ -116,7 +136,8 @@ Json describe_groups(const Simulation& simulation) {
 Json describe(Scene& scene) {
   Simulation& simulation = scene.simulation;
   const SystemInfo info = pliant::at_place(scene.place(), [&] { return simulation.system_info(); });
-  const Real time_step = simulation.settings().time_step;
+  const pliant::SolverSettings& settings = simulation.settings();
+  const Real time_step = settings.time_step;
   std::map<std::string, std::int64_t> counts;
   for (const auto& [id, group] : simulation.groups()) counts[group.type] += group.set.count;
   Json forces = Json::array();
@@ -150,9 +171,9 @@ Json describe(Scene& scene) {
            {{"rad_per_s", info.fastest_frequency},
             {"hz", info.fastest_frequency / (2 * std::numbers::pi)},
             {"times_time_step", info.fastest_frequency * time_step},
-            {"loss_per_step", loss_per_step(info.fastest_frequency, time_step)},
-            {"half_life_hz", half_life_frequency(time_step)},
-            {"text", frequency_text(info, time_step)}}},
+            {"loss_per_step", loss_per_step(info.fastest_frequency, settings)},
+            {"half_life_hz", half_life_frequency(settings)},
+            {"text", frequency_text(info, settings)}}},
           {"warnings", warnings_of(simulation, info)}};
 }
 

@@ -10,11 +10,13 @@ inline constexpr std::size_t message_limit = 900;  // bytes of a message on the 
 
 void add_bench_command(CLI::App& program);
 void add_convert_command(CLI::App& program);
+void add_experiment_command(CLI::App& program, int& exit_code);
 void add_info_command(CLI::App& program);
 void add_render_command(CLI::App& program, int& exit_code);
 void add_view_command(CLI::App& program, int& exit_code);
 void add_resume_command(CLI::App& program, int& exit_code);
 void add_run_command(CLI::App& program, int& exit_code);
+void add_sweep_command(CLI::App& program, int& exit_code);
 void add_scenes_command(CLI::App& program);
 void add_check_command(CLI::App& program);
 void add_schema_command(CLI::App& program);

@@ -62,6 +62,8 @@ int run_program(int argc, char** argv) {
   int exit_code = 0;
   pliant_cli::add_run_command(program, exit_code);
   pliant_cli::add_resume_command(program, exit_code);
+  pliant_cli::add_sweep_command(program, exit_code);
+  pliant_cli::add_experiment_command(program, exit_code);
   pliant_cli::add_render_command(program, exit_code);
   pliant_cli::add_view_command(program, exit_code);
   pliant_cli::add_check_command(program);

@@ -32,16 +32,13 @@ bool is_whole(const Image& image) {
   return image.width > 0 && image.height > 0 && image.pixels.size() == byte_count(image.width, image.height);
 }
 
-void write_png(const std::filesystem::path& path, const Image& image) {
-  require(is_whole(image), "write_png: the image is not whole");
-  const auto fail = [&](const char* why) {
-    throw pliant::Error(pliant::ErrorKind::output,
-                        fmt::format("{}: cannot be written: {}", pliant::printable_place(path.string()), why));
-  };
+std::string encode_png(const Image& image) {
+  require(is_whole(image), "encode_png: the image is not whole");
   // stb counts in int, with one byte more a row.
   if (byte_count(image.width, image.height) + static_cast<std::size_t>(image.height) >
       static_cast<std::size_t>(std::numeric_limits<int>::max())) {
-    fail("the picture has more than 2^31 bytes; choose a smaller size");
+    throw pliant::Error(pliant::ErrorKind::output,
+                        "cannot be written: the picture has more than 2^31 bytes; choose a smaller size");
   }
   std::string file;
   const auto append = [](void* context, void* bytes, int size) {
@@ -49,6 +46,16 @@ void write_png(const std::filesystem::path& path, const Image& image) {
   };
   if (stbi_write_png_to_func(append, &file, image.width, image.height, channels, image.pixels.data(), 0) == 0) {
     throw std::bad_alloc();
+  }
+  return file;
+}
+
+void write_png(const std::filesystem::path& path, const Image& image) {
+  std::string file;
+  try {
+    file = encode_png(image);
+  } catch (const pliant::Error& error) {
+    throw pliant::Error(error.kind(), fmt::format("{}: {}", pliant::printable_place(path.string()), error.what()));
   }
   pliant::write_file_atomically(path, file);
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace pliant_render {
@@ -17,6 +18,10 @@ struct Image {
 
 /// Whether there is at least one pixel and as many bytes as the size says.
 bool is_whole(const Image& image);
+
+/// The bytes of a PNG file.
+/// @throws pliant::Error (output) for an image of more than 2³¹ bytes; std::logic_error for one that is not whole.
+std::string encode_png(const Image& image);
 
 /// Writes the file in one go: it is whole or absent.
 /// @throws pliant::Error (output) with the path and the reason; std::logic_error for an image that is not whole.

@@ -23,6 +23,9 @@ inline Real inertia_step(Integrator integrator, Real h) {
   return integrator == Integrator::bdf2 ? 2 * h / 3 : h;
 }
 
+/// By what a step of length h multiplies the amplitude of an undamped vibration ω: |λ| of the slowest of its solutions.
+Real amplification(Integrator integrator, Real h_omega);
+
 /// One step's form; refers to the state that it is made of.
 class StepForm {
  public:

@@ -1,0 +1,183 @@
+// pliant experiment: the experiments of the thesis and the paper, as one report.
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "bench/bench.h"
+#include "commands.h"
+#include "experiments.h"
+#include "pliant/core/atomic_file.h"
+#include "pliant/core/error.h"
+#include "pliant/core/printable.h"
+#include "pliant/core/stopwatch.h"
+#include "pliant/core/version.h"
+#include "pliant/scene/nearest_names.h"
+#include "render/offscreen_context.h"
+#include "report/report.h"
+#include "terminal.h"
+
+namespace pliant_cli {
+namespace {
+
+namespace fs = std::filesystem;
+using pliant_experiments::Experiment;
+using pliant_report::Report;
+using pliant_report::Verdict;
+
+struct ExperimentArguments {
+  std::vector<std::string> names;
+  fs::path out = "report";
+  bool without_pictures = false;
+  bool quiet = false;
+};
+
+void list_experiments() {
+  for (const Experiment& experiment : pliant_experiments::experiments()) {
+    fmt::print("{:<16} {}\n", experiment.name, experiment.title);
+  }
+}
+
+/// `all`, or names; in the order of the report.
+std::vector<Experiment> choose(const std::vector<std::string>& names) {
+  const std::span<const Experiment> all = pliant_experiments::experiments();
+  std::vector<std::string_view> known = {"all"};
+  for (const Experiment& experiment : all) known.push_back(experiment.name);
+  for (const std::string& name : names) {
+    if (std::ranges::find(known, std::string_view(name)) != known.end()) continue;
+    pliant::fail_input(fmt::format("there is no experiment '{}'; give all, or some of: {}", pliant::printable(name),
+                                   pliant::nearest_names_text(name, known)));
+  }
+  const auto is_asked = [&](std::string_view name) { return std::ranges::find(names, name) != names.end(); };
+  std::vector<Experiment> chosen;
+  for (const Experiment& experiment : all) {
+    if (is_asked("all") || is_asked(experiment.name)) chosen.push_back(experiment);
+  }
+  return chosen;
+}
+
+/// That the report can be written is known before anything is measured.
+void probe(const fs::path& folder) {
+  std::error_code failed;
+  fs::create_directories(folder, failed);
+  const pliant::AtomicFile file(folder / "index.html");
+}
+
+bool can_draw(const ExperimentArguments& arguments) {
+  if (arguments.without_pictures) return false;
+  try {
+    const pliant_render::OffscreenContext context;
+    return true;
+  } catch (const pliant::Error& error) {
+    print_to_stderr(fmt::format("warning: pictures are left out: {}\n", error.what()));
+    return false;
+  }
+}
+
+std::vector<std::pair<std::string, std::string>> facts() {
+  const pliant_bench::Machine machine = pliant_bench::this_machine();
+  return {
+      {"Pliant", std::string(pliant::version)},
+      {"Processor", fmt::format("{}, {} threads, {}", machine.processor, machine.processors, machine.instruction_set)},
+      {"Compiler", machine.compiler},
+      {"Eigen", machine.eigen},
+      {"CHOLMOD", machine.cholmod.empty() ? "not in this build" : machine.cholmod},
+      {"Date", machine.date + " UTC"}};
+}
+
+void show(const ExperimentArguments& arguments, std::string_view what) {
+  if (!arguments.quiet && has_error_terminal()) print_to_stderr(fmt::format("\r\x1b[K{}", what));
+}
+
+std::string verdict_text(Verdict verdict) {
+  return verdict == Verdict::holds ? "holds" : verdict == Verdict::fails ? "DOES NOT HOLD" : "reported";
+}
+
+void print_chapter(const pliant_report::Chapter& chapter) {
+  fmt::print("{} ({:.1f} s)\n", chapter.title, chapter.seconds);
+  for (const pliant_report::Claim& claim : chapter.claims) {
+    fmt::print("  {:<14} {}\n                 {}\n", verdict_text(claim.verdict), claim.text, claim.evidence);
+  }
+  std::fflush(stdout);
+}
+
+pliant_report::Chapter run_one(const Experiment& experiment, const ExperimentArguments& arguments, bool draws) {
+  const pliant_experiments::Lab lab(
+      {draws, [&](std::string_view what) { show(arguments, fmt::format("{}: {} ...", experiment.name, what)); },
+       was_interrupted});
+  const pliant::Stopwatch watch;
+  pliant_report::Chapter chapter = experiment.run(lab);
+  chapter.name = experiment.name;
+  chapter.title = experiment.title;
+  chapter.seconds = watch.seconds();
+  show(arguments, "");
+  if (!arguments.quiet) print_chapter(chapter);
+  return chapter;
+}
+
+/// Whole files of what is there so far, so that a long run that is ended leaves what it has.
+void write(const Report& report, const fs::path& folder) {
+  pliant::write_file_atomically(folder / "index.html", to_html(report));
+  pliant::write_file_atomically(folder / "report.json", to_json(report));
+}
+
+void print_summary(const Report& report, const fs::path& folder) {
+  fmt::print("{} claims: {} hold, {} do not hold, {} reported\n{}\n",
+             count(report, Verdict::holds) + count(report, Verdict::fails) + count(report, Verdict::reported),
+             count(report, Verdict::holds), count(report, Verdict::fails), count(report, Verdict::reported),
+             pliant::printable_place((folder / "index.html").string()));
+}
+
+int run_experiments(const ExperimentArguments& arguments) {
+  if (arguments.names.empty()) {
+    list_experiments();
+    return 0;
+  }
+  const std::vector<Experiment> chosen = choose(arguments.names);
+  probe(arguments.out);
+  const bool draws = can_draw(arguments);
+  catch_interrupts();
+  Report report;
+  report.title = "Projective Dynamics: the experiments";
+  report.introduction =
+      "The experiments of chapter 6 of T. Kenneweg's thesis (2014), the comparisons of Bouaziz et al. (2014), and what "
+      "goes "
+      "beyond both, as this machine has measured them. Each claim is followed by what was found; a claim that does not "
+      "hold "
+      "is said not to.";
+  report.facts = facts();
+  try {
+    for (const Experiment& experiment : chosen) {
+      report.chapters.push_back(run_one(experiment, arguments, draws));
+      write(report, arguments.out);
+    }
+  } catch (const pliant::Error& error) {
+    show(arguments, "");
+    if (error.kind() != pliant::ErrorKind::interrupted) throw;
+    print_to_stderr(
+        fmt::format("interrupted: {} of {} experiments are in the report\n", report.chapters.size(), chosen.size()));
+    return exit_interrupted;
+  }
+  print_summary(report, arguments.out);
+  return 0;
+}
+
+}  // namespace
+
+void add_experiment_command(CLI::App& program, int& exit_code) {
+  CLI::App* command = program.add_subcommand(
+      "experiment", "Repeat the experiments of the thesis and the paper; write a report with figures and verdicts");
+  const auto arguments = std::make_shared<ExperimentArguments>();
+  command->add_option("names", arguments->names, "all, or some; without any they are listed");
+  command->add_option("--out", arguments->out, "Folder for index.html and report.json, default report");
+  command->add_flag("--no-pictures", arguments->without_pictures, "Leave out what needs OpenGL");
+  command->add_flag("--quiet", arguments->quiet, "No progress and no verdicts, only the summary");
+  command->footer(
+      "Examples:\n"
+      "  pliant experiment                          lists them\n"
+      "  pliant experiment all --out report         all of them, a few minutes\n"
+      "  pliant experiment damping wind --out two   two of them");
+  command->callback([arguments, &exit_code] { exit_code = run_experiments(*arguments); });
+}
+
+}  // namespace pliant_cli

@@ -1,0 +1,99 @@
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "report/html_parts.h"
+#include "report/report.h"
+
+namespace pliant_report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// JSON has no number that is not finite.
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json numbers(const std::vector<double>& values) {
+  Json list = Json::array();
+  for (const double value : values) list.push_back(number(value));
+  return list;
+}
+
+Json axis_json(const Axis& axis) {
+  Json json = {{"label", axis.label}, {"logarithmic", axis.is_logarithmic}};
+  if (axis.min) json["min"] = number(*axis.min);
+  if (axis.max) json["max"] = number(*axis.max);
+  return json;
+}
+
+Json plot_json(const Plot& plot) {
+  Json series = Json::array();
+  for (const Series& each : plot.series) {
+    series.push_back({{"name", each.name}, {"x", numbers(each.x)}, {"y", numbers(each.y)}});
+  }
+  Json guides = Json::array();
+  for (const Guide& guide : plot.guides) {
+    guides.push_back({{"value", number(guide.value)}, {"label", guide.label}, {"axis", guide.is_vertical ? "x" : "y"}});
+  }
+  return {{"title", plot.title},    {"caption", plot.caption}, {"x", axis_json(plot.x)},
+          {"y", axis_json(plot.y)}, {"series", series},        {"guides", guides}};
+}
+
+Json claims_json(const std::vector<Claim>& claims) {
+  Json list = Json::array();
+  for (const Claim& claim : claims) {
+    list.push_back(
+        {{"text", claim.text}, {"by", claim.by}, {"verdict", word(claim.verdict)}, {"evidence", claim.evidence}});
+  }
+  return list;
+}
+
+/// Sorts the blocks of a chapter by what they are.
+struct Blocks {
+  Json paragraphs = Json::array();
+  Json plots = Json::array();
+  Json tables = Json::array();
+  Json pictures = Json::array();
+
+  void operator()(const Paragraph& paragraph) { paragraphs.push_back(paragraph.text); }
+  void operator()(const Plot& plot) { plots.push_back(plot_json(plot)); }
+  void operator()(const Table& table) {
+    tables.push_back({{"caption", table.caption}, {"columns", table.columns}, {"rows", table.rows}});
+  }
+  void operator()(const Picture& picture) {
+    pictures.push_back({{"caption", picture.caption}, {"width", picture.width}, {"height", picture.height}});
+  }
+};
+
+Json chapter_json(const Chapter& chapter) {
+  Blocks blocks;
+  for (const Block& block : chapter.blocks) std::visit(blocks, block);
+  return {{"name", chapter.name},
+          {"title", chapter.title},
+          {"question", chapter.question},
+          {"seconds", number(chapter.seconds)},
+          {"claims", claims_json(chapter.claims)},
+          {"paragraphs", std::move(blocks.paragraphs)},
+          {"plots", std::move(blocks.plots)},
+          {"tables", std::move(blocks.tables)},
+          {"pictures", std::move(blocks.pictures)}};
+}
+
+}  // namespace
+
+std::string to_json(const Report& report) {
+  Json facts = Json::object();
+  for (const auto& [name, value] : report.facts) facts[name] = value;
+  Json chapters = Json::array();
+  for (const Chapter& chapter : report.chapters) chapters.push_back(chapter_json(chapter));
+  const Json json = {{"title", report.title},
+                     {"introduction", report.introduction},
+                     {"facts", std::move(facts)},
+                     {"chapters", std::move(chapters)}};
+  // Texts may hold bytes that are not UTF-8; they must not cost the report.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+}  // namespace pliant_report

@@ -1,0 +1,200 @@
+#include "sweep/run_result.h"
+
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "pliant/core/error.h"
+#include "pliant/core/printable.h"
+#include "pliant/mesh/io/read_file.h"
+#include "sweep/measurement_table.h"
+
+namespace pliant_sweep {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+/// Of the state, which the start has as well, or of a step.
+enum class Of { state, step };
+
+struct Quantity {
+  std::string_view column;
+  std::string_view label;
+  std::string_view unit;
+  Of of;
+};
+
+constexpr std::array quantities = {
+    Quantity{"kinetic", "kinetic energy", " [J]", Of::state},
+    Quantity{"elastic", "elastic energy", " [J]", Of::state},
+    Quantity{"gravitational", "gravitational energy", " [J]", Of::state},
+    Quantity{"total", "total energy", " [J]", Of::state},
+    Quantity{"speed_sum", "total speed", " [m/s]", Of::state},
+    Quantity{"momentum", "momentum", " [N·s]", Of::state},
+    Quantity{"residual", "residual", " [N]", Of::step},
+    Quantity{"objective", "objective", " [J]", Of::step},
+    Quantity{"iterations", "iterations", "", Of::step},
+};
+constexpr std::array times = {
+    Quantity{"ms_local", "local steps", " [ms a step]", Of::step},
+    Quantity{"ms_global", "global steps", " [ms a step]", Of::step},
+    Quantity{"ms_total", "time", " [ms a step]", Of::step},
+};
+
+std::vector<FigureInfo> make_figure_infos() {
+  std::vector<FigureInfo> infos;
+  for (const Quantity& each : quantities) {
+    infos.push_back({fmt::format("{}_end", each.column), fmt::format("{} at the end{}", each.label, each.unit)});
+    infos.push_back({fmt::format("{}_mean", each.column), fmt::format("mean {}{}", each.label, each.unit)});
+    infos.push_back({fmt::format("{}_max", each.column), fmt::format("largest {}{}", each.label, each.unit)});
+  }
+  infos.push_back({"speed_sum_late", "mean total speed in the last third [m/s]"});
+  for (const Quantity& each : times) {
+    infos.push_back({std::string(each.column), fmt::format("{}{}", each.label, each.unit)});
+  }
+  infos.push_back({"wall_seconds", "duration of the run [s]"});
+  return infos;
+}
+
+double mean(std::span<const double> values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// The rows of a column that count for a quantity.
+std::span<const double> rows_of(const MeasurementTable& table, const Quantity& quantity,
+                                std::span<const double> column) {
+  const std::vector<double>* steps = table.find("step");
+  const bool has_start = steps != nullptr && !steps->empty() && steps->front() == 0;
+  return quantity.of == Of::step && has_start ? column.subspan(1) : column;
+}
+
+std::optional<double> late_mean(const MeasurementTable& table, const std::vector<double>& values) {
+  const std::vector<double>* time = table.find("time");
+  if (time == nullptr || time->empty()) return std::nullopt;
+  const double begin = time->back() - (time->back() - time->front()) / 3;
+  const auto first = static_cast<std::size_t>(std::ranges::lower_bound(*time, begin) - time->begin());
+  return mean(std::span(values).subspan(std::min(first, values.size() - 1)));
+}
+
+std::vector<std::optional<double>> figures_of(const MeasurementTable& table, std::optional<double> wall_seconds) {
+  std::vector<std::optional<double>> figures(figure_infos().size());
+  const std::vector<double> elastic = table.elastic();
+  for (std::size_t i = 0; i < quantities.size(); ++i) {
+    const auto* column = quantities[i].column == "elastic" ? &elastic : table.find(quantities[i].column);
+    if (column == nullptr) continue;
+    const std::span<const double> rows = rows_of(table, quantities[i], *column);
+    if (rows.empty()) continue;
+    figures[3 * i] = rows.back();
+    figures[3 * i + 1] = mean(rows);
+    figures[3 * i + 2] = *std::ranges::max_element(rows);
+  }
+  if (const auto* speeds = table.find("speed_sum")) figures[figure_index("speed_sum_late")] = late_mean(table, *speeds);
+  for (const Quantity& each : times) {
+    const auto* column = table.find(each.column);
+    if (column == nullptr) continue;
+    const std::span<const double> rows = rows_of(table, each, *column);
+    if (!rows.empty()) figures[figure_index(each.column)] = mean(rows);
+  }
+  figures.back() = wall_seconds;
+  return figures;
+}
+
+/// What counts of a run.json.
+struct RunFile {
+  RunOutcome outcome = RunOutcome::waiting;
+  std::string error;
+  std::int64_t steps = 0;
+  std::int64_t every = 1;
+  double wall_seconds = 0;
+};
+
+/// @throws nlohmann::json::exception, pliant::Error
+RunFile read_run_file(const fs::path& path) {
+  const Json json = Json::parse(pliant::read_file(path));
+  RunFile file;
+  const auto outcome = json.at("outcome").get<std::string>();
+  if (outcome == "ok") file.outcome = RunOutcome::ok;
+  if (outcome == "diverged") file.outcome = RunOutcome::diverged;
+  file.error = json.value("error", "");
+  file.steps = json.at("totals").at("steps").get<std::int64_t>();
+  file.every = std::max<std::int64_t>(1, json.at("output").at("every").get<std::int64_t>());
+  file.wall_seconds = json.at("totals").at("wall_seconds").get<double>();
+  return file;
+}
+
+/// A run that diverges may do so while its last step is measured: then that one has no row.
+bool is_complete(const RunFile& file, const MeasurementTable& table) {
+  const auto rows = static_cast<std::int64_t>(table.row_count());
+  const std::int64_t wanted = file.steps / file.every + 1;
+  return table.is_whole && rows > 0 && (rows == wanted || (file.outcome == RunOutcome::diverged && rows + 1 == wanted));
+}
+
+/// The last line of what a run wrote, without the name of the program. Empty when it wrote nothing.
+std::string last_line(const fs::path& output) {
+  std::string text;
+  try {
+    text = pliant::read_file(output);
+  } catch (const pliant::Error&) {
+    return "";
+  }
+  while (text.ends_with('\n')) text.pop_back();
+  const std::size_t end = text.rfind('\n');
+  if (end != text.npos) text.erase(0, end + 1);
+  constexpr std::string_view head = "pliant: error: ";
+  return pliant::printable_place(text.starts_with(head) ? text.substr(head.size()) : text, 900);
+}
+
+}  // namespace
+
+std::span<const FigureInfo> figure_infos() {
+  static const std::vector<FigureInfo> infos = make_figure_infos();
+  return infos;
+}
+
+std::size_t figure_index(std::string_view name) {
+  const auto infos = figure_infos();
+  const auto found = std::ranges::find(infos, name, &FigureInfo::name);
+  if (found == infos.end()) throw std::logic_error(fmt::format("there is no figure '{}'", name));
+  return static_cast<std::size_t>(found - infos.begin());
+}
+
+RunResult read_run_result(const fs::path& folder) {
+  try {
+    const RunFile file = read_run_file(folder / "run.json");
+    if (file.outcome == RunOutcome::waiting) return {};
+    const MeasurementTable table = read_measurements(folder / "measurements.csv");
+    if (!is_complete(file, table)) return {};
+    RunResult result{file.outcome, file.steps, file.error};
+    result.exit_code = file.outcome == RunOutcome::diverged ? static_cast<int>(pliant::ErrorKind::diverged) : 0;
+    result.figures = figures_of(table, file.wall_seconds);
+    return result;
+  } catch (const pliant::Error&) {  // no run was here, or what is here is none that has ended
+  } catch (const Json::exception&) {
+  }
+  return {};
+}
+
+RunResult result_of_ended_run(const fs::path& folder, const ProcessEnd& end, const fs::path& output) {
+  RunResult result = read_run_result(folder);
+  if (end.signal == 0 && result.has_ended_by_itself() && end.exit_code == result.exit_code) return result;
+  result = {RunOutcome::failed};
+  result.exit_code = end.signal != 0 ? static_cast<int>(pliant::ErrorKind::input) : end.exit_code;
+  const std::string line = last_line(output);
+  const std::string how = end_text(end);
+  if (end.signal != 0) {
+    result.message = line.empty() ? how : fmt::format("{}: {}", how, line);
+  } else if (end.exit_code == 0) {
+    result.message = fmt::format("its files are not whole; remove {} and sweep again", folder.string());
+    result.exit_code = static_cast<int>(pliant::ErrorKind::output);
+  } else {
+    const bool is_full = end.exit_code == static_cast<int>(pliant::ErrorKind::output);
+    result.message = !line.empty() ? line : is_full ? "its files could not be written; make room" : how;
+  }
+  return result;
+}
+
+}  // namespace pliant_sweep

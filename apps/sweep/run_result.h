@@ -1,0 +1,59 @@
+#pragma once
+// What a run of a sweep came to: its outcome, and what its measurements say in a few figures.
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sweep/process.h"
+
+namespace pliant_sweep {
+
+/// waiting: it has not ended, or has not begun.
+enum class RunOutcome { waiting, ok, diverged, failed };
+constexpr std::array<std::string_view, 4> choice_names(RunOutcome) {
+  return {"waiting", "ok", "diverged", "failed"};
+}
+
+/// A number that says something of a whole run.
+struct FigureInfo {
+  std::string name;   ///< the column of sweep.csv: "total_end"
+  std::string label;  ///< with its unit: "total energy at the end [J]"
+};
+
+/// All figures in the order of their columns. Of kinetic, elastic (of all groups), gravitational and total energy,
+/// speed_sum, momentum, residual, objective and iterations: `_end` of the last record, `_mean` and `_max` of all. Then
+/// speed_sum_late, the mean over the last third of the time; the means of the times; the seconds of the whole run. The
+/// record of the start counts for the state alone, and not for what a step does: residual, objective, iterations,
+/// times.
+std::span<const FigureInfo> figure_infos();
+
+/// The place of a figure in figure_infos(). @throws std::logic_error for an unknown name
+std::size_t figure_index(std::string_view name);
+
+struct RunResult {
+  RunOutcome outcome = RunOutcome::waiting;
+  std::int64_t steps_done = 0;
+  std::string message{};  ///< why it did not end well
+  int exit_code = 0;
+  std::vector<std::optional<double>> figures{};  ///< of figure_infos(); empty, or none each, where nothing was measured
+
+  bool has_ended_by_itself() const { return outcome == RunOutcome::ok || outcome == RunOutcome::diverged; }
+  std::optional<double> figure(std::size_t index) const {
+    return index < figures.size() ? figures[index] : std::nullopt;
+  }
+};
+
+/// What stands in the folder of a run: ok or diverged when its files say so and are whole, else waiting. Does not
+/// throw.
+RunResult read_run_result(const std::filesystem::path& folder);
+
+/// The same of a run that has just ended; one that did not reach its end by itself has failed, and its output says why.
+RunResult result_of_ended_run(const std::filesystem::path& folder, const ProcessEnd& end,
+                              const std::filesystem::path& output);
+
+}  // namespace pliant_sweep

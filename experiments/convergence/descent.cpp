@@ -1,0 +1,118 @@
+#include "convergence/descent.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pliant/core/stopwatch.h"
+#include "support/statistics.h"
+
+namespace pliant_experiments {
+namespace {
+
+using namespace pliant;
+
+constexpr int most_newton_iterations = 200;
+constexpr double most_repeat_seconds = 0.5;  // of one number of iterations: long steps are taken once
+constexpr double rounding = 1e-18;           // errors may come out as zero or less, which has no logarithm
+
+double distance(const MassSpring& model, const Positions& a, const Positions& b) {
+  double sum = 0;
+  for (Index i = 0; i < model.vertex_count(); ++i) {
+    sum += model.masses[static_cast<std::size_t>(i)] * (a.row(i) - b.row(i)).squaredNorm();
+  }
+  return std::sqrt(sum);
+}
+
+void take(Simulation& simulation, const State& start, int iterations) {
+  simulation.restore(start);
+  SolverSettings settings = simulation.settings();
+  settings.iterations = iterations;
+  simulation.set_settings(settings);
+}
+
+}  // namespace
+
+double Problem::objective_error(const Positions& q) const {
+  return (objective(model, step, q) - least_objective) / (first_objective - least_objective);
+}
+
+double Problem::position_error(const Positions& q) const {
+  return distance(model, q, minimum) / first_distance;
+}
+
+Problem problem_after(const Lab& lab, Scene scene, int steps) {
+  for (int i = 0; i < steps; ++i) lab.step(scene);
+  State start = scene.simulation.state();
+  MassSpring model = mass_spring(scene.simulation);
+  EulerStep step = next_step(scene.simulation, model);
+  Problem problem{std::move(scene), std::move(start), std::move(model), std::move(step)};
+  problem.minimum = problem.step.predicted;
+  problem.first_objective = objective(problem.model, problem.step, problem.step.predicted);
+  problem.newton_iterations = Newton(problem.model).minimise(problem.step, problem.minimum, most_newton_iterations);
+  problem.least_objective = objective(problem.model, problem.step, problem.minimum);
+  problem.first_distance = distance(problem.model, problem.step.predicted, problem.minimum);
+  problem.largest_gradient = gradient(problem.model, problem.step, problem.minimum).rowwise().norm().maxCoeff();
+  return problem;
+}
+
+std::optional<std::size_t> Descent::first_under(double error) const {
+  for (std::size_t i = 0; i < objective_errors.size(); ++i) {
+    if (objective_errors[i] < error) return i;
+  }
+  return std::nullopt;
+}
+
+double Descent::objective_error_at(double time) const {
+  if (seconds.empty() || time < seconds.front()) return 1;
+  for (std::size_t i = 1; i < seconds.size(); ++i) {
+    if (time >= seconds[i]) continue;
+    const double share = std::log(time / seconds[i - 1]) / std::log(seconds[i] / seconds[i - 1]);
+    const double before = std::max(objective_errors[i - 1], rounding);
+    return before * std::pow(std::max(objective_errors[i], rounding) / before, share);
+  }
+  return objective_errors.back();
+}
+
+Descent descend(const Lab& lab, Problem& problem, const std::vector<int>& iterations, int repeats) {
+  Simulation& simulation = problem.scene.simulation;
+  Descent descent;
+  for (const int count : iterations) {
+    std::vector<double> seconds;
+    const Stopwatch watch;
+    for (int i = 0; i < repeats && (i == 0 || watch.seconds() < most_repeat_seconds); ++i) {
+      take(simulation, problem.start, count);
+      const StepReport report = lab.step(problem.scene);
+      seconds.push_back(report.seconds_local + report.seconds_global);
+    }
+    descent.iterations.push_back(count);
+    // More iterations take longer; where a median says otherwise, the machine was busy with something else.
+    const double before = descent.seconds.empty() ? 0 : descent.seconds.back();
+    descent.seconds.push_back(std::max(before, median(std::move(seconds))));
+    descent.objective_errors.push_back(problem.objective_error(simulation.state().positions));
+    descent.position_errors.push_back(problem.position_error(simulation.state().positions));
+  }
+  return descent;
+}
+
+Descent descend_by_newton(const Problem& problem, int repeats) {
+  std::vector<std::vector<double>> seconds;  // of each iteration, in each repeat
+  Descent descent;
+  for (int repeat = 0; repeat < repeats; ++repeat) {
+    Newton newton(problem.model);
+    Positions q = problem.step.predicted;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(most_newton_iterations) && newton.iterate(problem.step, q);
+         ++i) {
+      if (repeat == 0) {
+        descent.iterations.push_back(static_cast<int>(i) + 1);
+        descent.objective_errors.push_back(problem.objective_error(q));
+        descent.position_errors.push_back(problem.position_error(q));
+        seconds.emplace_back();
+      }
+      seconds[i].push_back(newton.times().iterations());
+    }
+  }
+  for (std::vector<double>& each : seconds) descent.seconds.push_back(median(std::move(each)));
+  return descent;
+}
+
+}  // namespace pliant_experiments

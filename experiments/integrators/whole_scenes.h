@@ -1,0 +1,21 @@
+#pragma once
+// The integrators on whole scenes.
+#include "lab.h"
+
+namespace pliant_experiments {
+
+/// The curtain of the damping experiment, at equal iterations and at equal cost.
+void measure_curtain(const Lab& lab, pliant_report::Chapter& chapter);
+
+/// Every built-in scene with BDF2 to its end.
+void measure_builtin_scenes(const Lab& lab, pliant_report::Chapter& chapter);
+
+/// By what shares damping changes what it should leave alone.
+struct DampedFlight {
+  double momentum = 0;          ///< largest of a step, against the same step without damping
+  double angular_momentum = 0;  ///< the same
+  double fall = 0;              ///< of the centre's way in all steps
+};
+DampedFlight measure_damped_flight(const Lab& lab);
+
+}  // namespace pliant_experiments

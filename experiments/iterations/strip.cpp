@@ -1,0 +1,119 @@
+#include "iterations/strip.h"
+
+#include <algorithm>
+#include <memory>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "pliant/core/error.h"
+#include "pliant/core/stopwatch.h"
+#include "support/statistics.h"
+
+namespace pliant_experiments {
+namespace {
+
+using namespace pliant;
+
+constexpr int most_newton_iterations = 200;
+constexpr double resting_move = 1e-11;  // [m], of every vertex
+constexpr double long_step = 1;         // [s]
+constexpr int most_long_steps = 1000;
+
+}  // namespace
+
+Scene strip(const Lab& lab, double stiffness) {
+  return lab.scene("iterations/strip", {fmt::format("bodies[strip].constraints[springs].stiffness={}", stiffness)});
+}
+
+double stretch(const Scene& rest, const Positions& positions) {
+  const Positions& at_rest = rest.simulation.bodies().front().mesh.vertices;
+  const double lowest = at_rest.col(2).minCoeff();
+  double sum = 0;
+  int count = 0;
+  for (Index i = 0; i < at_rest.rows(); ++i) {
+    if (at_rest(i, 2) > lowest) continue;
+    sum += at_rest(i, 2) - positions(i, 2);
+    ++count;
+  }
+  return sum / count / (at_rest.col(2).maxCoeff() - lowest);
+}
+
+Mover by_projective_dynamics(const Lab& lab, double stiffness, int iterations, Start start) {
+  const auto scene = std::make_shared<Scene>(strip(lab, stiffness));
+  SolverSettings settings = scene->simulation.settings();
+  settings.iterations = iterations;
+  settings.start = start;
+  scene->simulation.set_settings(settings);
+  return [scene, &lab]() -> const Positions& {
+    lab.step(*scene);
+    return scene->simulation.state().positions;
+  };
+}
+
+Mover by_position_based_dynamics(const Lab& lab, double stiffness, const XpbdOptions& options) {
+  const auto xpbd = std::make_shared<Xpbd>(strip(lab, stiffness).simulation, options);
+  return [xpbd]() -> const Positions& {
+    xpbd->step();
+    return xpbd->positions();
+  };
+}
+
+Mover by_newton(const Lab& lab, double stiffness) {
+  const auto scene = std::make_shared<Scene>(strip(lab, stiffness));
+  const auto newton = std::make_shared<Newton>(mass_spring(scene->simulation));
+  const MassSpring model = mass_spring(scene->simulation);
+  return [scene, newton, model]() -> const Positions& {
+    Simulation& simulation = scene->simulation;
+    const EulerStep step = next_step(simulation, model);
+    const Positions before = simulation.state().positions;
+    Positions q = step.predicted;
+    newton->minimise(step, q, most_newton_iterations);
+    simulation.set_state(q, (q - before) / step.time_step);
+    return simulation.state().positions;
+  };
+}
+
+double stretch_at_rest(const Lab& lab, double stiffness) {
+  Scene scene = strip(lab, stiffness);
+  Simulation& simulation = scene.simulation;
+  SolverSettings settings = simulation.settings();
+  settings.time_step = long_step;
+  simulation.set_settings(settings);
+  const MassSpring model = mass_spring(simulation);
+  Newton newton(model);
+  const Positions still = Positions::Zero(simulation.state().positions.rows(), 3);
+  for (int i = 0; i < most_long_steps; ++i) {
+    const Positions before = simulation.state().positions;
+    Positions q = before;
+    newton.minimise(next_step(simulation, model), q, most_newton_iterations);
+    simulation.set_state(q, still);
+    if ((q - before).cwiseAbs().maxCoeff() < resting_move) return stretch(scene, q);
+  }
+  throw Error(ErrorKind::diverged, fmt::format("{}: not at rest after {} steps", scene.place(), most_long_steps));
+}
+
+double Fall::last_mean(int count) const {
+  return std::accumulate(stretch.end() - count, stretch.end(), 0.) / count;
+}
+
+double Fall::last_amplitude(int count) const {
+  const auto [least, most] = std::minmax_element(stretch.end() - count, stretch.end());
+  return (*most - *least) / 2;
+}
+
+Fall fall(const Scene& rest, const Mover& mover, int steps) {
+  Fall result{{stretch(rest, rest.simulation.state().positions)}};
+  std::vector<double> seconds;
+  for (int i = 0; i < steps; ++i) {
+    const Stopwatch watch;
+    const Positions& positions = mover();
+    seconds.push_back(watch.seconds());
+    result.stretch.push_back(stretch(rest, positions));
+    if (i + 1 == steps) result.last = positions;
+  }
+  result.seconds = median(std::move(seconds));
+  return result;
+}
+
+}  // namespace pliant_experiments

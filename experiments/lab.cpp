@@ -1,0 +1,62 @@
+#include "lab.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "pliant/core/error.h"
+#include "render/picture_maker.h"
+#include "render/take.h"
+#include "support/scenes.h"
+
+namespace pliant_experiments {
+namespace {
+
+using pliant_render::Image;
+
+pliant::Scene scene_of(std::span<const pliant::BuiltinScene> scenes, std::string_view name, const Sets& sets) {
+  const auto found = std::ranges::find(scenes, name, &pliant::BuiltinScene::name);
+  if (found == scenes.end()) pliant::fail_input(fmt::format("there is no scene '{}' among the experiments", name));
+  pliant::SceneOverrides overrides;
+  overrides.set = sets;
+  return pliant::parse_scene(found->text, {}, name, overrides);
+}
+
+}  // namespace
+
+pliant::Scene Lab::scene(std::string_view name, const Sets& sets) const {
+  return scene_of(experiment_scenes(), name, sets);
+}
+
+pliant::Scene Lab::builtin_scene(std::string_view name, const Sets& sets) const {
+  return scene_of(pliant::builtin_scenes(), name, sets);
+}
+
+pliant::StepReport Lab::step(pliant::Scene& scene) const {
+  if (options_.stop()) throw pliant::Error(pliant::ErrorKind::interrupted, "the experiments were ended");
+  return scene.step();
+}
+
+Image Lab::picture(const pliant::Scene& scene) const {
+  if (!options_.draws) return {};
+  pliant_render::Take take{pliant_render::make_scenery(scene.simulation.bodies()), scene.view, {}};
+  take.frames.push_back(pliant_render::take_frame(scene.simulation, take.scenery, scene.view.colour));
+  pliant_render::PictureOptions options;
+  options.look = scene.view;
+  options.bounds = bounds_of(take);
+  options.ground_height = ground_height(take);
+  options.range = colour_range(take);
+  pliant_render::PictureMaker maker(take.scenery, options);
+  return maker.draw(take.frames[0].content, take.frames[0].wind);
+}
+
+void Lab::show(pliant_report::Chapter& chapter, const std::vector<Image>& pictures, int columns,
+               std::string caption) const {
+  if (!options_.draws || pictures.empty()) return;
+  constexpr int gap = 6;
+  constexpr std::array<std::uint8_t, 3> background = {255, 255, 255};
+  const Image image = pictures.size() == 1 ? pictures[0] : contact_sheet(pictures, columns, gap, background);
+  chapter.blocks.emplace_back(pliant_report::Picture{std::move(caption), encode_png(image), image.width, image.height});
+}
+
+}  // namespace pliant_experiments

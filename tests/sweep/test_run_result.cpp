@@ -1,0 +1,123 @@
+// The figures of a run, from its files, also when these are cut, missing or of something else.
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "sweep/measurement_table.h"
+#include "sweep/run_result.h"
+#include "tests/support/temporary_folder.h"
+
+namespace {
+
+using namespace pliant_sweep;
+using pliant_tests::TemporaryFolder;
+
+constexpr std::string_view measurements =
+    "step,time,kinetic,elastic_a,\"elastic_b,\"\"c\n\",total,speed_sum,residual,iterations,ms_total\n"
+    "0,0,1,2,30,9,1,7,0,0\n"
+    "1,0.1,2,3,40,5,2,1,4,10\n"
+    "2,0.2,5,4,50,-8,4,3,8,20\n"
+    "3,0.3,4,1,60,3,8,2,6,60\n";
+
+std::string run_json(const std::string& outcome, int steps) {
+  return R"({"outcome": ")" + outcome + R"(", "error": "why", "output": {"every": 1}, "totals": {"steps": )" +
+         std::to_string(steps) + R"(, "wall_seconds": 1.5}})";
+}
+
+RunResult result_of(const std::string& json, std::string_view csv) {
+  const TemporaryFolder folder;
+  folder.write("run.json", json);
+  folder.write("measurements.csv", csv);
+  return read_run_result(folder.path());
+}
+
+TEST_CASE("a table is read as far as its rows are whole") {
+  const MeasurementTable table = parse_measurements(measurements);
+  REQUIRE(table.is_whole);
+  CHECK(table.row_count() == 4);
+  CHECK(table.names[4] == "elastic_b,\"c\n");
+  CHECK(table.elastic() == std::vector<double>{32, 43, 54, 61});
+  CHECK(table.find("nothing") == nullptr);
+  const std::size_t names_end = measurements.find("0,0,1");
+  for (std::size_t size = 0; size < measurements.size(); ++size) {
+    CAPTURE(size);
+    const MeasurementTable cut = parse_measurements(measurements.substr(0, size));
+    const bool is_at_line_end = size >= names_end && measurements[size - 1] == '\n';
+    CHECK(cut.is_whole == is_at_line_end);
+    CHECK(cut.row_count() < 4);
+    for (const auto& column : cut.columns) CHECK(column.size() == cut.row_count());
+  }
+  CHECK(!parse_measurements("a,b\n1,2\n1,2,3\n").is_whole);
+  CHECK(!parse_measurements("a,b\n1\n").is_whole);
+  CHECK(!parse_measurements("a,b\n1,x\n").is_whole);
+  CHECK(!parse_measurements("a,b\n1, 2\n").is_whole);
+}
+
+TEST_CASE("the figures of a run") {
+  const RunResult result = result_of(run_json("ok", 3), measurements);
+  REQUIRE(result.outcome == RunOutcome::ok);
+  CHECK(result.steps_done == 3);
+  const auto figure = [&](std::string_view name) { return result.figure(figure_index(name)); };
+  CHECK(figure("kinetic_end") == 4.0);
+  CHECK(figure("kinetic_mean") == 3.0);
+  CHECK(figure("kinetic_max") == 5.0);
+  CHECK(figure("elastic_max") == 61.0);
+  CHECK(figure("total_max") == 9.0);
+  CHECK(figure("residual_max") == 3.0);  // not that of the start
+  CHECK(figure("iterations_mean") == 6.0);
+  CHECK(figure("ms_total") == 30.0);
+  CHECK(figure("speed_sum_late") == 6.0);  // from 0.2 s on
+  CHECK(figure("wall_seconds") == 1.5);
+  CHECK(!figure("momentum_end"));
+  CHECK_THROWS_AS(figure_index("nothing"), std::logic_error);
+}
+
+TEST_CASE("a run without steps has a state, and no step") {
+  const std::string_view start = measurements.substr(0, measurements.find("1,0.1"));
+  const RunResult result = result_of(run_json("ok", 0), start);
+  REQUIRE(result.outcome == RunOutcome::ok);
+  CHECK(result.figure(figure_index("kinetic_end")) == 1.0);
+  CHECK(result.figure(figure_index("speed_sum_late")) == 1.0);
+  CHECK(!result.figure(figure_index("iterations_mean")));
+}
+
+TEST_CASE("what is not whole has not ended") {
+  const std::string_view text = measurements;
+  CHECK(result_of(run_json("running", 3), text).outcome == RunOutcome::waiting);
+  CHECK(result_of(run_json("interrupted", 3), text).outcome == RunOutcome::waiting);
+  CHECK(result_of(run_json("ok", 4), text).outcome == RunOutcome::waiting);
+  CHECK(result_of(run_json("ok", 3), text.substr(0, text.size() - 1)).outcome == RunOutcome::waiting);
+  CHECK(result_of(run_json("ok", 3), "").outcome == RunOutcome::waiting);
+  for (const char* json :
+       {"", "{", "[]", "{}", "3", R"({"outcome": 3})", R"({"outcome": "ok"})", R"({"outcome": "ok", "totals": []})"}) {
+    CAPTURE(json);
+    CHECK(result_of(json, text).outcome == RunOutcome::waiting);
+  }
+  CHECK(read_run_result("/nonexistent").outcome == RunOutcome::waiting);
+  // It may diverge while its last step is measured.
+  CHECK(result_of(run_json("diverged", 4), text).outcome == RunOutcome::diverged);
+  CHECK(result_of(run_json("diverged", 5), text).outcome == RunOutcome::waiting);
+  CHECK(result_of(run_json("diverged", 3), text).message == "why");
+}
+
+TEST_CASE("a run that did not end by itself says why") {
+  const TemporaryFolder folder;
+  const auto log = folder.write("log", "warning: x\npliant: error: the disk\x1b is full\n");
+  RunResult result = result_of_ended_run(folder.path(), {4, 0}, log);
+  CHECK(result.outcome == RunOutcome::failed);
+  CHECK(result.exit_code == 4);
+  CHECK(result.message == "the disk  is full");
+  result = result_of_ended_run(folder.path(), {0, 9}, folder.path() / "none");
+  CHECK(result.message.starts_with("ended by signal 9"));
+  CHECK(result_of_ended_run(folder.path(), {4, 0}, folder.path() / "none").message.find("make room") !=
+        std::string::npos);  // a full disk has no place for messages either
+  folder.write("run.json", run_json("ok", 3));
+  folder.write("measurements.csv", measurements);
+  CHECK(result_of_ended_run(folder.path(), {0, 0}, log).outcome == RunOutcome::ok);
+  CHECK(result_of_ended_run(folder.path(), {2, 0}, log).outcome == RunOutcome::failed);  // the files are older
+  CHECK(result_of_ended_run(folder.path(), {0, 9}, log).outcome == RunOutcome::failed);
+  folder.write("measurements.csv", "");
+  CHECK(result_of_ended_run(folder.path(), {0, 0}, log).message.find("not whole") != std::string::npos);
+}
+
+}  // namespace
