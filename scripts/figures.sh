@@ -33,6 +33,26 @@ picture pillow pillow --steps 150 --colour energy
 picture net net --steps 200
 "$pliant" render torus --out "$out/torus.png" --size 960x540 --steps 140 --frames 6 --sheet --wireframe --quiet
 
+# Of the report on the torus, the last three pictures: jumps of 1 m without bending, with absolute, with signed bending.
+draw_experiment() {
+  local folder
+  folder="$(mktemp -d)"
+  "$pliant" experiment torus --out "$folder" --quiet
+  python3 - "$folder" <<'PYTHON'
+import base64, re, sys
+pictures = re.findall(r'data:image/png;base64,([^"]+)', open(sys.argv[1] + "/index.html", encoding="utf-8").read())
+for i, picture in enumerate(pictures[-3:]):
+    open(f"{sys.argv[1]}/{i}.png", "wb").write(base64.b64decode(picture))
+PYTHON
+  convert "$folder"/[0-2].png -append -resize 960x "$out/experiments.png"
+  rm -r "$folder"
+}
+if command -v convert >/dev/null; then
+  draw_experiment
+else
+  echo "figures.sh: $out/experiments.png is left as it is; it needs imagemagick" >&2
+fi
+
 if command -v xvfb-run >/dev/null && command -v xdotool >/dev/null && command -v import >/dev/null; then
   xvfb-run -a -s "-screen 0 1200x700x24 -noreset" bash scripts/figures.sh --window "$pliant"
 else

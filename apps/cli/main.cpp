@@ -26,6 +26,8 @@ constexpr std::string_view help_footer = R"(Examples:
   pliant view curtain_wind                       opens a window in which one can pull at it
   pliant render curtain_wind --out curtain.mp4   makes a film, without a display
   pliant convert out/curtain curtain.glb         exports a run as an animation
+  pliant sweep curtain --vary settings.iterations=5,10,20 --out out/sweep    runs all of these, with a table and plots
+  pliant experiment all --out report             repeats the experiments of the thesis, with figures and verdicts
   pliant info shirt.ply                          says what a mesh is like, and what is wrong with it
   pliant bench                                   says how fast this machine is, part by part
 

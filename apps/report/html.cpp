@@ -5,6 +5,7 @@
 
 #include "report/html_parts.h"
 #include "report/text.h"
+#include "report/typeset.h"
 
 namespace pliant_report {
 namespace {
@@ -146,7 +147,8 @@ std::vector<std::string> anchors(const std::vector<Chapter>& chapters) {
   return result;
 }
 
-std::string to_html(const Report& report) {
+std::string to_html(const Report& given) {
+  const Report report = with_powers(given);
   const std::vector<std::string> names = anchors(report.chapters);
   std::string page = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"

@@ -12,6 +12,7 @@
 #include "pliant/core/printable.h"
 #include "pliant/core/version.h"
 #include "report/report.h"
+#include "report/typeset.h"
 
 namespace pliant_sweep {
 namespace {
@@ -129,7 +130,7 @@ void write_plots(const fs::path& folder, const std::vector<NamedPlot>& plots) {
   }
   std::set<std::string> others = possible_names();
   for (const NamedPlot& plot : plots) {
-    pliant::write_file_atomically(folder / (plot.name + ".svg"), pliant_report::to_svg(plot.plot, true));
+    pliant::write_file_atomically(folder / (plot.name + ".svg"), to_svg(pliant_report::with_powers(plot.plot), true));
     others.erase(plot.name);
   }
   for (const std::string& name : others) fs::remove(folder / (name + ".svg"), error);

@@ -145,7 +145,8 @@ Plot energy_plot(const Trace& trace) {
 
 Table figures(const std::map<double, Swings>& all) {
   Table table{
-      "Σ‖v‖ [m/s], the momentum ‖Σmv‖ at release, and the energy above that of the equilibrium. Irregularity: "
+      "Σ‖v‖ [m/s], the momentum ‖Σmv‖ at release, and the energy above that of the equilibrium; below it where the "
+      "curtain has come to rest in folds. Irregularity: "
       "root mean square of the second differences of Σ‖v‖ over its mean.",
       {"k [N/m]", "iterations", "at release", "frames 30 to 330", "frames 600 to 900", "‖Σmv‖ [N s]",
        "energy at release [J]", "at the end [J]", "irregularity"},

@@ -191,11 +191,12 @@ void add_pictures(const Lab& lab, Chapter& chapter, const Strip& of) {
 using Strips = std::vector<const Strip*>;
 
 std::string stretches(const Strip& of, const Method& method, std::initializer_list<int> iterations) {
-  std::string text = fmt::format("{}: at {:.4f} % in the equilibrium;", of.name(), 100 * of.at_rest);
+  std::vector<std::string> parts;
   for (const int count : iterations) {
-    text += fmt::format(" {:.4f} % with {}", 100 * method.fall_of(count).last_mean(last_steps), count);
+    parts.push_back(fmt::format("{:.4f} % with {}", 100 * method.fall_of(count).last_mean(last_steps), count));
   }
-  return text + ". ";
+  return fmt::format("{}: {:.4f} % in the equilibrium; {} iterations. ", of.name(), 100 * of.at_rest,
+                     fmt::join(parts, ", "));
 }
 
 /// Whether the stretch at rest is within that share of the exact one for all numbers of iterations from `least` on.
@@ -240,11 +241,12 @@ Claim projective_is_implicit_euler(const Strips& strips) {
               "Bouaziz et al. 2014", Verdict::holds};
   for (const Strip* of : strips) {
     if (of->way_error(of->projective().falls.back()) > share) claim.verdict = Verdict::fails;
-    claim.evidence += fmt::format("{}: off by at most", of->name());
+    std::vector<std::string> parts;
     for (const int count : {1, 10, 100, 500}) {
-      claim.evidence += fmt::format(" {:.1e} with {}", of->way_error(of->projective().fall_of(count)), count);
+      parts.push_back(fmt::format("{:.1e} with {}", of->way_error(of->projective().fall_of(count)), count));
     }
-    claim.evidence += ", of the largest stretch. ";
+    claim.evidence +=
+        fmt::format("{}: off by at most {} iterations, of the largest stretch. ", of->name(), fmt::join(parts, ", "));
   }
   return claim;
 }
@@ -279,7 +281,7 @@ Claim pbd_has_no_stiffness(const Strips& strips) {
               Verdict::holds};
   const Method& first = strips.front()->pbd();
   for (std::size_t i = 0; i < counts.size(); ++i) {
-    claim.evidence += fmt::format("{:.4g} % with {}, ", 100 * first.at_rest(i), counts[i]);
+    claim.evidence += fmt::format("{:.3g} % with {}, ", 100 * first.at_rest(i), counts[i]);
     // The springs' constant does not enter, and nothing but length at rest is ever converged to.
     for (const Strip* of : strips) {
       if (of->pbd().at_rest(i) != first.at_rest(i)) claim.verdict = Verdict::fails;

@@ -230,14 +230,15 @@ Claim springs_converge(const Hanging& hanging) {
   Claim claim{"Springs of one constant converge under refinement of one kind of mesh", "", Verdict::holds};
   for (std::size_t cut = 0; cut < diagonals.size(); ++cut) {
     const auto& drops = hanging.drops[cut];
-    claim.evidence += fmt::format("{}: from one mesh to the next", diagonals[cut]);
+    std::vector<std::string> changes;
     for (std::size_t i = 1; i < sizes.size(); ++i) {
       const double change = drops[i].down - drops[i - 1].down;
-      claim.evidence += fmt::format(" {:.2f}", 100 * change);
+      changes.push_back(fmt::format("{:.2f}", 100 * change));
       if (i == 1) continue;
       if (std::abs(change) > .75 * std::abs(drops[i - 1].down - drops[i - 2].down)) claim.verdict = Verdict::fails;
     }
-    claim.evidence += " cm. ";
+    claim.evidence +=
+        fmt::format("{} diagonals: from one mesh to the next {} cm. ", diagonals[cut], fmt::join(changes, ", "));
   }
   return claim;
 }
@@ -262,11 +263,11 @@ Claim fibres_halve(const Hanging& hanging) {
   Claim claim{"Cloth of fibres of one cross-section halves its sag with each refinement", "", Verdict::holds};
   for (std::size_t cut = 0; cut < diagonals.size(); ++cut) {
     const auto& drops = hanging.drops[cut];
-    claim.evidence += fmt::format("{}: divided by", diagonals[cut]);
+    std::vector<std::string> ratios;
     for (std::size_t i = 1; i < sizes.size(); ++i) {
-      claim.evidence += fmt::format(" {:.2f}", drops[i - 1].down / drops[i].down);
+      ratios.push_back(fmt::format("{:.2f}", drops[i - 1].down / drops[i].down));
     }
-    claim.evidence += ". ";
+    claim.evidence += fmt::format("{} diagonals: divided by {}. ", diagonals[cut], fmt::join(ratios, ", "));
     if (std::abs(drops[sizes.size() - 2].down / drops.back().down - 2) > .1) claim.verdict = Verdict::fails;
   }
   return claim;

@@ -97,7 +97,7 @@ Comparison compare(const Turns& turns) {
                              {5e4, "positions", {0.0137, 0.128, 0.876, 0.993}}}) {
     for (std::size_t i = 0; i < iterations.size(); ++i) {
       comparison.add(
-          fmt::format("k = {:.0e} N/m, start at the {}, {} iterations", known.stiffness, known.start, iterations[i]),
+          fmt::format("k = {:g} N/m, start at the {}, {} iterations", known.stiffness, known.start, iterations[i]),
           turns.at({known.stiffness, known.start}).at(iterations[i]).share, known.shares[i]);
     }
   }
@@ -125,7 +125,7 @@ Chapter run_torque(const Lab& lab) {
             .guides = {{1, "rigid", false}}};
   for (const double stiffness : {500.0, 5e4}) {
     for (const char* start : {"prediction", "positions"}) {
-      pliant_report::Series series{.name = fmt::format("k = {:.0e} N/m, start at the {}", stiffness, start),
+      pliant_report::Series series{.name = fmt::format("k = {:g} N/m, start at the {}", stiffness, start),
                                    .mark = pliant_report::Mark::line_and_points,
                                    .is_dashed = std::string_view(start) == "positions"};
       for (const Index iterations : {1, 2, 3, 5, 10, 20, 50, 100}) {
