@@ -152,7 +152,9 @@ Table figures(const std::map<double, Swings>& all) {
        "energy at release [J]", "at the end [J]", "irregularity"},
       {}};
   for (const auto& [stiffness, swings] : all) {
-    for (const auto& [iterations, swing] : swings) {
+    for (const auto& entry : swings) {
+      const int iterations = entry.first;
+      const Swing& swing = entry.second;
       const auto above = [&](std::size_t i) { return swing.trace.total[i] - swing.trace.total[0]; };
       table.rows.push_back({fmt::format("{:.0e}", stiffness),
                             iterations == from_positions ? "1 (from positions)" : std::to_string(iterations),

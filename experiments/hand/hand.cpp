@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "pliant/constraints/builtin.h"
 #include "pliant/forces/test_force.h"
+#include "support/bend.h"
 #include "support/claims.h"
 
 namespace pliant_experiments {
@@ -19,8 +19,6 @@ using pliant_report::Chapter;
 using pliant_report::Mark;
 using pliant_report::Plot;
 
-enum class Bend { none, absolute, signed_ };
-constexpr std::array<const char*, 3> bend_names = {"without bending", "absolute bending", "signed bending"};
 constexpr std::array<double, 5> forces = {1, 10, 100, 1000, 10000};  // [N] on each fingertip
 constexpr double bending = 0.5;                                      // [N m]
 constexpr std::int64_t pull_frames = 60;
@@ -53,15 +51,10 @@ double distance(const pliant::Simulation& simulation) {
 }
 
 Return pull(const Lab& lab, double force, Bend bend) {
-  lab.say(fmt::format("{} N, {}", force, bend_names[static_cast<std::size_t>(bend)]));
+  lab.say(fmt::format("{} N, {}", force, name_of(bend)));
   pliant::Scene scene = lab.scene("hand/hand");
   pliant::Simulation& simulation = scene.simulation;
-  if (bend != Bend::none) {
-    simulation.add(pliant::BodyId{0},
-                   pliant::Bending{.stiffness = bending,
-                                   .orientation = bend == Bend::absolute ? pliant::Orientation::absolute
-                                                                         : pliant::Orientation::signed_});
-  }
+  add_bending(scene, bend, bending);
   // Each tip is drawn another way: forwards, backwards, across and down.
   const std::array<Vec3, 5> ways = {Vec3(-1, 1, 0), Vec3(0, -1, -1), Vec3(1, 1, 1), Vec3(0, 1, -2), Vec3(1, -1, 0)};
   const std::vector<Index> tips = fingertips(simulation.state().positions);
@@ -103,8 +96,8 @@ Chapter run_hand(const Lab& lab) {
   pliant_report::Table table{"Mean distance over the hand's length, at the end of the force and 360 frames later.",
                              {"force [N]", "bending", "at the end of the force", "later"},
                              {}};
-  for (const Bend bend : {Bend::none, Bend::absolute, Bend::signed_}) {
-    const std::string name = bend_names[static_cast<std::size_t>(bend)];
+  for (const Bend bend : bends) {
+    const std::string name = name_of(bend);
     pliant_report::Series series{.name = name, .mark = Mark::line_and_points};
     for (const double force : forces) {
       Return result = pull(lab, force, bend);
@@ -133,7 +126,7 @@ Chapter run_hand(const Lab& lab) {
                   "without",
                   100 * recognizable, most(Bend::absolute), most(Bend::signed_), most(Bend::none))));
   std::vector<pliant_render::Image> pictures;
-  for (const Bend bend : {Bend::none, Bend::absolute, Bend::signed_}) {
+  for (const Bend bend : bends) {
     pictures.push_back(std::move(all[bend][1].during));
     for (const std::size_t i : {1U, 2U, 4U}) pictures.push_back(std::move(all[bend][i].after));
   }

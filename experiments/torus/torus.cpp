@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "pliant/constraints/builtin.h"
 #include "pliant/mesh/topology.h"
+#include "support/bend.h"
 #include "support/claims.h"
 
 namespace pliant_experiments {
@@ -20,8 +20,6 @@ using pliant::Vec3;
 using pliant_report::Chapter;
 using pliant_report::Table;
 
-enum class Bend { none, absolute, signed_ };
-constexpr std::array<const char*, 3> bend_names = {"without bending", "absolute bending", "signed bending"};
 constexpr double bending = 0.3;  // [N m]
 constexpr int seeds = 8;
 constexpr std::int64_t jump_every = 20;
@@ -30,12 +28,7 @@ constexpr std::int64_t home = 300;
 
 pliant::Scene scene_of(const Lab& lab, Bend bend) {
   pliant::Scene scene = lab.scene("torus/torus");
-  if (bend == Bend::none) return scene;
-  scene.simulation.add(pliant::BodyId{0},
-                       pliant::Bending{.stiffness = bending,
-                                       .orientation = bend == Bend::absolute ? pliant::Orientation::absolute
-                                                                             : pliant::Orientation::signed_},
-                       "bend");
+  add_bending(scene, bend, bending);
   return scene;
 }
 
@@ -134,8 +127,7 @@ Series jerk_all(const Lab& lab, Chapter& chapter, double jump, Bend bend, Table&
   Homecoming extremes{true, 1e300, 0, 1e300};
   double largest_volume = -1e300;
   for (unsigned seed = 1; seed <= seeds; ++seed) {
-    lab.say(
-        fmt::format("jumps of {} m, {}, run {} of {}", jump, bend_names[static_cast<std::size_t>(bend)], seed, seeds));
+    lab.say(fmt::format("jumps of {} m, {}, run {} of {}", jump, name_of(bend), seed, seeds));
     pliant::Scene scene = scene_of(lab, bend);
     const Homecoming run = jerk(lab, scene, jump, seed);
     series.runs.push_back(run);
@@ -145,7 +137,7 @@ Series jerk_all(const Lab& lab, Chapter& chapter, double jump, Bend bend, Table&
     largest_volume = std::max(largest_volume, run.volume);
     if (seed <= 4) pictures.push_back(lab.picture(scene));
   }
-  const std::string name = fmt::format("{} m, {}", jump, bend_names[static_cast<std::size_t>(bend)]);
+  const std::string name = fmt::format("{} m, {}", jump, name_of(bend));
   table.rows.push_back({name, fmt::format("{} of {}", series.intact(), seeds), fmt::format("{}", series.inside_out()),
                         fmt::format("{:.3f} to {:.3f}", extremes.shortest, extremes.longest),
                         fmt::format("{:.3f} to {:.3f}", extremes.volume, largest_volume)});
@@ -181,7 +173,7 @@ Chapter run_torus(const Lab& lab) {
   std::map<std::pair<double, Bend>, Series> all;
   bool is_finite = true;
   for (const double jump : {0.3, 1.0}) {
-    for (const Bend bend : {Bend::none, Bend::absolute, Bend::signed_}) {
+    for (const Bend bend : bends) {
       Series series = jerk_all(lab, chapter, jump, bend, table);
       is_finite = is_finite && series.is_finite();
       all.emplace(std::pair{jump, bend}, std::move(series));
