@@ -37,6 +37,16 @@ pliant::StepReport Lab::step(pliant::Scene& scene) const {
   return scene.step();
 }
 
+bool Lab::try_steps(pliant::Scene& scene, std::int64_t count) const {
+  try {
+    step(scene, count);
+  } catch (const pliant::Error& error) {
+    if (error.kind() != pliant::ErrorKind::diverged) throw;
+    return false;
+  }
+  return true;
+}
+
 Image Lab::picture(const pliant::Scene& scene) const {
   if (!options_.draws) return {};
   pliant_render::Take take{pliant_render::make_scenery(scene.simulation.bodies()), scene.view, {}};

@@ -33,6 +33,8 @@ class Lab {
   void step(pliant::Scene& scene, std::int64_t count) const {
     for (std::int64_t i = 0; i < count; ++i) step(scene);
   }
+  /// The same; false where the scene has diverged on the way.
+  bool try_steps(pliant::Scene& scene, std::int64_t count) const;
 
   /// Says what is under way.
   void say(std::string_view what) const { options_.progress(what); }

@@ -76,7 +76,8 @@ std::string frequency_text(const SystemInfo& info, const pliant::SolverSettings&
   if (!(info.fastest_frequency > 0)) return text + "  nothing vibrates: no constraint moves a free vertex";
   text += fmt::format("  the fastest vibration loses {:.0f} % of its swing in each step",
                       100 * loss_per_step(info.fastest_frequency, settings));
-  text += product > 1 ? ", so it is not seen; it is stable all the same\n" : "\n";
+  const bool is_seen = product <= static_cast<Real>(settings.substeps);
+  text += !is_seen ? ", so it is not seen; it is stable all the same\n" : "\n";
   text += fmt::format("  what swings faster than {:.2g} Hz loses half of it in a second{}",
                       half_life_frequency(settings), less_damping_text(settings));
   if (settings.damping > 0) {

@@ -101,12 +101,24 @@ void print_chapter(const pliant_report::Chapter& chapter) {
   std::fflush(stdout);
 }
 
+/// An experiment that diverges where it should not is a claim that does not hold; the others go on.
+pliant_report::Chapter run_or_fail(const Experiment& experiment, const pliant_experiments::Lab& lab) {
+  try {
+    return experiment.run(lab);
+  } catch (const pliant::Error& error) {
+    if (error.kind() != pliant::ErrorKind::diverged) throw;
+    pliant_report::Chapter chapter;
+    chapter.claims.push_back({"The experiment comes to its end", "", Verdict::fails, error.what()});
+    return chapter;
+  }
+}
+
 pliant_report::Chapter run_one(const Experiment& experiment, const ExperimentArguments& arguments, bool draws) {
   const pliant_experiments::Lab lab(
       {draws, [&](std::string_view what) { show(arguments, fmt::format("{}: {} ...", experiment.name, what)); },
        was_interrupted});
   const pliant::Stopwatch watch;
-  pliant_report::Chapter chapter = experiment.run(lab);
+  pliant_report::Chapter chapter = run_or_fail(experiment, lab);
   chapter.name = experiment.name;
   chapter.title = experiment.title;
   chapter.seconds = watch.seconds();

@@ -1,22 +1,18 @@
 #include "progress.h"
 
 #include <cmath>
-#include <string>
 
 #include <fmt/format.h>
 
 #include "terminal.h"
 
 namespace pliant_cli {
-namespace {
 
 std::string duration_text(double seconds) {
   if (seconds < 90) return fmt::format("{:.0f} s", std::ceil(seconds));
   if (seconds < 5400) return fmt::format("{:.0f} min", std::ceil(seconds / 60));
   return fmt::format("{:.1f} h", seconds / 3600);
 }
-
-}  // namespace
 
 Progress::Progress(std::int64_t first, std::int64_t last, Show show)
     : first_(first), last_step_(last), active_(show == Show::on_terminal && has_error_terminal()) {}

@@ -1,8 +1,12 @@
 #pragma once
 #include <chrono>
 #include <cstdint>
+#include <string>
 
 namespace pliant_cli {
+
+/// "40 s", "5 min", "1.5 h"
+std::string duration_text(double seconds);
 
 /// One line on a terminal, written anew a few times a second.
 class Progress {

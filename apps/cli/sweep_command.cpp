@@ -1,6 +1,4 @@
 // pliant sweep: the product of settings, each a run of its own.
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -11,6 +9,7 @@
 #include "commands.h"
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
+#include "progress.h"
 #include "scene_options.h"
 #include "sweep/process.h"
 #include "sweep/sweep.h"
@@ -31,12 +30,6 @@ struct SweepArguments : SceneArguments {
   bool restart = false;
   bool quiet = false;
 };
-
-std::string duration_text(double seconds) {
-  if (seconds < 90) return fmt::format("{:.0f} s", std::ceil(seconds));
-  if (seconds < 5400) return fmt::format("{:.0f} min", std::ceil(seconds / 60));
-  return fmt::format("{:.1f} h", seconds / 3600);
-}
 
 /// One line on a terminal, written anew; elsewhere one at each tenth of the runs.
 class SweepProgress {
@@ -107,27 +100,13 @@ Sharing share(const SweepArguments& arguments, const SweepPlan& plan) {
                           threads ? std::optional<std::int64_t>(*threads) : std::nullopt);
 }
 
-std::size_t count(const SweepPlan& plan, RunOutcome outcome) {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(plan.runs, [&](const SweepRun& run) { return run.result.outcome == outcome; }));
-}
-
-std::string outcomes_text(const SweepPlan& plan) {
-  std::string text = fmt::format("{} ok", count(plan, RunOutcome::ok));
-  for (const RunOutcome outcome : {RunOutcome::diverged, RunOutcome::failed, RunOutcome::waiting}) {
-    const std::size_t number = count(plan, outcome);
-    if (number > 0) text += fmt::format(", {} {}", number, choice_names(outcome)[static_cast<std::size_t>(outcome)]);
-  }
-  return text;
-}
-
 void print_runs(const SweepArguments& arguments, const SweepPlan& plan) {
   for (const SweepRun& run : plan.runs) {
     const auto outcome = choice_names(run.result.outcome)[static_cast<std::size_t>(run.result.outcome)];
     fmt::print("{}  {:8}  {}\n", run.name, outcome, combination_text(plan.setup.variations, run.values));
   }
   const Sharing sharing = share(arguments, plan);
-  fmt::print("{} runs, {} of them to be run, {} at a time", plan.runs.size(), count(plan, RunOutcome::waiting),
+  fmt::print("{} runs, {} of them to be run, {} at a time", plan.runs.size(), count_of(plan, RunOutcome::waiting),
              sharing.jobs);
   fmt::print("{}\n", sharing.threads > 0 ? fmt::format("; threads of each: {}", sharing.threads) : std::string());
 }
@@ -156,7 +135,7 @@ int sweep_in_folder(const SweepArguments& arguments, SweepSetup setup, Earlier e
   const FolderLock lock(arguments.out);
   SweepPlan plan = plan_sweep(arguments.out, std::move(setup), earlier);
   begin_sweep(arguments.out, plan);
-  const std::size_t there = plan.runs.size() - count(plan, RunOutcome::waiting);
+  const std::size_t there = plan.runs.size() - count_of(plan, RunOutcome::waiting);
   {
     SweepProgress progress(arguments);
     SweepHooks hooks;
@@ -167,7 +146,7 @@ int sweep_in_folder(const SweepArguments& arguments, SweepSetup setup, Earlier e
   }
   write_sweep_report(arguments.out, plan);
   print_summary(arguments, plan, there);
-  if (count(plan, RunOutcome::waiting) == 0) return exit_code_of(plan.runs);
+  if (count_of(plan, RunOutcome::waiting) == 0) return exit_code_of(plan.runs);
   print_to_stderr("interrupted: the same command goes on with the runs that wait\n");
   return exit_interrupted;
 }

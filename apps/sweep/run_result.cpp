@@ -7,9 +7,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "pliant/core/atomic_file.h"
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
 #include "pliant/mesh/io/read_file.h"
+#include "pliant/scene/scene.h"
 #include "sweep/measurement_table.h"
 
 namespace pliant_sweep {
@@ -113,6 +115,13 @@ struct RunFile {
 };
 
 /// @throws nlohmann::json::exception, pliant::Error
+std::int64_t read_count(const Json& json, std::int64_t least) {
+  const std::int64_t count = json.is_number_integer() ? json.get<std::int64_t>() : -1;
+  if (count < least || count > pliant::max_steps) pliant::fail_input("not a number of steps");
+  return count;
+}
+
+/// @throws nlohmann::json::exception, pliant::Error
 RunFile read_run_file(const fs::path& path) {
   const Json json = Json::parse(pliant::read_file(path));
   RunFile file;
@@ -120,8 +129,8 @@ RunFile read_run_file(const fs::path& path) {
   if (outcome == "ok") file.outcome = RunOutcome::ok;
   if (outcome == "diverged") file.outcome = RunOutcome::diverged;
   file.error = json.value("error", "");
-  file.steps = json.at("totals").at("steps").get<std::int64_t>();
-  file.every = std::max<std::int64_t>(1, json.at("output").at("every").get<std::int64_t>());
+  file.steps = read_count(json.at("totals").at("steps"), 0);
+  file.every = read_count(json.at("output").at("every"), 1);
   file.wall_seconds = json.at("totals").at("wall_seconds").get<double>();
   return file;
 }
@@ -176,6 +185,14 @@ RunResult read_run_result(const fs::path& folder) {
   } catch (const Json::exception&) {
   }
   return {};
+}
+
+void forget_run_result(const fs::path& folder) {
+  if (!read_run_result(folder).has_ended_by_itself()) return;
+  const fs::path file = folder / "run.json";
+  auto json = nlohmann::ordered_json::parse(pliant::read_file(file));
+  json["outcome"] = "interrupted";
+  pliant::write_file_atomically(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
 }
 
 RunResult result_of_ended_run(const fs::path& folder, const ProcessEnd& end, const fs::path& output) {

@@ -52,7 +52,12 @@ struct RunResult {
 /// throw.
 RunResult read_run_result(const std::filesystem::path& folder);
 
-/// The same of a run that has just ended; one that did not reach its end by itself has failed, and its output says why.
+/// Makes a run that has ended by itself one that was interrupted, so that its result does not count.
+/// @throws pliant::Error (output)
+void forget_run_result(const std::filesystem::path& folder);
+
+/// What came of a run that has just ended; one that did not reach its end by itself has failed, and its output says
+/// why.
 RunResult result_of_ended_run(const std::filesystem::path& folder, const ProcessEnd& end,
                               const std::filesystem::path& output);
 

@@ -59,8 +59,22 @@ class Runner {
     }
   }
 
+  /// Runs under way may have read what has changed: none of them counts, not even one that has just ended.
+  void check_inputs() {
+    try {
+      check_unchanged(plan_.setup);
+    } catch (const pliant::Error&) {
+      for (Job& job : jobs_) {
+        job.process.reset();
+        job.run->result = {};
+        forget_run_result(run_folder(folder_, job.run->name));
+      }
+      throw;
+    }
+  }
+
   void start(SweepRun& run) {
-    check_texts(plan_.setup);
+    check_inputs();
     run.result = {};
     const auto arguments = run_arguments(plan_.setup, run.values, run_folder(folder_, run.name), sharing_.threads);
     jobs_.push_back({&run, std::make_unique<ChildProcess>(program_, arguments, run_log(folder_, run.name))});
@@ -70,9 +84,7 @@ class Runner {
     if (stopped_ || !hooks_.stop || !hooks_.stop()) return;
     stopped_ = Clock::now();
     next_ = waiting_.size();
-    for (const Job& job : jobs_) {
-      if (job.process) job.process->interrupt();
-    }
+    for (const Job& job : jobs_) job.process->interrupt();
   }
 
   void wait() const {
@@ -86,14 +98,16 @@ class Runner {
 
   void collect() {
     bool has_news = false;
-    for (Job& job : jobs_) {
-      const std::optional<ProcessEnd> end = job.process->end();
-      if (!end) continue;
-      job.process.reset();
+    for (auto job = jobs_.begin(); job != jobs_.end();) {
+      const std::optional<ProcessEnd> end = job->process->end();
+      if (!end) {
+        ++job;
+        continue;
+      }
       has_news = true;
-      take_result(*job.run, *end);
+      take_result(*job->run, *end);
+      job = jobs_.erase(job);
     }
-    std::erase_if(jobs_, [](const Job& job) { return job.process == nullptr; });
     if (has_news && Clock::now() - written_ >= 1s) write_table();
   }
 
@@ -106,6 +120,7 @@ class Runner {
     std::error_code ignored;
     if (fs::file_size(log, ignored) == 0) fs::remove(log, ignored);
     if (run.result.outcome == RunOutcome::waiting) return;
+    check_inputs();
     ++ended_;
     if (hooks_.tell_ended) hooks_.tell_ended(run);
   }

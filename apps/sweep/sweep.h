@@ -41,7 +41,8 @@ struct SweepHooks {
 
 /// Runs what is waiting, or failed before, by `program run ...`, and keeps FOLDER/sweep.csv up to date: a row a run, in
 /// the order of the plan. After a stop the runs under way are ended and wait again. begin_sweep() comes first.
-/// @throws pliant::Error (output); (input): the scene was changed meanwhile. Runs under way are ended then as well.
+/// @throws pliant::Error (output); (input): the scene, a mesh or a map was changed meanwhile. Runs under way
+///   are ended then, and wait again.
 void run_sweep(const std::filesystem::path& folder, const std::string& program, const Sharing& sharing, SweepPlan& plan,
                const SweepHooks& hooks);
 

@@ -1,32 +1,19 @@
 #include <fmt/format.h>
 
+#include "pliant/core/csv.h"
 #include "sweep/sweep.h"
 
 namespace pliant_sweep {
-namespace {
-
-/// A field of a CSV file (RFC 4180, Sec. 2).
-std::string field(std::string_view text) {
-  if (text.find_first_of(",\"\r\n") == text.npos) return std::string(text);
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"') quoted += '"';
-    quoted += c;
-  }
-  return quoted + '"';
-}
-
-}  // namespace
 
 std::string sweep_csv(const SweepPlan& plan) {
   std::string text = "run";
-  for (const Variation& variation : plan.setup.variations) text += ',' + field(variation.path);
+  for (const Variation& variation : plan.setup.variations) text += ',' + pliant::csv_field(variation.path);
   text += ",outcome,steps_done";
   for (const FigureInfo& info : figure_infos()) text += ',' + info.name;
   text += ",message\n";
   for (const SweepRun& run : plan.runs) {
     text += run.name;
-    for (const std::string& value : run.values) text += ',' + field(value);
+    for (const std::string& value : run.values) text += ',' + pliant::csv_field(value);
     const RunResult& result = run.result;
     text += fmt::format(",{},", choice_names(result.outcome)[static_cast<std::size_t>(result.outcome)]);
     const bool is_measured = result.has_ended_by_itself();
@@ -35,7 +22,7 @@ std::string sweep_csv(const SweepPlan& plan) {
       const auto figure = result.figure(i);
       text += figure ? fmt::format(",{}", *figure) : ",";
     }
-    text += ',' + field(result.message) + '\n';
+    text += ',' + pliant::csv_field(result.message) + '\n';
   }
   return text;
 }

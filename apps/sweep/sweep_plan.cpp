@@ -4,6 +4,7 @@
 #include <charconv>
 #include <map>
 #include <optional>
+#include <set>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -38,9 +39,17 @@ Json texts_json(const std::vector<TextStamp>& texts) {
 
 Json plan_json(const SweepPlan& plan) {
   const SweepSetup& setup = plan.setup;
-  Json json = {{"pliant_file", format_name},       {"pliant", pliant::version}, {"scene", setup.scene},
-               {"texts", texts_json(setup.texts)}, {"files", setup.files},      {"set", setup.set},
-               {"options", Json::object()},        {"vary", Json::array()},     {"runs", Json::array()}};
+  std::map<std::string, std::uint32_t> files = setup.files;
+  files.insert(plan.other_files.begin(), plan.other_files.end());
+  Json json = {{"pliant_file", format_name},
+               {"pliant", pliant::version},
+               {"scene", setup.scene},
+               {"texts", texts_json(setup.texts)},
+               {"files", files},
+               {"set", setup.set},
+               {"options", Json::object()},
+               {"vary", Json::array()},
+               {"runs", Json::array()}};
   for (const auto& [name, value] : setup.options) json["options"][name] = value;
   for (const Variation& each : setup.variations) {
     json["vary"].push_back({{"path", each.path}, {"values", each.values}});
@@ -61,15 +70,25 @@ bool is_run_name(const std::string& name) {
   return !name.empty() && name.size() < 10 && name.find_first_not_of("0123456789") == name.npos;
 }
 
+[[noreturn]] void fail_json(const std::string& what) {
+  throw Json::other_error::create(501, what, nullptr);
+}
+
+std::uint32_t crc32_of(const Json& json) {
+  const bool is_ours = json.is_number_unsigned() && json.get<std::uint64_t>() <= 0xFFFF'FFFFU;
+  if (!is_ours) fail_json("a CRC-32 that is none");
+  return json.get<std::uint32_t>();
+}
+
 /// @throws Json::exception
 EarlierPlan earlier_of(const Json& json) {
   EarlierPlan earlier;
-  if (json.at("pliant_file") != format_name) throw Json::other_error::create(501, "not of a sweep", nullptr);
+  if (json.at("pliant_file") != format_name) fail_json("not of a sweep");
   earlier.version = json.at("pliant").get<std::string>();
   for (const Json& text : json.at("texts")) {
-    earlier.setup.texts.push_back({text.at("file").get<std::string>(), text.at("crc32").get<std::uint32_t>()});
+    earlier.setup.texts.push_back({text.at("file").get<std::string>(), crc32_of(text.at("crc32"))});
   }
-  json.at("files").get_to(earlier.setup.files);
+  for (const auto& [path, crc32] : json.at("files").items()) earlier.setup.files.emplace(path, crc32_of(crc32));
   json.at("set").get_to(earlier.setup.set);
   for (const auto& [name, value] : json.at("options").items()) {
     earlier.setup.options.emplace_back(name, value.get<std::string>());
@@ -77,10 +96,12 @@ EarlierPlan earlier_of(const Json& json) {
   for (const Json& each : json.at("vary")) {
     earlier.setup.variations.push_back({each.at("path").get<std::string>(), {}});
   }
+  std::set<std::string> names;
   for (const Json& each : json.at("runs")) {
     SweepRun run{each.at("values").get<Combination>(), each.at("name").get<std::string>()};
     const bool is_ours = is_run_name(run.name) && run.values.size() == earlier.setup.variations.size();
-    if (!is_ours) throw Json::other_error::create(501, "a run without its values", nullptr);
+    if (!is_ours) fail_json("a run without its values");
+    if (!names.insert(run.name).second) fail_json(fmt::format("the run {} twice", run.name));
     earlier.runs.push_back(std::move(run));
   }
   return earlier;
@@ -185,10 +206,28 @@ void take_over(SweepPlan& plan, const EarlierPlan& earlier, const fs::path& fold
   for (const auto& [key, run] : known) {
     plan.others.push_back({reordered(earlier.setup, plan.setup, run->values), run->name});
   }
-  for (const auto& [path, crc32] : earlier.setup.files) plan.setup.files.emplace(path, crc32);
+  for (const auto& [path, crc32] : earlier.setup.files) {
+    if (!plan.setup.files.contains(path)) plan.other_files.emplace(path, crc32);
+  }
 }
 
 }  // namespace
+
+std::size_t count_of(const SweepPlan& plan, RunOutcome outcome) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(plan.runs, [&](const SweepRun& run) { return run.result.outcome == outcome; }));
+}
+
+std::string outcomes_text(const SweepPlan& plan) {
+  std::string text;
+  const auto names = choice_names(RunOutcome{});
+  for (const RunOutcome outcome : {RunOutcome::ok, RunOutcome::diverged, RunOutcome::failed, RunOutcome::waiting}) {
+    const std::size_t count = count_of(plan, outcome);
+    if (count == 0) continue;
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, names[static_cast<std::size_t>(outcome)]);
+  }
+  return text;
+}
 
 fs::path run_folder(const fs::path& folder, const std::string& name) {
   return folder / "runs" / name;

@@ -1,6 +1,8 @@
 #pragma once
 // The runs of a sweep and their folders, as DIR/sweep.json remembers them from start to start.
+#include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -17,10 +19,16 @@ struct SweepRun {
 
 struct SweepPlan {
   SweepSetup setup;
-  std::vector<SweepRun> runs;        ///< in the order of the product
-  std::vector<SweepRun> others;      ///< of earlier starts, and not asked for now: they are kept
-  std::vector<std::string> removed;  ///< names of runs of earlier starts that begin_sweep() removes
+  std::vector<SweepRun> runs;                          ///< in the order of the product
+  std::vector<SweepRun> others;                        ///< of earlier starts, and not asked for now: they are kept
+  std::vector<std::string> removed;                    ///< names of runs of earlier starts that begin_sweep() removes
+  std::map<std::string, std::uint32_t> other_files{};  ///< that only `others` may have read, as setup.files
 };
+
+std::size_t count_of(const SweepPlan& plan, RunOutcome outcome);
+
+/// How many runs have which outcome, for people: "6 ok, 1 diverged".
+std::string outcomes_text(const SweepPlan& plan);
 
 /// What becomes of the runs of an earlier start.
 enum class Earlier { keep, remove };

@@ -25,20 +25,6 @@ using pliant_report::Table;
 
 constexpr std::array table_figures = {"total_end", "elastic_end", "speed_sum_late", "residual_max", "ms_total"};
 
-std::string outcomes_text(const SweepPlan& plan) {
-  std::string text = fmt::format("{}:", plan.runs.size());
-  const auto names = choice_names(RunOutcome{});
-  bool is_first = true;
-  for (const RunOutcome outcome : {RunOutcome::ok, RunOutcome::diverged, RunOutcome::failed, RunOutcome::waiting}) {
-    const auto count =
-        std::ranges::count_if(plan.runs, [&](const SweepRun& run) { return run.result.outcome == outcome; });
-    if (count == 0) continue;
-    text += fmt::format("{} {} {}", is_first ? "" : ",", count, names[static_cast<std::size_t>(outcome)]);
-    is_first = false;
-  }
-  return text;
-}
-
 void add_facts(Report& report, const SweepPlan& plan) {
   const SweepSetup& setup = plan.setup;
   report.facts.emplace_back("Scene", pliant::printable_place(setup.scene));
@@ -52,7 +38,7 @@ void add_facts(Report& report, const SweepPlan& plan) {
   for (const auto& [name, value] : setup.options) {
     report.facts.emplace_back("All runs", pliant::printable(fmt::format("{} {}", name, value)));
   }
-  report.facts.emplace_back("Runs", outcomes_text(plan));
+  report.facts.emplace_back("Runs", fmt::format("{}: {}", plan.runs.size(), outcomes_text(plan)));
   report.facts.emplace_back("Pliant", fmt::format("{} ({})", pliant::version, pliant::compiler));
 }
 

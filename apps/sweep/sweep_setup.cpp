@@ -94,6 +94,74 @@ pliant::Scene open_combination(const SweepOptions& options, const OpenScene& ope
   }
 }
 
+std::string_view path_of(std::string_view assignment) {
+  return assignment.substr(0, assignment.find('='));
+}
+
+/// The keys of a path alone: the lists that it goes through, whatever their entries are called there.
+std::string keys_of(std::string_view path) {
+  std::string keys;
+  bool is_entry = false;
+  for (const char c : path) {
+    is_entry = c == '[' || (is_entry && c != ']');
+    if (!is_entry && c != ']') keys += c;
+  }
+  return keys;
+}
+
+/// Whether a path may be the same place as another, or one around it, as `bodies[0].mass` is around
+/// `bodies[curtain].mass.total`.
+bool may_hold(std::string_view path, std::string_view other) {
+  return (keys_of(other) + '.').starts_with(keys_of(path) + '.');
+}
+
+/// Whether the last of these assignments takes the place of the one at `early`: then a value that no place takes does
+/// no harm there, and does behind all of them.
+bool takes_place_of(std::vector<std::string> set, std::size_t early, SceneOverrides overrides,
+                    const OpenScene& open_scene) {
+  const auto is_readable = [&] {
+    overrides.set = set;
+    try {
+      open_scene(overrides);
+    } catch (const pliant::Error&) {
+      return false;
+    }
+    return true;
+  };
+  const std::string unreadable = fmt::format(R"({}={{"no such key": 0}})", path_of(set[early]));
+  set[early] = unreadable;
+  if (!is_readable()) return false;
+  set.push_back(unreadable);
+  return !is_readable();
+}
+
+/// Refuses a variation in the place of an earlier one, or of a `set`, which would count for nothing. The scene has been
+/// read with the values `first`.
+void check_places(const SweepOptions& options, const OpenScene& open_scene, const Combination& first) {
+  std::vector<std::string> set = options.overrides.set;
+  for (const std::string& assignment : assignments(options.variations, first)) {
+    set.push_back(assignment);
+    const std::string_view path = path_of(assignment);
+    for (std::size_t early = 0; early + 1 < set.size(); ++early) {
+      const std::string_view other = path_of(set[early]);
+      if (!may_hold(path, other) || !takes_place_of(set, early, options.overrides, open_scene)) continue;
+      pliant::fail_input(
+          fmt::format("--vary {}: takes the place of {} {}, which would count for nothing; leave out one "
+                      "of the two",
+                      pliant::printable(path), early < options.overrides.set.size() ? "--set" : "--vary",
+                      pliant::printable(other)));
+    }
+  }
+}
+
+void check_file(const std::filesystem::path& file, std::uint32_t crc32) {
+  if (pliant::crc32(pliant::read_file(file)) == crc32) return;
+  pliant::fail_input(
+      fmt::format("{}: has changed since the sweep began, so that its other runs could not be compared; put it back "
+                  "and go on, or begin anew with --restart",
+                  pliant::printable_place(file.string())));
+}
+
 void note(SweepSetup& setup, const pliant::Scene& scene) {
   setup.texts.clear();
   for (const pliant::SceneText& text : scene.source.texts) {
@@ -119,6 +187,7 @@ SweepSetup check_sweep(const SweepOptions& options, const OpenScene& open_scene,
   const Combination first = product_of(options.variations).front();
   for (const Variation& variation : options.variations) check_variation(variation, options.overrides);
   note(setup, open_combination(options, open_scene, first));
+  check_places(options, open_scene, first);
   for (std::size_t i = 0; i < first.size(); ++i) {
     Combination values = first;
     for (std::size_t j = 1; j < options.variations[i].values.size(); ++j) {
@@ -130,14 +199,11 @@ SweepSetup check_sweep(const SweepOptions& options, const OpenScene& open_scene,
   return setup;
 }
 
-void check_texts(const SweepSetup& setup) {
+void check_unchanged(const SweepSetup& setup) {
   for (const TextStamp& text : setup.texts) {
-    if (text.file.empty() || pliant::crc32(pliant::read_file(text.file)) == text.crc32) continue;
-    pliant::fail_input(
-        fmt::format("{}: has changed since the sweep began, so that its other runs could not be compared; put it back "
-                    "and go on, or begin anew with --restart",
-                    pliant::printable_place(text.file.string())));
+    if (!text.file.empty()) check_file(text.file, text.crc32);
   }
+  for (const auto& [path, crc32] : setup.files) check_file(path, crc32);
 }
 
 // Values follow their options behind '=', so that none is taken for an option.

@@ -41,13 +41,13 @@ struct SweepSetup {
 /// Reads the scene once with each value, the other variations having their first one, so that a slip is known before
 /// anything runs. Reads on only while `goes_on` says so.
 /// @throws pliant::Error (input): a path or value that the scene refuses, one that an option of all runs or a `set` has
-///   as well; (interrupted)
+///   as well, also under another name of the same place; (interrupted)
 SweepSetup check_sweep(
     const SweepOptions& options, const OpenScene& open_scene,
     const std::function<bool()>& goes_on = [] { return true; });
 
-/// @throws pliant::Error (input) when a text of the scene is no longer what it was
-void check_texts(const SweepSetup& setup);
+/// @throws pliant::Error (input) when a text of the scene, a mesh or a map is no longer what it was
+void check_unchanged(const SweepSetup& setup);
 
 /// The words behind `pliant` that make one of the runs. threads < 0: as the scene has it.
 std::vector<std::string> run_arguments(const SweepSetup& setup, const Combination& values,

@@ -119,17 +119,6 @@ void check_values(const Variation& variation) {
   }
 }
 
-/// How deep brackets are nested at the most.
-int depth_of(std::string_view text) {
-  int depth = 0;
-  int deepest = 0;
-  for (const char c : text) {
-    if (c == '[' || c == '{') deepest = std::max(deepest, ++depth);
-    if (c == ']' || c == '}') --depth;
-  }
-  return deepest;
-}
-
 }  // namespace
 
 std::optional<double> number_of(std::string_view value) {
@@ -139,8 +128,13 @@ std::optional<double> number_of(std::string_view value) {
 
 std::string canonical_value(std::string_view value) {
   constexpr int max_depth = 100;  // the text of a value is made by recursion; no scene goes as deep
-  Json json = depth_of(value) > max_depth ? Json(value) : Json::parse(value, nullptr, false);
-  if (json.is_discarded()) json = value;
+  bool is_too_deep = false;
+  const auto check_depth = [&is_too_deep](int depth, Json::parse_event_t, const Json&) {
+    is_too_deep = is_too_deep || depth > max_depth;
+    return !is_too_deep;
+  };
+  Json json = Json::parse(value, check_depth, false);
+  if (is_too_deep || json.is_discarded()) json = value;
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

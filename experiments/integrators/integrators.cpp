@@ -44,12 +44,12 @@ void measure_losses(const Lab& lab, Chapter& chapter) {
     table.rows.push_back({method.name, fmt::format("{:.1f}", 100 * at_03.back()),
                           fmt::format("{:.3f}", at_03.back() / at_03.front()), fmt::format("{}", method.substeps)});
   }
-  chapter.claims.push_back(
-      claim("BDF2 loses at most a tenth of the amplitude that implicit Euler loses, at hω = 0.3", "",
-            at_03.back() <= 0.1 * at_03.front(),
-            fmt::format("{:.1f} % a period against {:.1f} %, at the same cost; four substeps, at four "
-                        "times the cost, lose {:.1f} %",
-                        100 * at_03.back(), 100 * at_03.front(), 100 * at_03[2])));
+  chapter.claims.push_back(claim(
+      "BDF2 loses at most a tenth of the amplitude that implicit Euler loses, at hω = 0.3", "",
+      at_03.back() <= 0.1 * at_03.front(),
+      fmt::format(
+          "{:.1f} % a period against {:.1f} %, at the same cost; four substeps, at four times the cost, lose {:.1f} %",
+          100 * at_03.back(), 100 * at_03.front(), 100 * at_03[2])));
   chapter.blocks.emplace_back(std::move(plot));
   chapter.blocks.emplace_back(std::move(table));
 }
@@ -103,8 +103,7 @@ void measure_damping(const Lab& lab, Chapter& chapter) {
   lab.say("damping");
   Table table{
       "Decay of the oscillator's amplitude by the setting “damping”: the rate measured with it less the one without, ω "
-      "= 2π/s, h = "
-      "0.01 s.",
+      "= 2π/s, h = 0.01 s.",
       {"damping [1/s]", "integrator", "measured [1/s]", "difference [%]"},
       {}};
   double worst = 0;
@@ -136,10 +135,8 @@ Chapter run_integrators(const Lab& lab) {
   Chapter chapter;
   chapter.question =
       "Implicit Euler damps, which more iterations cannot mend. BDF2 and substeps use the same factor of a constant "
-      "matrix: "
-      "how much less do they lose, on an oscillator whose motion is known and on the curtain of the damping "
-      "experiment? And "
-      "does the setting “damping”, for those who want more of it, do what it says?";
+      "matrix: how much less do they lose, on an oscillator whose motion is known and on the curtain of the damping "
+      "experiment? And does the setting “damping”, for those who want more of it, do what it says?";
   measure_losses(lab, chapter);
   measure_order(lab, chapter);
   measure_stability(lab, chapter);

@@ -72,19 +72,19 @@ void judge_curtain(Chapter& chapter, const std::vector<Loss>& losses) {
   const Loss& bdf2 = losses[1];
   chapter.claims.push_back(claim(
       "BDF2 and substeps lose less on the curtain than implicit Euler with the same iterations a step", "",
-      bdf2.left(330) > euler.left(330) && losses[5].left(330) > euler.left(330),
+      bdf2.left(330) > euler.left(330) && losses[5].left(330) > euler.left(330) &&
+          losses[6].left(330) > euler.left(330),
       fmt::format("of the energy at release is left 300 frames later: implicit Euler {:.0f} %, BDF2 {:.0f} %, two "
                   "substeps {:.0f} %, four {:.0f} %, each with 20 iterations",
                   100 * euler.left(330), 100 * bdf2.left(330), 100 * losses[5].left(330), 100 * losses[6].left(330))));
   const auto best = std::max_element(losses.begin(), losses.begin() + 5,
                                      [](const Loss& a, const Loss& b) { return a.left(330) < b.left(330); });
-  chapter.claims.push_back(reported(
-      "At equal cost, 20 iterations a frame", "",
-      fmt::format(
-          "left 300 frames after release: implicit Euler {:.0f} %, in 2 substeps of 10 {:.0f} %, in 4 of 5 {:.0f} %, "
-          "BDF2 {:.0f} %, BDF2 in 2 substeps of 10 {:.0f} %; most: {}",
-          100 * euler.left(330), 100 * losses[2].left(330), 100 * losses[3].left(330), 100 * bdf2.left(330),
-          100 * losses[4].left(330), best->variant.name())));
+  chapter.claims.push_back(
+      reported("At equal cost, 20 iterations a frame", "",
+               fmt::format("left 300 frames after release: implicit Euler {:.0f} %, in 2 substeps of 10 {:.0f} %, in 4 "
+                           "of 5 {:.0f} %, BDF2 {:.0f} %, BDF2 in 2 substeps of 10 {:.0f} %; most: {}",
+                           100 * euler.left(330), 100 * losses[2].left(330), 100 * losses[3].left(330),
+                           100 * bdf2.left(330), 100 * losses[4].left(330), best->variant.name())));
 }
 
 /// What a scene was like with an integrator.
@@ -198,29 +198,26 @@ void measure_builtin_scenes(const Lab& lab, Chapter& chapter) {
   Table table{"Largest kinetic energy [J] of the built-in scenes, run to their ends.",
               {"scene", "steps", "implicit Euler", "BDF2"},
               {}};
-  bool is_stable = true;
+  int stable = 0;
   int count = 0;
   for (const pliant::BuiltinScene& builtin : pliant::builtin_scenes()) {
-    std::int64_t steps = 0;
-    try {
-      steps = lab.builtin_scene(builtin.name).steps;
-    } catch (const pliant::Error&) {  // its mesh is not part of this program
+    if (builtin.text.find("\"file\"") != builtin.text.npos) {  // of a mesh that is not part of this program
       table.rows.push_back({fmt::format("{} (its mesh is not here)", builtin.name), "–", "–", "–"});
       continue;
     }
+    const std::int64_t steps = lab.builtin_scene(builtin.name).steps;
     double kinetic = 0;
     double other = 0;
     const Outcome euler = run_scene(lab, builtin.name, "implicit_euler", 1e300, kinetic);
     const Outcome bdf2 = run_scene(lab, builtin.name, "bdf2", most_times * kinetic, other);
-    is_stable = is_stable && bdf2.is_stable;
+    stable += bdf2.is_stable ? 1 : 0;
     ++count;
     table.rows.push_back({std::string(builtin.name), std::to_string(steps), euler.text, bdf2.text});
   }
-  chapter.claims.push_back(
-      claim("BDF2 is stable on every built-in scene", "", is_stable,
-            fmt::format("{} scenes run to their ends, none with more than {:.0f} times the kinetic "
-                        "energy of implicit Euler",
-                        count, most_times)));
+  chapter.claims.push_back(claim(
+      "BDF2 is stable on every built-in scene", "", stable == count,
+      fmt::format("{} of {} scenes run to their ends with at most {:.0f} times the kinetic energy of implicit Euler",
+                  stable, count, most_times)));
   chapter.blocks.emplace_back(std::move(table));
 }
 

@@ -97,11 +97,6 @@ double Fall::last_mean(int count) const {
   return std::accumulate(stretch.end() - count, stretch.end(), 0.) / count;
 }
 
-double Fall::last_amplitude(int count) const {
-  const auto [least, most] = std::minmax_element(stretch.end() - count, stretch.end());
-  return (*most - *least) / 2;
-}
-
 Fall fall(const Scene& rest, const Mover& mover, int steps) {
   Fall result{{stretch(rest, rest.simulation.state().positions)}};
   std::vector<double> seconds;

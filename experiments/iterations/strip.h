@@ -32,9 +32,8 @@ struct Fall {
   double seconds = 0;        ///< of a step, the median
   pliant::Positions last{};  ///< m × 3 [m]
 
-  /// Mean and half of the range over the last `count` steps.
+  /// Mean over the last `count` steps.
   double last_mean(int count) const;
-  double last_amplitude(int count) const;
 };
 
 /// Lets a mover take so many steps.

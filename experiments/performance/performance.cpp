@@ -40,8 +40,7 @@ Chapter run_performance(const Lab& lab) {
   Chapter chapter;
   chapter.question =
       "A curtain of springs with bending at every interior vertex: how many steps a second, over its vertices, with 1 "
-      "to 20 "
-      "iterations a step? Medians of at least 5 steps, all processors.";
+      "to 20 iterations a step? Medians of at least 5 steps, all processors.";
   Plot plot{
       .title = "Steps a second",
       .caption =

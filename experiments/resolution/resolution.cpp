@@ -104,15 +104,14 @@ Pulling pull(const Lab& lab, const Material& material, const Tessellation& tesse
 // ---- plots, tables and pictures
 
 Plot sag_plot(const std::vector<Hanging>& all) {
-  Plot plot{
-      .title = "Sag of the lower edge over the resolution",
-      .caption =
-          "Lines: diagonals that all lean one way; dashed: crossed ones, which are alternating ones turned by 45 "
-          "degrees. Triangle strain: one level line for both. Springs of one constant settle at two levels. Fibres of "
-          "one cross-section go to zero.",
-      .x = {.label = "vertices a side", .is_logarithmic = true},
-      .y = {.label = "sag [cm]", .min = 0.},
-      .series = {}};
+  Plot plot{.title = "Sag of the lower edge over the resolution",
+            .caption =
+                "Lines: diagonals that all lean one way; dashed: crossed ones, which are alternating ones turned by 45 "
+                "degrees. Triangle strain: one level line for both. Springs of one constant settle at two levels. "
+                "Fibres of one cross-section go to zero.",
+            .x = {.label = "vertices a side", .is_logarithmic = true},
+            .y = {.label = "sag [cm]", .min = 0.},
+            .series = {}};
   for (const Hanging& hanging : all) {
     for (const std::size_t cut : {std::size_t{0}, std::size_t{2}}) {
       Series series{.name = fmt::format("{}, {}", hanging.material.name, diagonals[cut]),
@@ -130,16 +129,14 @@ Plot sag_plot(const std::vector<Hanging>& all) {
 }
 
 Plot pull_plot(const std::vector<Pulling>& all) {
-  Plot plot{
-      .title = "Elongation over the direction of the pull",
-      .caption = fmt::format(
-          "{0} × {0} vertices under the same tension of {1} N/m everywhere. Triangle strain gives way alike in all "
-          "directions. Springs whose diagonals lean one way resist along them (45 degrees) and give way across them "
-          "(135 degrees).",
-          pulled_size, tension),
-      .x = {.label = "direction, from the rows of the mesh [degrees]", .min = 0., .max = 180.},
-      .y = {.label = "elongation [%]", .min = 0.},
-      .series = {}};
+  Plot plot{.title = "Elongation over the direction of the pull",
+            .caption = fmt::format("{0} × {0} vertices under the same tension of {1} N/m everywhere. Triangle strain "
+                                   "gives way alike in all directions. Springs whose diagonals lean one way resist "
+                                   "along them (45 degrees) and give way across them (135 degrees).",
+                                   pulled_size, tension),
+            .x = {.label = "direction, from the rows of the mesh [degrees]", .min = 0., .max = 180.},
+            .y = {.label = "elongation [%]", .min = 0.},
+            .series = {}};
   for (const Pulling& pulling : all) {
     Series series{.name = fmt::format("{}, {}", pulling.material.name, pulling.tessellation.diagonals),
                   .x = pulling.degrees,
@@ -195,11 +192,10 @@ Claim strain_is_one_cloth(const Hanging& hanging, const std::vector<Pulling>& pu
       .text = "Constraints on strain behave the same at any resolution and in any orientation of the mesh",
       .by = "Bouaziz et al. 2014",
       .verdict = sag.spread() <= most_spread && pulled_strain.spread() <= most_spread ? Verdict::holds : Verdict::fails,
-      .evidence = fmt::format(
-          "Sags of {} meshes from {:.3f} to {:.3f} cm: a spread of {:.3f} %; elongations in all directions from "
-          "{:.4f} to {:.4f} %: {:.1e} %.",
-          sizes.size() * diagonals.size(), 100 * sag.least, 100 * sag.most, 100 * sag.spread(),
-          100 * pulled_strain.least, 100 * pulled_strain.most, 100 * pulled_strain.spread())};
+      .evidence = fmt::format("Sags of {} meshes from {:.3f} to {:.3f} cm: a spread of {:.3f} %; elongations in all "
+                              "directions from {:.4f} to {:.4f} %: {:.1e} %.",
+                              sizes.size() * diagonals.size(), 100 * sag.least, 100 * sag.most, 100 * sag.spread(),
+                              100 * pulled_strain.least, 100 * pulled_strain.most, 100 * pulled_strain.spread())};
 }
 
 Claim strain_is_continuum(const Hanging& hanging, double exact) {
@@ -215,15 +211,13 @@ Claim strain_is_continuum(const Hanging& hanging, double exact) {
 Claim springs_depend_on_mesh(const Hanging& hanging) {
   constexpr double least_spread = .05;
   const Extent sag = finest_sags(hanging);
-  return {
-      .text = "Springs behave otherwise in each mesh",
-      .by = "Bouaziz et al. 2014",
-      .verdict = sag.spread() >= least_spread ? Verdict::holds : Verdict::fails,
-      .evidence = fmt::format(
-          "At {0} × {0} vertices the sag is from {1:.2f} to {2:.2f} cm, a spread of {3:.0f} %; diagonals that lean one "
-          "way draw the lower edge {4:.2f} cm aside.",
-          sizes.back(), 100 * sag.least, 100 * sag.most, 100 * sag.spread(),
-          std::abs(100 * hanging.drops.front().back().aside))};
+  return {.text = "Springs behave otherwise in each mesh",
+          .by = "Bouaziz et al. 2014",
+          .verdict = sag.spread() >= least_spread ? Verdict::holds : Verdict::fails,
+          .evidence = fmt::format("At {0} × {0} vertices the sag is from {1:.2f} to {2:.2f} cm, a spread of {3:.0f} %; "
+                                  "diagonals that lean one way draw the lower edge {4:.2f} cm aside.",
+                                  sizes.back(), 100 * sag.least, 100 * sag.most, 100 * sag.spread(),
+                                  std::abs(100 * hanging.drops.front().back().aside))};
 }
 
 Claim springs_converge(const Hanging& hanging) {
@@ -286,8 +280,7 @@ Chapter run_resolution(const Lab& lab) {
       "Is it the same cloth when its mesh is another one? A sheet of 1 m and 1 kg hangs by its upper edge, at four "
       "resolutions and with its cells cut in three ways, and a sheet without weight is pulled by one tension in every "
       "direction. Both stay flat, and are solved until they rest. Compared are springs of one constant k, fibres of "
-      "one "
-      "cross-section EA, and triangle strain.";
+      "one cross-section EA, and triangle strain.";
   chapter.claims = {strain_is_one_cloth(hanging[1], pullings), strain_is_continuum(hanging[1], continuum_sag(lab)),
                     springs_depend_on_mesh(hanging[0]),        springs_converge(hanging[0]),
                     springs_depend_on_direction(pullings),     fibres_halve(hanging[2])};

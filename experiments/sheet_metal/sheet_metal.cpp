@@ -45,10 +45,8 @@ Chapter run_sheet_metal(const Lab& lab) {
   Chapter chapter;
   chapter.question =
       "The middle of a sheet of 16 x 16 vertices that hangs by two corners is drawn by 4000 N for 120 frames, with a "
-      "bending "
-      "of 0, 1, 10 and 100 N m (edges of 5e4 N/m, 20 iterations). How much does it wrinkle? Measured is the square of "
-      "its "
-      "mean curvature vector over its area, ∫‖Δq‖².";
+      "bending of 0, 1, 10 and 100 N m (edges of 5e4 N/m, 20 iterations). How much does it wrinkle? Measured is the "
+      "square of its mean curvature vector over its area, ∫‖Δq‖².";
   const std::array<double, 4> known = {142, 79, 22, 5.3};
   CurvatureMeter meter(lab);
   Comparison comparison(0.1);

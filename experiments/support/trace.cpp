@@ -50,13 +50,16 @@ void settle(const Lab& lab, pliant::Scene& scene, double tolerance) {
   simulation.set_settings(settings);
   constexpr int most_steps = 1000;
   bool is_at_rest = false;
+  const auto fail_unless_at_rest = [&] {
+    if (is_at_rest) return;
+    throw pliant::Error(pliant::ErrorKind::diverged, fmt::format("{}: found no equilibrium", scene.name));
+  };
   for (int i = 0; i < most_steps && !is_at_rest; ++i) {
     lab.step(scene);
     is_at_rest = simulation.evaluate().residual <= tolerance;  // inertia has no part in it: m/h² is next to nothing
     simulation.set_state(simulation.state().positions, pliant::Positions::Zero(simulation.state().vertex_count(), 3));
   }
-  if (!is_at_rest)
-    throw pliant::Error(pliant::ErrorKind::diverged, fmt::format("{}: found no equilibrium", scene.name));
+  fail_unless_at_rest();
   // Large steps leave what their rounding is, about 1e-16 of the largest position times the stiffness: small ones,
   // whose starts damp them strongly, take it away.
   constexpr int small_steps = 4000;
@@ -65,6 +68,8 @@ void settle(const Lab& lab, pliant::Scene& scene, double tolerance) {
   settings.tolerance = 0;
   simulation.set_settings(settings);
   lab.step(scene, small_steps);
+  is_at_rest = simulation.evaluate().residual <= tolerance;
+  fail_unless_at_rest();
   begin.positions = simulation.state().positions;
   begin.velocities.setZero();
   simulation.set_settings(given);

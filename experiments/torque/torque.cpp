@@ -110,10 +110,8 @@ Chapter run_torque(const Lab& lab) {
   Chapter chapter;
   chapter.question =
       "A free sheet of 11 x 11 vertices of 1 kg, 1 m wide, without gravity, is turned by a couple at the middles of "
-      "two "
-      "opposite edges that would give it 2 rad/s² if it were rigid. By what share of the rigid angle has it turned "
-      "after 60 "
-      "frames?";
+      "two opposite edges that would give it 2 rad/s² if it were rigid. By what share of the rigid angle has it turned "
+      "after 60 frames?";
   Turns turns;
   Plot plot{.title = "Rotation by a torque",
             .caption =
@@ -140,11 +138,11 @@ Chapter run_torque(const Lab& lab) {
   }
   const auto& stiff = turns.at({5e4, "positions"});
   const auto& predicted = turns.at({5e4, "prediction"});
-  chapter.claims.push_back(
-      claim("With one iteration the mesh only faintly rotates", "thesis, Sec. 6.3", stiff.at(1).share < 0.1,
-            fmt::format("{:.4f} of the angle at 5e4 N/m, where iterations begin at the last positions; "
-                        "from the prediction it turns {:.2f} times the angle",
-                        stiff.at(1).share, predicted.at(1).share)));
+  chapter.claims.push_back(claim("With one iteration the mesh only faintly rotates", "thesis, Sec. 6.3",
+                                 stiff.at(1).share < 0.1,
+                                 fmt::format("{:.4f} of the angle at 5e4 N/m, where iterations begin at the last "
+                                             "positions; from the prediction it turns {:.2f} times the angle",
+                                             stiff.at(1).share, predicted.at(1).share)));
   chapter.claims.push_back(claim("This vanishes quickly with more iterations", "thesis, Sec. 6.3",
                                  stiff.at(20).share > 0.8 && std::abs(stiff.at(100).share - 1) < 0.05,
                                  fmt::format("5, 20 and 100 iterations: {:.3f}, {:.3f} and {:.3f} of the angle",
@@ -154,8 +152,7 @@ Chapter run_torque(const Lab& lab) {
   chapter.blocks.emplace_back(std::move(plot));
   lab.show(chapter, {stiff.at(1).picture, stiff.at(20).picture, stiff.at(100).picture, predicted.at(1).picture}, 4,
            "The sheet of 5e4 N/m after 60 frames, seen from above: 1, 20 and 100 iterations from the last positions, "
-           "and 1 from "
-           "the prediction.");
+           "and 1 from the prediction.");
   chapter.blocks.emplace_back(comparison.table("Share of the rigid angle."));
   return chapter;
 }

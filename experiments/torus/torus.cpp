@@ -59,7 +59,6 @@ Homecoming come_home(const pliant::Simulation& simulation) {
   const pliant::Mesh& mesh = simulation.bodies()[0].mesh;
   const Positions& x = simulation.state().positions;
   Homecoming result;
-  result.is_finite = x.allFinite();
   result.volume = volume(mesh, x) / volume(mesh, mesh.vertices);
   result.shortest = 1e300;
   result.longest = 0;
@@ -86,12 +85,12 @@ Homecoming jerk(const Lab& lab, pliant::Scene& scene, double jump, unsigned seed
       for (double& coordinate : offset) coordinate = jump * random_share(random);
       simulation.set_target(hands, hand, homes[static_cast<std::size_t>(hand)] + offset);
     }
-    lab.step(scene);
+    if (!lab.try_steps(scene, 1)) return {.is_finite = false};
   }
   for (pliant::Index hand = 0; hand < 2; ++hand) {
     simulation.set_target(hands, hand, homes[static_cast<std::size_t>(hand)]);
   }
-  lab.step(scene, home);
+  if (!lab.try_steps(scene, home)) return {.is_finite = false};
   return come_home(simulation);
 }
 
@@ -118,7 +117,7 @@ struct Series {
   std::ptrdiff_t inside_out() const {
     return std::ranges::count_if(runs, [](const Homecoming& run) { return run.volume < -0.5; });
   }
-  bool is_finite() const { return std::ranges::all_of(runs, &Homecoming::is_finite); }
+  std::ptrdiff_t finite() const { return std::ranges::count_if(runs, &Homecoming::is_finite); }
 };
 
 Series jerk_all(const Lab& lab, Chapter& chapter, double jump, Bend bend, Table& table) {
@@ -162,26 +161,25 @@ Chapter run_torus(const Lab& lab) {
   chapter.question = fmt::format(
       "A torus of 24 x 12 vertices and 1 kg (edges of 200 N/m) is held by two vertices (1000 N/m), which jump every 20 "
       "frames by up to J in each coordinate, for 300 frames; then they go home for 300. Does it come back to its "
-      "shape, "
-      "without bending, and with one of {} N m that is absolute or signed? {} random runs of each.",
+      "shape, without bending, and with one of {} N m that is absolute or signed? {} random runs of each.",
       bending, seeds);
   Table table{
       "How the torus has come home. Intact: edges within .91 and 1.07 of their rest lengths and the volume within 2 %; "
-      "inside out: its volume is negative.",
+      "as an independent program found it with jumps of .3 m; inside out: its volume is below minus half.",
       {"jumps", "intact", "inside out", "edges / rest", "volume / rest"},
       {}};
   std::map<std::pair<double, Bend>, Series> all;
-  bool is_finite = true;
+  std::ptrdiff_t finite = 0;
   for (const double jump : {0.3, 1.0}) {
     for (const Bend bend : bends) {
       Series series = jerk_all(lab, chapter, jump, bend, table);
-      is_finite = is_finite && series.is_finite();
+      finite += series.finite();
       all.emplace(std::pair{jump, bend}, std::move(series));
     }
   }
   const auto intact = [&](double jump, Bend bend) { return all.at({jump, bend}).intact(); };
-  chapter.claims.push_back(claim("Suddenly moved pins do not make it unstable", "thesis, Sec. 6.1", is_finite,
-                                 fmt::format("all of {} runs of 600 frames stay finite", 6 * seeds)));
+  chapter.claims.push_back(claim("Suddenly moved pins do not make it unstable", "thesis, Sec. 6.1", finite == 6 * seeds,
+                                 fmt::format("{} of {} runs of 600 frames stay finite", finite, 6 * seeds)));
   chapter.claims.push_back(
       claim("With the right constraints (edges and bending) bodies stay intact", "thesis, Sec. 6.1, Fig. 6.2",
             intact(0.3, Bend::absolute) == seeds && intact(0.3, Bend::signed_) == seeds,

@@ -53,6 +53,16 @@ class Check(unittest.TestCase):
         self.assertAlmostEqual(info["fastest_frequency"]["rad_per_s"], 4)  # sqrt(12 (1 + 1/3))
         self.assertAlmostEqual(info["fastest_frequency"]["times_time_step"], 2)
         self.assertAlmostEqual(info["fastest_frequency"]["loss_per_step"], 1 - 5 ** -0.5)
+        for sets, loss in [
+                (["settings.substeps=2"], 1 - 1 / 2),  # (1 + 1)^(-1/2) twice
+                (["settings.integrator=bdf2"], 1 - abs((2 + (1 + 4j) ** 0.5) / (3 - 4j)))]:
+            options = [word for path in sets for word in ("--set", path)]
+            other = json.loads(self.pliant("check", scene, "--json", *options).stdout)
+            self.assertAlmostEqual(other["fastest_frequency"]["loss_per_step"], loss)
+            self.assertGreater(other["fastest_frequency"]["half_life_hz"], info["fastest_frequency"]["half_life_hz"])
+        text = self.pliant("check", scene, "--set", "settings.damping=2").stdout
+        self.assertIn("`damping` takes half of every vibration in 0.35 s", text)
+        self.assertIn("with `integrator` `bdf2`", text)
         self.assertEqual(info["constraints"], {"edge_spring": 1})
         self.assertEqual(info["system"]["matrix_entries"], 3)
         self.assertEqual(info["seconds"], 5)

@@ -134,6 +134,8 @@ class Sweep(unittest.TestCase):
                             (["--vary", f"{ITERATIONS}=1:5:1"], "is no range"),
                             (["--vary", f"{ITERATIONS}=0:5:3log"], "above 0"),
                             (["--vary", f"{ITERATIONS}=1", "--vary", f"{ITERATIONS}=2"], "comes twice"),
+                            (["--vary", f"{STIFFNESS}=1,2", "--vary", "bodies[0].constraints[1].stiffness=3,4"],
+                             "takes the place of"),
                             (["--vary", f"{ITERATIONS}=1", "--iterations", 3], "--iterations sets the same value"),
                             (["--vary", "steps=1,2", "--set", "steps=3"], "--set sets the same value"),
                             (["--vary", "gravity=1:2:200", "--vary", "steps=1:200:200"], "more than 10000"),
@@ -249,10 +251,10 @@ class Sweep(unittest.TestCase):
         self.assertEqual({row["name"] for row in rows}, {"a", '"b,\\" c"'})
         self.assertEqual({row["outcome"] for row in rows}, {"ok"})
 
-    def start(self, *arguments):
+    def start(self, *arguments, scene=None):
         """Starts a sweep that would never end, and waits for its second run to be under way."""
-        process = subprocess.Popen([PLIANT, "sweep", self.write_scene(), "--jobs", "1", "--out", self.out, *arguments],
-                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        process = subprocess.Popen([PLIANT, "sweep", self.write_scene(scene).name, "--jobs", "1", "--out", self.out, *arguments],
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, cwd=self.folder)
         self.addCleanup(process.stderr.close)
         deadline = time.monotonic() + 60
         while time.monotonic() < deadline and not (self.out / "runs" / "0002" / "measurements.csv").exists():
@@ -306,7 +308,22 @@ class Sweep(unittest.TestCase):
         self.end_run("0002", signal.SIGTERM)
         self.assertEqual(process.wait(timeout=60), 2)
         self.assertIn("has changed since the sweep began", process.stderr.read())
-        self.assertEqual([row["outcome"] for row in self.rows()], ["ok", "failed", "waiting"])
+        self.assertEqual([row["outcome"] for row in self.rows()], ["ok", "waiting", "waiting"])
+
+    def test_a_mesh_that_is_changed_meanwhile_ends_the_sweep(self):
+        mesh = self.folder / "rope.obj"
+        text = "v 0 0 0\nv 1 0 0\nv 2 1 0\nv 3 0 0\nf 1 2 3\nf 2 4 3\n"
+        mesh.write_text(text)
+        body = CHAIN["bodies"][0] | {"mesh": {"file": "rope.obj"}}
+        process = self.start("--vary", "steps=5,3000000,6", scene={"bodies": [body]})
+        mesh.write_text(text.replace("v 3 0 0", "v 4 0 0"))
+        self.end_run("0002", signal.SIGTERM)
+        self.assertEqual(process.wait(timeout=60), 2)
+        self.assertIn("rope.obj: has changed since the sweep began", process.stderr.read())
+        self.assertEqual([row["outcome"] for row in self.rows()], ["ok", "waiting", "waiting"])
+        self.assertIn("of another", self.sweep("scene.json", "--vary", "steps=5,6", expect=2).stderr)
+        mesh.write_text(text)
+        self.assertIn("1 were there before", self.sweep("scene.json", "--vary", "steps=5,6").stdout)
 
     def test_the_scaling_of_threads(self):
         self.sweep(self.write_scene(), "--vary", "settings.threads=1,2")

@@ -93,11 +93,35 @@ TEST_CASE("what is not whole has not ended") {
     CAPTURE(json);
     CHECK(result_of(json, text).outcome == RunOutcome::waiting);
   }
+  // Numbers of steps that are none, the largest of which would overflow.
+  for (const char* steps : {"9223372036854775807", "9007199254740993", "-1", "3.0", "1e300", "null"}) {
+    CAPTURE(steps);
+    const std::string json = R"({"outcome": "ok", "output": {"every": 1}, "totals": {"steps": )";
+    CHECK(result_of(json + steps + R"(, "wall_seconds": 1.5}})", text).outcome == RunOutcome::waiting);
+  }
+  for (const char* every : {"0", "-1", "1.0", "1e300", "9223372036854775808"}) {
+    CAPTURE(every);
+    const std::string json = R"({"outcome": "ok", "totals": {"steps": 3, "wall_seconds": 1.5}, "output": {"every": )";
+    CHECK(result_of(json + every + "}}", text).outcome == RunOutcome::waiting);
+  }
   CHECK(read_run_result("/nonexistent").outcome == RunOutcome::waiting);
   // It may diverge while its last step is measured.
   CHECK(result_of(run_json("diverged", 4), text).outcome == RunOutcome::diverged);
   CHECK(result_of(run_json("diverged", 5), text).outcome == RunOutcome::waiting);
   CHECK(result_of(run_json("diverged", 3), text).message == "why");
+}
+
+TEST_CASE("a result is forgotten, and nothing else of its run") {
+  const TemporaryFolder folder;
+  CHECK_NOTHROW(forget_run_result(folder.path()));
+  CHECK(folder.file_count() == 0);
+  const auto info = folder.write("run.json", run_json("ok", 3));
+  const auto table = folder.write("measurements.csv", measurements);
+  REQUIRE(read_run_result(folder.path()).outcome == RunOutcome::ok);
+  forget_run_result(folder.path());
+  CHECK(read_run_result(folder.path()).outcome == RunOutcome::waiting);
+  CHECK(TemporaryFolder::read(info).find("\"outcome\": \"interrupted\"") != std::string::npos);
+  CHECK(TemporaryFolder::read(table) == measurements);
 }
 
 TEST_CASE("a run that did not end by itself says why") {

@@ -3,6 +3,7 @@
 #include <string>
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include "pliant/core/error.h"
 #include "sweep/process.h"
@@ -130,11 +131,59 @@ TEST_CASE("what cannot be started or written ends the sweep") {
   Rig no_folder({"1"}, "");
   fs::remove(no_folder.folder.path() / "runs");
   CHECK(kind_of(no_folder) == pliant::ErrorKind::output);
-  Rig changed({"1", "2"}, "end ok; echo more >> $(dirname $out)/../text\n");
-  changed.plan.setup.texts = {{changed.folder.write("text", "a"), 0xE8B7BE43U}};
-  CHECK(kind_of(changed) == pliant::ErrorKind::input);
-  CHECK(changed.outcomes() == "ok waiting ");
-  CHECK(changed.table() == sweep_csv(changed.plan));
+}
+
+TEST_CASE("a file of the scene that changes ends the sweep, and runs that may have read it do not count") {
+  enum class Is { text, mesh };
+  for (const Is is : {Is::text, Is::mesh}) {
+    for (const std::int64_t jobs : {1, 2}) {
+      for (const std::string change : {"echo more >> $input", "rm $input"}) {
+        CAPTURE(jobs);
+        CAPTURE(change);
+        // Of two jobs the third run's files are whole when the second one ends, and it still runs.
+        const auto wait_for = [&](std::string_view run) {
+          return jobs == 2 ? fmt::format("while [ ! -f $input.{} ]; do sleep 0.01; done", run) : "true";
+        };
+        Rig rig({"1", "2", "3", "4"},
+                fmt::format("input=$(dirname $out)/../input\ncase $value in\n1) end ok;;\n2) {}; {}; end ok;;\n"
+                            "3) end ok; touch $input.3; {};;\n4) end ok; touch $input.4;;\nesac\n",
+                            wait_for("3"), change, wait_for("4")));
+        const fs::path input = rig.folder.write("input", "a");
+        constexpr std::uint32_t crc32 = 0xE8B7BE43U;
+        if (is == Is::text) rig.plan.setup.texts = {{input, crc32}};
+        if (is == Is::mesh) rig.plan.setup.files = {{input.string(), crc32}};
+        std::string told;
+        SweepHooks hooks;
+        hooks.tell_ended = [&told](const SweepRun& run) { told += run.values[0]; };
+        pliant::ErrorKind kind{};
+        try {
+          rig.run(jobs, hooks);
+        } catch (const pliant::Error& error) {
+          kind = error.kind();
+          CHECK(std::string_view(error.what()).starts_with(input.string() + ": "));
+        }
+        CHECK(kind == pliant::ErrorKind::input);
+        CHECK(told == "1");
+        CHECK(rig.outcomes() == "ok waiting waiting waiting ");
+        for (const SweepRun& run : rig.plan.runs) {
+          CHECK(read_run_result(run_folder(rig.folder.path(), run.name)).outcome == run.result.outcome);
+        }
+        CHECK(rig.table() == sweep_csv(rig.plan));
+      }
+    }
+  }
+}
+
+TEST_CASE("how many runs have which outcome") {
+  SweepPlan plan;
+  plan.runs.resize(5);
+  CHECK(outcomes_text(plan) == "5 waiting");
+  plan.runs[4].result.outcome = RunOutcome::ok;
+  plan.runs[0].result.outcome = RunOutcome::failed;
+  plan.runs[1].result.outcome = RunOutcome::diverged;
+  plan.runs[2].result.outcome = RunOutcome::diverged;
+  CHECK(outcomes_text(plan) == "1 ok, 2 diverged, 1 failed, 1 waiting");
+  CHECK(count_of(plan, RunOutcome::diverged) == 2);
 }
 
 TEST_CASE("a folder has one sweep at a time") {

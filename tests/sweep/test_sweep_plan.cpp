@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view scene_text = R"({
   "pliant": 1,
   "bodies": [{"name": "rope", "mesh": {"shape": "chain", "links": 3}, "mass": {"total": 1},
-              "constraints": [{"type": "edge_spring", "name": "links"}]}]
+              "constraints": [{"type": "edge_spring", "name": "links"}, {"type": "position", "name": "hook", "on": [0]}]}]
 })";
 
 SweepSetup setup_of(std::vector<Variation> variations, const pliant::SceneOverrides& overrides = {}) {
@@ -96,6 +96,65 @@ TEST_CASE("what cannot be compared is refused") {
   CHECK(message(with_file).find("another cloth.obj") != std::string::npos);
 }
 
+TEST_CASE("files of runs that are not asked for now are known, and not looked at") {
+  const TemporaryFolder folder;
+  SweepSetup setup = setup_of({steps});
+  setup.files["gone.obj"] = 1;
+  begin_sweep(folder.path(), plan_of(folder, setup));
+  setup.files.clear();
+  const SweepPlan plan = plan_of(folder, setup);
+  CHECK_NOTHROW(check_unchanged(plan.setup));
+  begin_sweep(folder.path(), plan);
+  setup.files["gone.obj"] = 2;
+  CHECK(message_of([&] { plan_of(folder, setup); }).find("another gone.obj") != std::string::npos);
+}
+
+TEST_CASE("values that are nested deep overflow nothing") {
+  const TemporaryFolder folder;
+  const SweepSetup setup = setup_of({steps});
+  begin_sweep(folder.path(), plan_of(folder, setup));
+  const fs::path file = folder.path() / "sweep.json";
+  std::string text = TemporaryFolder::read(file);
+  constexpr std::size_t depth = 1'000'000;
+  const std::string deep = std::string(depth, '[') + std::string(depth, ']');
+  const std::string value = "[\\\"" + std::string(depth, ']') + "\\\"," + deep + "]";
+  const std::size_t place = text.rfind("\"2\"");
+  REQUIRE(place != std::string::npos);
+  folder.write("sweep.json", text.replace(place + 1, 1, value));
+  CHECK(plan_of(folder, setup).others.size() == 1);
+  folder.write("sweep.json", deep);
+  CHECK(message_of([&] { plan_of(folder, setup); }, pliant::ErrorKind::output).find("was not written by a sweep") !=
+        std::string::npos);
+}
+
+TEST_CASE("a place is varied once, whatever it is called") {
+  const auto slip = [](std::vector<Variation> variations, std::vector<std::string> set = {}) {
+    return message_of([&] { setup_of(std::move(variations), {.set = std::move(set)}); });
+  };
+  const Variation by_index{"bodies[0].mass.total", {"1", "2"}};
+  const Variation by_name{"bodies[rope].mass.total", {"3", "4"}};
+  const Variation around{"bodies[rope].mass", {R"({"total": 5})"}};
+  CHECK(slip({by_index, by_name}) ==
+        "--vary bodies[rope].mass.total: takes the place of --vary bodies[0].mass.total, which would count for "
+        "nothing; leave out one of the two");
+  CHECK(slip({by_name, steps, by_index}).find("the place of --vary bodies[rope].mass.total") != std::string::npos);
+  CHECK(slip({by_index, around}).find("the place of --vary bodies[0].mass.total") != std::string::npos);
+  CHECK(slip({by_name}, {"bodies[0].mass.total=7"}).find("the place of --set bodies[0].mass.total") !=
+        std::string::npos);
+  CHECK(slip({around, by_index}) == "(no error)");  // one value inside of the other
+  // Where any value is taken nothing can be told.
+  const auto open = [](const pliant::SceneOverrides&) { return pliant::parse_scene(scene_text, {}, "s.json"); };
+  CHECK_NOTHROW(check_sweep({"s.json", {by_index, by_name}, {}}, open));
+  CHECK(slip({{"bodies[0].constraints[links].stiffness", {"1"}}, {"bodies[0].constraints[1].stiffness", {"2"}}}) ==
+        "(no error)");
+  CHECK(
+      slip({{"bodies[0].constraints[links].stiffness", {"1"}},
+            {"bodies[0].constraints[1].stiffness", {"2"}},
+            {"bodies[rope].constraints[0].stiffness", {"3"}}}) ==
+      "--vary bodies[rope].constraints[0].stiffness: takes the place of --vary bodies[0].constraints[links].stiffness, "
+      "which would count for nothing; leave out one of the two");
+}
+
 TEST_CASE("only the runs of the sweep are removed") {
   const TemporaryFolder folder;
   begin_sweep(folder.path(), plan_of(folder, setup_of({steps})));
@@ -120,7 +179,14 @@ TEST_CASE("what no sweep wrote is not replaced") {
                            R"({"pliant_file": "sweep", "pliant": "0", "texts": [], "files": {}, "set": [],
                                "options": {}, "vary": [], "runs": [{"name": "../x", "values": []}]})",
                            R"({"pliant_file": "sweep", "pliant": "0", "texts": [], "files": {}, "set": [],
-                               "options": {}, "vary": [], "runs": [{"name": "0001", "values": ["1"]}]})"}) {
+                               "options": {}, "vary": [], "runs": [{"name": "0001", "values": ["1"]}]})",
+                           R"({"pliant_file": "sweep", "pliant": "0", "texts": [], "files": {}, "set": [],
+                               "options": {}, "vary": [{"path": "steps"}],
+                               "runs": [{"name": "0001", "values": ["1"]}, {"name": "0001", "values": ["2"]}]})",
+                           R"({"pliant_file": "sweep", "pliant": "0", "texts": [{"file": "a", "crc32": 1e300}],
+                               "files": {}, "set": [], "options": {}, "vary": [], "runs": []})",
+                           R"({"pliant_file": "sweep", "pliant": "0", "texts": [], "files": {"a": -1}, "set": [],
+                               "options": {}, "vary": [], "runs": []})"}) {
     CAPTURE(text);
     const TemporaryFolder folder;
     folder.write("sweep.json", text);

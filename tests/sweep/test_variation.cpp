@@ -89,6 +89,13 @@ TEST_CASE("values that mean the same are known as the same") {
   CHECK(canonical_value("0.10") == canonical_value("1e-1"));
   CHECK(canonical_value("a b") == canonical_value("\"a b\""));
   CHECK(canonical_value("1") != canonical_value("\"1\""));
+  CHECK(canonical_value(R"(["]"])") != canonical_value(R"(["["])"));
+  // Brackets in texts do not count; what is nested deeper than any scene goes is a text.
+  const std::string deep = std::string(3'000'000, '[') + std::string(3'000'000, ']');
+  CHECK(canonical_value(deep) == '"' + deep + '"');
+  const std::string hidden = "[\"" + std::string(3'000'000, ']') + "\\\"]\"," + deep + "]";
+  CHECK(canonical_value(hidden).starts_with("\"["));
+  CHECK(canonical_value("[\"" + std::string(3'000, '[') + "\"]").starts_with("[\""));
   CHECK(canonical_value("[1") != canonical_value("[1]"));
   CHECK(number_of("1e3") == 1000.0);
   for (const char* text : {"", "x", "1x", "0x10", "nan", "inf", "1e999", "[1]", " 1"}) CHECK(!number_of(text));

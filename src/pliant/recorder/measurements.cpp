@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "pliant/core/csv.h"
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
 
@@ -38,21 +39,6 @@ constexpr std::array after_elastic = {
     Column{"ms_global", [](const Measurements& row) { return 1e3 * row.report.seconds_global; }},
     Column{"ms_total", [](const Measurements& row) { return 1e3 * row.report.seconds_total; }},
 };
-
-/// A field of a CSV file (RFC 4180, Sec. 2).
-std::string csv_field(std::string_view text) {
-  if (text.find_first_of(",\"\r\n") == text.npos) return std::string(text);
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"') result += '"';
-    result += c;
-  }
-  return result + '"';
-}
-
-}  // namespace
-
-namespace {
 
 /// Positions may still be finite where their energies no longer are.
 void check_finite(const Measurements& row) {

@@ -172,12 +172,19 @@ void Simulation::restore(const State& state) {
     fail_input("restore: step " + std::to_string(state.step) + ", time " + std::to_string(state.time) +
                " s: this is no state of a simulation; give one that state() has returned");
   }
+  if (!(state.previous_time_step >= 0) || !std::isfinite(state.previous_time_step)) {
+    fail_input("restore: the previous time step is " + std::to_string(state.previous_time_step) +
+               " s; give a state that state() has returned");
+  }
   if (state.previous_time_step > 0) {
     check_rows(state.previous_positions, state_.vertex_count(), "restore: previous positions");
     check_rows(state.previous_velocities, state_.vertex_count(), "restore: previous velocities");
   }
   if (undo_ != nullptr) undo_->save_state();
   state_ = state;
+  if (state_.previous_time_step == 0) {
+    for (Positions* rows : {&state_.previous_positions, &state_.previous_velocities}) rows->resize(0, 3);
+  }
   solver_->forget_prediction();
 }
 

@@ -13,8 +13,7 @@ inline bool has_history(const State& state, Real h) {
 }
 
 inline void make_room_for_history(State& state) {
-  if (state.previous_positions.rows() == state.positions.rows()) return;
-  state.previous_positions.resize(state.positions.rows(), 3);
+  state.previous_positions.resize(state.positions.rows(), 3);  // nothing happens where it has as many
   state.previous_velocities.resize(state.positions.rows(), 3);
 }
 

@@ -68,10 +68,11 @@ struct SolverSettings {
                      Range{1, 1e9}},
           self.iterations);
     field(
-        OptionInfo{"damping", "1/s",
-                   "of vibrations, whose amplitude it lets decay as e^(-damping t); each body's flight and turning are "
-                   "left alone",
-                   not_negative},
+        OptionInfo{
+            "damping", "1/s",
+            "of vibrations, whose amplitude it lets decay as e^(-damping t); the flight and turning of a body as a "
+            "whole are left alone",
+            not_negative},
         self.damping);
     field(OptionInfo{"tolerance", "N",
                      "iterate no further once no vertex has a larger residual force; 0: only at exact rest",

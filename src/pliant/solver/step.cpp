@@ -32,7 +32,7 @@ void Solver::take_substep(State& state, StepReport& report) {
   /* 3   */ settings_.start == Start::prediction ? void(q_ = s_) : start_from_positions(state);
   place_held_vertices(q_);
   bool reached_tolerance = false;
-  /* 4   */ for (Index i = 0; i < settings_.iterations && !reached_tolerance; ++i) {
+  /* 4   */ for (Index i = 0; i < settings_.iterations; ++i) {
     if (stop_ && stop_()) give_up(state);
     const Stopwatch local;
     /* 5 */ const LocalResult found = local_step_.run(q_, s_, inertia_weights_, is_held_, residual_, *threads_);
