@@ -1,4 +1,5 @@
 // pliant check: reads a scene as a run would, and says what is in it.
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -61,30 +62,47 @@ Real half_life_frequency(const pliant::SolverSettings& settings) {
   return low / h / (2 * std::numbers::pi);
 }
 
-/// How to damp less.
-std::string less_damping_text(pliant::SolverSettings settings) {
-  if (settings.integrator != pliant::Integrator::implicit_euler) return "";
+/// How to damp less, where that is allowed.
+std::string less_damping_text(const Simulation& simulation) {
+  pliant::SolverSettings settings = simulation.settings();
+  const auto is_explicit = [](const auto& entry) { return entry.second->is_explicit_spring(); };
+  if (settings.integrator != pliant::Integrator::implicit_euler ||
+      std::ranges::any_of(simulation.forces(), is_explicit)) {
+    return "";
+  }
   settings.integrator = pliant::Integrator::bdf2;
   return fmt::format(", with `integrator` `bdf2` {:.2g} Hz", half_life_frequency(settings));
 }
 
-std::string frequency_text(const SystemInfo& info, const pliant::SolverSettings& settings) {
+std::string frequency_text(const SystemInfo& info, const Simulation& simulation) {
+  const pliant::SolverSettings& settings = simulation.settings();
   const Real product = info.fastest_frequency * settings.time_step;
-  std::string text =
-      fmt::format("{:.3g} rad/s = {:.3g} Hz; times the time step of {:.3g} s: {:.3g}\n", info.fastest_frequency,
-                  info.fastest_frequency / (2 * std::numbers::pi), settings.time_step, product);
+  const Real fastest_hz = info.fastest_frequency / (2 * std::numbers::pi);
+  std::string text = fmt::format("{:.3g} rad/s = {:.3g} Hz; times the time step of {:.3g} s: {:.3g}\n",
+                                 info.fastest_frequency, fastest_hz, settings.time_step, product);
   if (!(info.fastest_frequency > 0)) return text + "  nothing vibrates: no constraint moves a free vertex";
   text += fmt::format("  the fastest vibration loses {:.0f} % of its swing in each step",
                       100 * loss_per_step(info.fastest_frequency, settings));
-  const bool is_seen = product <= static_cast<Real>(settings.substeps);
-  text += !is_seen ? ", so it is not seen; it is stable all the same\n" : "\n";
-  text += fmt::format("  what swings faster than {:.2g} Hz loses half of it in a second{}",
-                      half_life_frequency(settings), less_damping_text(settings));
+  if (product > static_cast<Real>(settings.substeps)) text += ", so it is not seen; it is stable all the same";
+  // A second must have some steps for a decay in a second to mean anything.
+  constexpr Real largest_step = 0.1;
+  if (settings.time_step <= largest_step && half_life_frequency(settings) < fastest_hz) {
+    text += fmt::format("\n  what swings faster than {:.2g} Hz loses half of it in a second{}",
+                        half_life_frequency(settings), less_damping_text(simulation));
+  }
   if (settings.damping > 0) {
     text += fmt::format("\n  `damping` takes half of every vibration in {:.2g} s besides",
                         std::numbers::ln2 / settings.damping);
   }
   return text;
+}
+
+std::string steps_text(const pliant::SolverSettings& settings) {
+  const std::string iterations = fmt::format("{} iterations each", settings.iterations);
+  const std::string substeps =
+      settings.substeps > 1 ? fmt::format("{} substeps of ", settings.substeps) : std::string();
+  const std::string integrator = settings.integrator == pliant::Integrator::bdf2 ? ", BDF2" : "";
+  return substeps + iterations + integrator;
 }
 
 /// What a run would not refuse, but is seldom meant.
@@ -151,6 +169,9 @@ Json describe(Scene& scene) {
           {"steps", scene.steps},
           {"seconds", static_cast<Real>(scene.steps) * time_step},
           {"time_step", time_step},
+          {"integrator", choice_names(settings.integrator)[static_cast<std::size_t>(settings.integrator)]},
+          {"substeps", settings.substeps},
+          {"step_text", steps_text(settings)},
           {"iterations", simulation.settings().iterations},
           {"backend", simulation.backend()},
           {"bodies", describe_bodies(simulation)},
@@ -174,7 +195,7 @@ Json describe(Scene& scene) {
             {"times_time_step", info.fastest_frequency * time_step},
             {"loss_per_step", loss_per_step(info.fastest_frequency, settings)},
             {"half_life_hz", half_life_frequency(settings)},
-            {"text", frequency_text(info, settings)}}},
+            {"text", frequency_text(info, simulation)}}},
           {"warnings", warnings_of(simulation, info)}};
 }
 
@@ -204,8 +225,8 @@ void print_bodies(const Json& json) {
 void print_text(const Json& json) {
   const auto megabytes = [](const Json& bytes) { return bytes.get<Real>() * 1e-6; };
   fmt::print("{}: {}\n", text_of(json["scene"]), text_of(json["description"]));
-  fmt::print("{} steps of {:.4g} s = {:.4g} s, {} iterations each\n", json["steps"].get<std::int64_t>(),
-             json["time_step"].get<Real>(), json["seconds"].get<Real>(), json["iterations"].get<Index>());
+  fmt::print("{} steps of {:.4g} s = {:.4g} s, {}\n", json["steps"].get<std::int64_t>(), json["time_step"].get<Real>(),
+             json["seconds"].get<Real>(), text_of(json["step_text"]));
   print_bodies(json);
   fmt::print("forces:");
   for (const Json& force : json["forces"]) fmt::print(" {}", text_of(force));

@@ -58,7 +58,13 @@ std::vector<Experiment> choose(const std::vector<std::string>& names) {
 
 /// That the report can be written is known before anything is measured.
 void probe(const fs::path& folder) {
+  if (folder.empty()) pliant::fail_input("--out: there is no folder without a name; give one");
   std::error_code failed;
+  if (fs::exists(folder / "index.html", failed) && !fs::exists(folder / "report.json", failed)) {
+    throw pliant::Error(pliant::ErrorKind::output,
+                        fmt::format("{}: no experiment wrote this page, so it stays; give another folder by --out",
+                                    pliant::printable_place((folder / "index.html").string())));
+  }
   fs::create_directories(folder, failed);
   const pliant::AtomicFile file(folder / "index.html");
 }
@@ -133,6 +139,18 @@ void write(const Report& report, const fs::path& folder) {
   pliant::write_file_atomically(folder / "report.json", to_json(report));
 }
 
+/// Says so to who waits, and to who reads the report.
+void note_interrupt(Report& report, std::size_t asked, const fs::path& folder) {
+  if (report.chapters.empty()) {
+    print_to_stderr("interrupted: nothing was written\n");
+    return;
+  }
+  const std::string what = fmt::format("{} of {} experiments are in the report", report.chapters.size(), asked);
+  report.introduction += fmt::format(" This run was interrupted: {} that were asked for.", what);
+  write(report, folder);
+  print_to_stderr(fmt::format("interrupted: {}\n", what));
+}
+
 void print_summary(const Report& report, const fs::path& folder) {
   fmt::print("{} claims: {} hold, {} do not hold, {} reported\n{}\n",
              count(report, Verdict::holds) + count(report, Verdict::fails) + count(report, Verdict::reported),
@@ -166,8 +184,7 @@ int run_experiments(const ExperimentArguments& arguments) {
   } catch (const pliant::Error& error) {
     show(arguments, "");
     if (error.kind() != pliant::ErrorKind::interrupted) throw;
-    print_to_stderr(
-        fmt::format("interrupted: {} of {} experiments are in the report\n", report.chapters.size(), chosen.size()));
+    note_interrupt(report, chosen.size(), arguments.out);
     return exit_interrupted;
   }
   print_summary(report, arguments.out);

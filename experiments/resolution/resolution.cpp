@@ -238,7 +238,7 @@ Claim springs_converge(const Hanging& hanging) {
 }
 
 Claim springs_depend_on_direction(const std::vector<Pulling>& pullings) {
-  Claim claim{"Springs with one diagonal in each cell are several times as stiff along it as across it", "",
+  Claim claim{"Springs whose diagonals all lean one way are several times as stiff along them as across", "",
               Verdict::reported};
   for (const Pulling& pulling : pullings) {
     if (pulling.material.scene != springs.scene) continue;

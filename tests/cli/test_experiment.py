@@ -42,6 +42,31 @@ class Experiment(unittest.TestCase):
         self.assertEqual(result.returncode, 4)
         self.assertEqual(result.stdout, "")
 
+    def test_a_page_of_someone_else_stays(self):
+        (self.folder / "index.html").write_text("mine")
+        result = pliant("experiment", "start", "--out", self.folder)
+        self.assertEqual(result.returncode, 4)
+        self.assertIn("no experiment wrote this page", result.stderr)
+        self.assertEqual((self.folder / "index.html").read_text(), "mine")
+        self.assertEqual(pliant("experiment", "start", "--out", "", cwd=self.folder).returncode, 2)
+
+    def test_an_interrupt_leaves_a_report_that_says_so(self):
+        out = self.folder / "report"
+        process = subprocess.Popen([PLIANT, "experiment", "sheet_metal", "iterations", "--out", out, "--no-pictures"],
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        # The first chapter is printed, then its report is written, while the second has begun.
+        while "independent" not in process.stdout.readline():
+            self.assertIsNone(process.poll())
+        while not (out / "report.json").exists():
+            self.assertIsNone(process.poll())
+        process.terminate()
+        _, errors = process.communicate()
+        self.assertEqual(process.returncode, 130, errors)
+        self.assertIn("interrupted: 1 of 2 experiments are in the report", errors)
+        report = json.loads((out / "report.json").read_text())
+        self.assertEqual([chapter["name"] for chapter in report["chapters"]], ["sheet_metal"])
+        self.assertIn("This run was interrupted: 1 of 2", report["introduction"])
+
     def test_the_report_has_every_figure_within_a_tenth_of_the_independent_one(self):
         out = self.folder / "a" / "report"
         result = pliant("experiment", *QUICK, "--out", out, "--no-pictures")
