@@ -79,6 +79,7 @@ figcaption b { color: var(--text); }
 .table figcaption { margin: 0 0 0.5rem; }
 figure .plot { display: block; width: 100.94%; height: auto; min-width: 30rem; margin-left: -0.94%; }
 img { display: block; max-width: 100%; height: auto; border-radius: 3px; }
+@media screen and (prefers-color-scheme: dark) { img { filter: brightness(.8); } }
 .took { color: var(--soft); font-size: 0.8125rem; margin: 1.5rem 0 0; }
 @media (max-width: 36rem) {
   main { padding: 1.5rem 1rem 3rem; }

@@ -55,6 +55,7 @@ std::vector<FigureInfo> make_figure_infos() {
     infos.push_back({fmt::format("{}_max", each.column), fmt::format("largest {}{}", each.label, each.unit)});
   }
   infos.push_back({"speed_sum_late", "mean total speed in the last third [m/s]"});
+  infos.push_back({"time_end", "simulated time at the end [s]"});
   for (const Quantity& each : times) {
     infos.push_back({std::string(each.column), fmt::format("{}{}", each.label, each.unit)});
   }
@@ -95,6 +96,9 @@ std::vector<std::optional<double>> figures_of(const MeasurementTable& table, std
     figures[3 * i + 2] = *std::ranges::max_element(rows);
   }
   if (const auto* speeds = table.find("speed_sum")) figures[figure_index("speed_sum_late")] = late_mean(table, *speeds);
+  if (const auto* time = table.find("time"); time != nullptr && !time->empty()) {
+    figures[figure_index("time_end")] = time->back();
+  }
   for (const Quantity& each : times) {
     const auto* column = table.find(each.column);
     if (column == nullptr) continue;

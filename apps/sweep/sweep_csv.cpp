@@ -13,7 +13,7 @@ std::string sweep_csv(const SweepPlan& plan) {
   text += ",message\n";
   for (const SweepRun& run : plan.runs) {
     text += run.name;
-    for (const std::string& value : run.values) text += ',' + pliant::csv_field(value);
+    for (const std::string& value : run.values) text += ',' + pliant::csv_field(plain_value(value));
     const RunResult& result = run.result;
     text += fmt::format(",{},", choice_names(result.outcome)[static_cast<std::size_t>(result.outcome)]);
     const bool is_measured = result.has_ended_by_itself();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <set>
 #include <system_error>
 
@@ -40,6 +41,22 @@ void add_facts(Report& report, const SweepPlan& plan) {
   }
   report.facts.emplace_back("Runs", fmt::format("{}: {}", plan.runs.size(), outcomes_text(plan)));
   report.facts.emplace_back("Pliant", fmt::format("{} ({})", pliant::version, pliant::compiler));
+}
+
+/// A warning where figures at the end are of different times, as where time steps vary and their number does not.
+std::string ends_text(const SweepPlan& plan) {
+  double first = std::numeric_limits<double>::infinity();
+  double last = 0;
+  for (const SweepRun& run : plan.runs) {
+    const auto time = run.result.outcome == RunOutcome::ok ? run.result.figure(figure_index("time_end")) : std::nullopt;
+    first = std::min(first, time.value_or(first));
+    last = std::max(last, time.value_or(last));
+  }
+  if (!(last > first * (1 + 1e-9))) return "";
+  return fmt::format(
+      "The runs end at different times, from {:.4g} to {:.4g} s: figures at the end are of these, and means "
+      "and maxima of different spans. ",
+      first, last);
 }
 
 /// Why there are fewer plots than one might look for; empty: there are all.
@@ -135,7 +152,7 @@ void write_sweep_report(const fs::path& folder, const SweepPlan& plan) {
   report.title = fmt::format("Sweep of {}", pliant::printable_place(fs::path(plan.setup.scene).stem().string(), 100));
   add_facts(report, plan);
   report.chapters.push_back(
-      chapter_of("figures", "Figures over the varied values", plots_text(plan, figures), figures));
+      chapter_of("figures", "Figures over the varied values", ends_text(plan) + plots_text(plan, figures), figures));
   if (!times.empty()) report.chapters.push_back(chapter_of("times", "The runs over time", "", times));
   report.chapters.push_back(chapter_of("runs", "All runs", "", {}));
   report.chapters.back().blocks.emplace_back(table_of(plan));

@@ -138,6 +138,12 @@ std::string canonical_value(std::string_view value) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+std::string plain_value(std::string_view value) {
+  if (!value.starts_with('"')) return std::string(value);
+  const Json json = Json::parse(value, nullptr, false);
+  return json.is_string() ? json.get<std::string>() : std::string(value);
+}
+
 Variation read_variation(std::string_view text) {
   return pliant::at_place(fmt::format("--vary {}", pliant::printable(text)), [&] {
     const std::size_t equals = text.find('=');

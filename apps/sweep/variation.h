@@ -32,6 +32,9 @@ std::vector<Combination> product_of(const std::vector<Variation>& variations);
 /// The same text for all ways to write the same value: `[1, 2]` and `[1,2]`, `a` and `"a"`, `0.10` and `0.1`.
 std::string canonical_value(std::string_view value);
 
+/// The value as a table has it: a text of JSON without its quotes, every other as it was given.
+std::string plain_value(std::string_view value);
+
 /// None for what is no number.
 std::optional<double> number_of(std::string_view value);
 

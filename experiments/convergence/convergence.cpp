@@ -322,8 +322,6 @@ Chapter run_convergence(const Lab& lab) {
                              ahead_at_first(all), overtaken(all)}) {
     chapter.claims.push_back(claim);
   }
-  lab.draw(chapter, soft_large.problem.scene,
-           "The sheet of 81 × 81 vertices and k = 1000 N/m at the end of the step that both methods take.");
   add_plots(chapter, small_sheets, large_sheets);
   chapter.blocks.emplace_back(costs(all));
   chapter.blocks.emplace_back(efforts(all));

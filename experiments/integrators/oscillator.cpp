@@ -70,14 +70,14 @@ double error_of(const Lab& lab, const Method& method, int steps) {
   return std::sqrt(sum / (2 * steps));
 }
 
-std::array<double, 2> extension_ratios(const Lab& lab, const Method& method, double h_omega) {
+double largest_extension(const Lab& lab, const Method& method, double h_omega) {
   pliant::Scene scene = oscillator(lab, method, h_omega / oscillator_omega);
   double largest = 0;
   for (int i = 0; i < 2000; ++i) {
     lab.step(scene);
     largest = std::max(largest, std::abs(extension(scene.simulation)));
   }
-  return {largest / oscillator_amplitude, std::abs(extension(scene.simulation)) / oscillator_amplitude};
+  return largest / oscillator_amplitude;
 }
 
 double decay_rate(const Lab& lab, const Method& method, double time_step, double damping) {

@@ -30,8 +30,8 @@ double loss_a_period(const Lab& lab, const Method& method, double h_omega);
 /// Root mean square of the error of the extension over two periods of `steps` steps each [m].
 double error_of(const Lab& lab, const Method& method, int steps);
 
-/// Largest extension over the first in 2000 steps, and the last one.
-std::array<double, 2> extension_ratios(const Lab& lab, const Method& method, double h_omega);
+/// Largest extension in 2000 steps, over the first.
+double largest_extension(const Lab& lab, const Method& method, double h_omega);
 
 /// Rate at which the amplitude decays [1/s], from the energy in the first period, of 1 s, and in the fourth.
 double decay_rate(const Lab& lab, const Method& method, double time_step, double damping);

@@ -94,7 +94,8 @@ Plot stretch_plot(const Lab& lab, double limit) {
             .caption =
                 "Largest stretch in 300 steps over the wind, as W a/(k L), the wind's force on a cell over that of an "
                 "edge stretched to its double. The printed force grows with the square of the stretch, that of the "
-                "edges with the stretch: past the dashed line a slowly rising wind ends the curtain.",
+                "edges with the stretch: past the dashed line a slowly rising wind ends the curtain. Where only two "
+                "curves are seen, those of 1 s and 8 s coincide.",
             .x = {.label = "wind W a/(k L)", .is_logarithmic = true},
             .y = {.label = "length / rest length"},
             .series = {},

@@ -315,9 +315,10 @@ TEST_CASE("the bits are the same on any number of threads, with BDF2, substeps a
   const auto run = [](Index threads) {
     Simulation simulation(
         {.integrator = Integrator::bdf2, .substeps = 2, .iterations = 4, .damping = 2, .threads = threads});
-    add_everything_solids(simulation, 24);
+    add_everything_solids(simulation, 48);
     add_gravity(simulation);
     advance(simulation, 5);
+    CHECK(simulation.thread_count() == threads);
     return simulation.state().positions;
   };
   const Positions one = run(1);

@@ -67,6 +67,7 @@ TEST_CASE("the figures of a run") {
   CHECK(figure("iterations_mean") == 6.0);
   CHECK(figure("ms_total") == 30.0);
   CHECK(figure("speed_sum_late") == 6.0);  // from 0.2 s on
+  CHECK(figure("time_end") == 0.3);
   CHECK(figure("wall_seconds") == 1.5);
   CHECK(!figure("momentum_end"));
   CHECK_THROWS_AS(figure_index("nothing"), std::logic_error);

@@ -101,4 +101,12 @@ TEST_CASE("values that mean the same are known as the same") {
   for (const char* text : {"", "x", "1x", "0x10", "nan", "inf", "1e999", "[1]", " 1"}) CHECK(!number_of(text));
 }
 
+TEST_CASE("a table has texts without the quotes of JSON") {
+  CHECK(plain_value("\"bdf2\"") == "bdf2");
+  CHECK(plain_value(R"("a \"b\", c")") == R"(a "b", c)");
+  for (const char* text : {"bdf2", "0.10", "[1, 2]", R"(["a"])", "true", "\"", "\"open", ""}) {
+    CHECK(plain_value(text) == text);
+  }
+}
+
 }  // namespace
