@@ -24,6 +24,9 @@ class Force {
   /// Potential energy [J] of a conservative force; 0 for every other.
   virtual Real potential(const StateView& state) const;
 
+  /// Whether it depends on velocities, as what brakes does. Its work is then that along the mean velocity of a step.
+  virtual bool depends_on_velocities() const { return false; }
+
   /// Whether it draws back like a spring that is evaluated at qₙ: such a force makes every step of BDF2 gain energy,
   /// however small, so the two are refused together.
   virtual bool is_explicit_spring() const { return false; }

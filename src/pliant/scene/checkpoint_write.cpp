@@ -85,6 +85,7 @@ Json write_state(const State& state) {
                         {"positions", bytes_of(state.previous_positions)},
                         {"velocities", bytes_of(state.previous_velocities)}};
   }
+  if (!state.energy_debts.empty()) json["energy_debts"] = bytes_of(state.energy_debts);
   return json;
 }
 

@@ -36,6 +36,13 @@ void append(Positions& x, const Positions& more) {
   x.bottomRows(more.rows()) = more;
 }
 
+void check_debts(const State& state) {
+  const auto is_debt = [](Real energy) { return energy >= 0 && std::isfinite(energy); };
+  if (state.energy_debts.empty()) return;
+  if (state.energy_debts.size() == state.masses.size() && std::ranges::all_of(state.energy_debts, is_debt)) return;
+  fail_input("restore: the energy debts are not one for each vertex, 0 or more; give a state that state() has returned");
+}
+
 }  // namespace
 
 Simulation::Simulation(const SolverSettings& settings)
@@ -62,6 +69,7 @@ BodyId Simulation::add_body(Mesh mesh, const Mass& mass, BodyOptions options) {
   append(state_.velocities, velocities);
   state_.previous_time_step = 0;
   state_.masses.insert(state_.masses.end(), masses.begin(), masses.end());
+  if (!state_.energy_debts.empty()) state_.energy_debts.resize(state_.masses.size(), 0);
   bodies_.push_back({std::move(options.name), std::move(mesh), first_vertex});
   groups_changed_ = true;
   return BodyId(static_cast<Index>(bodies_.size()) - 1);
@@ -160,6 +168,7 @@ void Simulation::set_state(const Positions& positions, const Positions& velociti
   state_.positions = positions;
   state_.velocities = velocities;
   state_.previous_time_step = 0;
+  state_.energy_debts.clear();
   solver_->forget_prediction();
 }
 
@@ -180,6 +189,7 @@ void Simulation::restore(const State& state) {
     check_rows(state.previous_positions, state_.vertex_count(), "restore: previous positions");
     check_rows(state.previous_velocities, state_.vertex_count(), "restore: previous velocities");
   }
+  check_debts(state);
   if (undo_ != nullptr) undo_->save_state();
   state_ = state;
   if (state_.previous_time_step == 0) {

@@ -30,6 +30,11 @@ class LocalStep {
   LocalResult run(const Positions& q, const Positions& s, std::span<const Real> inertia_weights,
                   std::span<const char> is_held, Positions& r, ThreadPool& threads);
 
+  /// Which part each vertex is in, as elastic_energies() will have it. A constraint is in that of its vertices.
+  void set_parts(std::span<const Index> part_of_vertex);
+  /// Elastic energy of each part in the last run, which was at q, but for groups with targets [J].
+  void elastic_energies(const Positions& q, std::span<Real> of_parts);
+
   /// Elastic energy of a group in the last run [J].
   Real elastic_energy(std::size_t group) const;
   /// Index of the first constraint of a group whose force at finite q is not finite, or -1.
@@ -42,6 +47,7 @@ class LocalStep {
   std::size_t slot_count() const { return slot_count_; }
 
  private:
+  static constexpr Index mixed = -1;
   struct Chunk {
     std::size_t group;
     Index begin;  // constraints of the group
@@ -50,6 +56,7 @@ class LocalStep {
     std::size_t last_partial = 0;
     std::size_t first_entry = 0;
     std::size_t first_coefficient = 0;
+    Index part = mixed;      // of all its constraints
     bool has_units = false;  // every coefficient is 1 or -1, which its entry says by itself
   };
   struct VertexSums {
@@ -58,6 +65,7 @@ class LocalStep {
   };
   class Layout;
 
+  Index part_of(const Chunk& chunk, Index constraint) const;
   void lay_out_chunks();
   void lay_out_vertices(Index vertex_count, std::span<const Index> partial_vertices);
   Real project(const Chunk& chunk, const Positions& q, std::vector<Real>& slots);
@@ -71,6 +79,7 @@ class LocalStep {
   Real chunks_of_vertex_ = 0;
   std::vector<Chunk> chunks_;
   std::vector<Real> chunk_energies_;
+  std::span<const Index> part_of_vertex_;
   std::vector<VertexSums> vertex_sums_;   // of each chunk of vertices
   std::vector<std::vector<Real>> slots_;  // of the chunk at hand of each thread
 

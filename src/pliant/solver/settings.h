@@ -45,6 +45,7 @@ struct SolverSettings {
   Index substeps = 1;
   Index iterations = 10;
   Real damping = 0;
+  Real energy_projection = 0;
   Real tolerance = 0;
   Start start = Start::prediction;
   Backend backend = Backend::automatic;
@@ -74,6 +75,12 @@ struct SolverSettings {
             "whole are left alone",
             not_negative},
         self.damping);
+    field(
+        OptionInfo{"energy_projection", "",
+                   "share of the energy that a step would lose, by itself, that each connected body is given back; 0: "
+                   "none, 1: all, so that undamped bodies swing on",
+                   Range{0, 1}},
+        self.energy_projection);
     field(OptionInfo{"tolerance", "N",
                      "iterate no further once no vertex has a larger residual force; 0: only at exact rest",
                      not_negative},

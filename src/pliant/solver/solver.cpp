@@ -134,6 +134,8 @@ void Solver::lay_out_groups() {
 void Solver::lay_out_parts(std::span<ConstraintGroup* const> groups) {
   ConnectedParts parts = find_parts(system_matrix_.matrix());
   free_parts_ = find_free_parts(parts, groups, is_held_);
+  energy_.set_parts(parts, free_parts_, is_held_);
+  local_step_.set_parts(energy_.part_of_vertex());
   for (Index& vertex : parts.vertices) vertex = local_groups_.vertex(vertex);
   std::vector<char> is_held(is_held_.size());
   for (std::size_t i = 0; i < is_held.size(); ++i) {

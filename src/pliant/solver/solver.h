@@ -5,6 +5,7 @@
 
 #include "pliant/core/thread_pool.h"
 #include "pliant/forces/force.h"
+#include "pliant/solver/energy_projection.h"
 #include "pliant/solver/global_step.h"
 #include "pliant/solver/local_step.h"
 #include "pliant/solver/locality.h"
@@ -61,6 +62,16 @@ class Solver {
     Real stiffness;
   };
 
+  /// What the energy projection works with, in the order of the local groups, but for what has that of the simulation.
+  /// Empty where it is not asked for.
+  struct EnergyWork {
+    Positions velocities, elastic_forces, along_positions, along_velocities, way;
+    Positions resistance, end_positions, end_velocities, end_force;  // order of the simulation
+    std::vector<Real> elastic;                                       // of each part
+    std::vector<Real> debts, no_weights, slot;
+    std::vector<char> none_held;
+  };
+
   void take_substep(State& state, StepReport& report);
   void take_substeps(State& state, StepReport& report);
   Real substep() const { return settings_.time_step / static_cast<Real>(settings_.substeps); }
@@ -82,6 +93,14 @@ class Solver {
   void check_finite(const State& state) const;
   [[noreturn]] void report_divergence(const State& state) const;
   std::string force_reason(const State& state, Index vertex) const;
+  bool keeps_energy() const { return settings_.energy_projection > 0; }
+  void evaluate_elastic();
+  void add_forces(const State& state);
+  void begin_energy(const State& state);
+  void find_outside_forces(const State& state);
+  void count_targets_as_outside();
+  void keep_energy(const State& state);
+  void commit_energy(State& state);
   void commit(State& state);
   void damp(State& state) const;
   void advance_time(State& state) const;
@@ -112,6 +131,8 @@ class Solver {
   Positions s_, q_, residual_;
   Positions force_;  // in the order of the simulation, as are the two that follow
   RigidDamping damping_;
+  EnergyProjection energy_;
+  EnergyWork energy_work_;
   State begin_;   // of a step with substeps
   Real way_ = 1;  // share of the step's way that held vertices have gone with the substep under way
   std::vector<Real> history_;

@@ -18,6 +18,10 @@ struct State {
   Positions previous_velocities{};
   Real previous_time_step = 0;  ///< [s]
 
+  /// What energy projection has let parts have too much and does not give them back, at one vertex of each, m numbers
+  /// [J]; empty: nothing.
+  std::vector<Real> energy_debts{};
+
   Index vertex_count() const { return static_cast<Index>(positions.rows()); }
   StateView view() const { return {positions, velocities, masses, step, time}; }
 };

@@ -29,6 +29,7 @@ void Solver::take_substep(State& state, StepReport& report) {
   report.seconds_factor += preparation.seconds();
 
   /* 1-2 */ predict(state);  // s = q + h v + h² M⁻¹ f
+  if (keeps_energy()) begin_energy(state);
   /* 3   */ settings_.start == Start::prediction ? void(q_ = s_) : start_from_positions(state);
   place_held_vertices(q_);
   bool reached_tolerance = false;
@@ -51,6 +52,10 @@ void Solver::take_substep(State& state, StepReport& report) {
   }
   report.reached_tolerance = report.reached_tolerance && reached_tolerance;
   check_finite(state);
+  if (keeps_energy()) {
+    keep_energy(state);
+    check_finite(state);
+  }
   /* 8   */ commit(state);  // v = (q − qₙ)/h, qₙ = q
 }
 
@@ -81,8 +86,7 @@ void Solver::predict(const State& state) {
   const StepForm form(state, settings_.integrator, substep());
   const Real h = form.inertia_step();
   weigh_inertia(state, h);
-  force_.setZero();
-  for (Force* force : forces_) force->add_to(force_, state.view(), substep());
+  add_forces(state);
   for (Index i = 0; i < vertex_count_; ++i) {
     const Index v = local_groups_.vertex(i);
     const Real mass = masses_[static_cast<std::size_t>(i)];
@@ -129,6 +133,7 @@ void Solver::commit(State& state) {
     state.velocities.row(v) = (q_.row(i) - from.transpose()) / predicted_step_;
     state.positions.row(v) = q_.row(i);
   }
+  keeps_energy() ? commit_energy(state) : state.energy_debts.clear();
   state.previous_time_step = is_bdf2 ? substep() : 0;
   if (settings_.damping > 0) damp(state);
 }

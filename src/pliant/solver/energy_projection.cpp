@@ -1,0 +1,203 @@
+#include "pliant/solver/energy_projection.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pliant {
+namespace {
+
+/// Amplitudes are changed by no more than these in one step. What cannot be given back is of vibrations far too fast
+/// for the step, and better lost than given to others. What there is too much after few iterations is not taken at
+/// once, which would brake, but kept from what later steps would be given.
+constexpr Real least_factor = 0.99;
+constexpr Real largest_factor = 2;
+
+/// Shares of an energy that are rounding.
+constexpr Real rounding = 1e-13;
+
+std::size_t at(Index i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// x with square·(x² − 1) + linear·(x − 1) = missing, as far as it may go; 1 where that is rounding, or no number.
+Real factor_of(Real square, Real linear, Real missing, Real noise) {
+  const Real slope = 2 * square + linear;  // at 1
+  if (!(std::abs(missing) > noise)) return 1;
+  const Real root = std::sqrt(std::max(Real(0), slope * slope + 4 * square * missing));
+  const Real factor = 1 + 2 * missing / (slope + root);
+  return slope > 0 && !std::isnan(factor) ? std::clamp(factor, least_factor, largest_factor) : 1;
+}
+
+/// Of a turning with that angular momentum [J].
+Real turning_energy(const Mat3& inertia, const Vec3& angular_momentum) {
+  return angular_velocity(inertia, angular_momentum).dot(angular_momentum) / 2;
+}
+
+}  // namespace
+
+void EnergyProjection::set_parts(ConnectedParts parts, const ConnectedParts& free_parts,
+                                 std::span<const char> is_held) {
+  parts_ = std::move(parts);
+  is_held_.assign(is_held.begin(), is_held.end());
+  part_of_vertex_.resize(is_held.size());
+  for (std::size_t p = 0; p < parts_.count(); ++p) {
+    for (const Index v : parts_.part(p)) part_of_vertex_[at(v)] = static_cast<Index>(p);
+  }
+  is_free_.assign(parts_.count(), 0);
+  for (std::size_t i = 0; i < free_parts.count(); ++i) {
+    is_free_[at(part_of_vertex_[at(free_parts.part(i).front())])] = 1;
+  }
+  balances_.resize(parts_.count());
+}
+
+/// All zero where something holds the part.
+RigidMotion EnergyProjection::rigid_motion(std::size_t part, const Positions& positions,
+                                           const Positions& velocities) const {
+  if (!is_free_[part]) return {};
+  return fit_rigid_motion(parts_.part(part), positions, masses_, velocities);
+}
+
+/// Σ m/2 ‖v − v_rigid‖² [J]
+Real EnergyProjection::vibration(std::size_t part, const RigidMotion& rigid, const Positions& positions,
+                                 const Positions& velocities) const {
+  Real energy = 0;
+  for (const Index v : parts_.part(part)) {
+    if (is_held_[at(v)]) continue;
+    energy += masses_[at(v)] / 2 * (row(velocities, v) - rigid.velocity_at(row(positions, v))).squaredNorm();
+  }
+  return energy;
+}
+
+void EnergyProjection::begin(const StepEnd& begin, std::span<const Real> masses, std::span<const Real> debts) {
+  masses_ = masses;
+  positions_ = begin.positions;
+  velocities_ = begin.velocities;
+  elastic_forces_ = begin.elastic_forces;
+  for (std::size_t p = 0; p < parts_.count(); ++p) {
+    const RigidMotion rigid = rigid_motion(p, positions_, velocities_);
+    Balance& balance = balances_[p];
+    balance.target = begin.elastic[p] + vibration(p, rigid, positions_, velocities_) +
+                     turning_energy(rigid.inertia, rigid.angular_momentum);
+    balance.center = rigid.center;
+    balance.velocity = rigid.velocity;
+    balance.angular_momentum = rigid.angular_momentum;
+    balance.debt = 0;
+    for (const Index v : parts_.part(p)) balance.debt += debts.empty() ? 0 : debts[at(v)];
+  }
+}
+
+void EnergyProjection::balance(const StepEnd& end, const OutsideForces& outside, Real h, Real share,
+                               Positions& forces) {
+  for (std::size_t p = 0; p < parts_.count(); ++p) {
+    balance_part(p, end, outside, h, share);
+    write_forces(p, end, outside.along_positions, forces);
+  }
+}
+
+void EnergyProjection::balance_part(std::size_t part, const StepEnd& end, const OutsideForces& outside, Real h,
+                                    Real share) {
+  const RigidMotion rigid = rigid_motion(part, end.positions, end.velocities);
+  Balance& balance = balances_[part];
+  const Vec3 shift = rigid.center - balance.center;
+  Real work = 0;
+  Real size = balance.target;
+  Vec3 torque = Vec3::Zero();
+  for (const Index v : parts_.part(part)) {
+    const Vec3 way = row(end.positions, v) - row(positions_, v);
+    if (is_held_[at(v)]) {
+      const Real given = -(row(elastic_forces_, v) + row(end.elastic_forces, v)).dot(way) / 2;
+      work += given;
+      size += std::abs(given);
+      continue;
+    }
+    const Vec3 force = row(outside.along_positions, v);
+    const Vec3 resistance = row(outside.along_velocities, v);
+    const Vec3 speed = row(velocities_, v) + row(end.velocities, v) - balance.velocity - rigid.velocity;
+    work += force.dot(way - shift) + h / 2 * resistance.dot(speed);
+    size += std::abs(force.dot(way)) + h * std::abs(resistance.dot(row(end.velocities, v)));
+    if (!is_free_[part]) continue;
+    const Vec3 arm = (row(positions_, v) + row(end.positions, v) - balance.center - rigid.center) / 2;
+    torque += arm.cross(force + resistance);
+  }
+  const Real energy = end.elastic[part] + vibration(part, rigid, end.positions, end.velocities) +
+                      turning_energy(rigid.inertia, rigid.angular_momentum);
+  balance.elastic = end.elastic[part];
+  balance.noise = rounding * (size + energy);
+  const Real missing = balance.target + work - energy;
+  const Real owed = std::clamp(missing, Real(0), balance.debt);
+  balance.debt -= owed;
+  balance.target = energy + share * (missing - owed);
+  balance.angular_momentum =
+      rigid.angular_momentum + share * (balance.angular_momentum + h * torque - rigid.angular_momentum);
+}
+
+/// Of a part that nothing holds, less what moves it as a whole.
+void EnergyProjection::write_forces(std::size_t part, const StepEnd& end, const Positions& along_positions,
+                                    Positions& forces) const {
+  Vec3 acceleration = Vec3::Zero();
+  if (is_free_[part]) {
+    Real mass = 0;
+    for (const Index v : parts_.part(part)) {
+      acceleration += row(along_positions, v) + row(end.elastic_forces, v);
+      mass += masses_[at(v)];
+    }
+    acceleration /= mass;
+  }
+  for (const Index v : parts_.part(part)) {
+    const Vec3 force = row(end.elastic_forces, v) + row(along_positions, v) - masses_[at(v)] * acceleration;
+    forces.row(v) = (is_held_[at(v)] ? Vec3(Vec3::Zero()) : force).transpose();
+  }
+}
+
+void EnergyProjection::move(const Positions& velocities, const OutsideForces& outside, const Positions& forces,
+                            const Positions& way, std::span<const Real> weights, Positions& positions) {
+  for (std::size_t p = 0; p < parts_.count(); ++p) {
+    Balance& balance = balances_[p];
+    Real slope = 0;
+    Real curvature = 0;
+    Real work = 0;
+    for (const Index v : parts_.part(p)) {
+      const Real along = row(forces, v).dot(row(way, v));
+      slope += along;
+      curvature += along - weights[at(v)] * way.row(v).squaredNorm();
+      if (!is_held_[at(v)]) work += row(outside.along_positions, v).dot(row(way, v));
+    }
+    const RigidMotion rigid = rigid_motion(p, positions, velocities);
+    const Real scaled = vibration(p, rigid, positions, velocities);
+    const Real missing =
+        balance.target - balance.elastic - scaled - turning_energy(rigid.inertia, balance.angular_momentum);
+    // The elastic energy is no steeper along the way than a parabola with Y − M/h² as its matrix.
+    curvature = std::clamp(curvature, Real(0), slope);
+    const Real excess = factor_of(scaled + curvature / 2, slope - curvature, missing, balance.noise) - 1;
+    if (excess == 0) continue;
+    for (const Index v : parts_.part(p)) positions.row(v) -= excess * way.row(v);
+    balance.target -= excess * work;
+  }
+}
+
+void EnergyProjection::finish(const Positions& positions, std::span<const Real> elastic, Positions& velocities) {
+  for (std::size_t p = 0; p < parts_.count(); ++p) {
+    Balance& balance = balances_[p];
+    const RigidMotion rigid = rigid_motion(p, positions, velocities);
+    const Vec3 turning = angular_velocity(rigid.inertia, balance.angular_momentum);
+    if (!turning.allFinite()) continue;
+    const Real scaled = vibration(p, rigid, positions, velocities);
+    const Real missing = balance.target - elastic[p] - scaled - turning.dot(balance.angular_momentum) / 2;
+    const Real factor = factor_of(scaled, 0, missing, balance.noise);
+    const Real surplus = scaled * (factor * factor - 1) - missing;
+    if (surplus > balance.noise) balance.debt += surplus;
+    for (const Index v : parts_.part(p)) {
+      if (is_held_[at(v)]) continue;
+      const Vec3 x = row(positions, v);
+      const Vec3 vibration = row(velocities, v) - rigid.velocity_at(x);
+      velocities.row(v) = (rigid.velocity + turning.cross(x - rigid.center) + factor * vibration).transpose();
+    }
+  }
+}
+
+void EnergyProjection::write_debts(std::span<Real> debts) const {
+  std::ranges::fill(debts, Real(0));
+  for (std::size_t p = 0; p < parts_.count(); ++p) debts[at(parts_.part(p).front())] = balances_[p].debt;
+}
+
+}  // namespace pliant

@@ -1,0 +1,123 @@
+// Energy projection as a part of the step: what it needs of the local step, the global step and the forces.
+#include "pliant/solver/integrator.h"
+#include "pliant/solver/solver.h"
+
+namespace pliant {
+
+/// Forces of the step; where the energy is kept, those that depend on velocities by themselves as well.
+void Solver::add_forces(const State& state) {
+  const auto add = [&](bool is_along_velocities) {
+    for (Force* force : forces_) {
+      if (force->depends_on_velocities() == is_along_velocities) force->add_to(force_, state.view(), substep());
+    }
+  };
+  force_.setZero();
+  if (!keeps_energy()) {
+    for (Force* force : forces_) force->add_to(force_, state.view(), substep());
+    return;
+  }
+  add(true);
+  energy_work_.resistance = force_;
+  add(false);
+}
+
+/// V of each part at q_, and −∇V.
+void Solver::evaluate_elastic() {
+  EnergyWork& work = energy_work_;
+  local_step_.run(q_, q_, work.no_weights, work.none_held, work.elastic_forces, *threads_);
+  local_step_.elastic_energies(q_, work.elastic);
+}
+
+void Solver::begin_energy(const State& state) {
+  EnergyWork& work = energy_work_;
+  work.elastic.resize(energy_.part_count());
+  work.no_weights.assign(inertia_weights_.size(), 0);
+  work.none_held.assign(inertia_weights_.size(), 0);
+  for (Positions* x : {&work.velocities, &work.elastic_forces, &work.along_positions, &work.along_velocities, &work.way,
+                       &work.end_positions, &work.end_velocities, &work.end_force}) {
+    x->resize(vertex_count_, 3);
+  }
+  start_from_positions(state);
+  work.debts.resize(state.energy_debts.size());
+  for (Index i = 0; i < vertex_count_; ++i) {
+    const Index v = local_groups_.vertex(i);
+    work.velocities.row(i) = state.velocities.row(v);
+    if (!work.debts.empty()) work.debts[static_cast<std::size_t>(i)] = state.energy_debts[static_cast<std::size_t>(v)];
+  }
+  evaluate_elastic();
+  energy_.begin({q_, work.velocities, work.elastic, work.elastic_forces}, masses_, work.debts);
+}
+
+/// Those that depend on positions are the mean of both ends of the step.
+void Solver::find_outside_forces(const State& state) {
+  EnergyWork& work = energy_work_;
+  for (Index i = 0; i < vertex_count_; ++i) {
+    work.end_positions.row(local_groups_.vertex(i)) = q_.row(i);
+    work.end_velocities.row(local_groups_.vertex(i)) = work.velocities.row(i);
+  }
+  const StateView end{work.end_positions, work.end_velocities, state.masses, state.step + 1, state.time + substep()};
+  work.end_force.setZero();
+  for (Force* force : forces_) {
+    if (!force->depends_on_velocities()) force->add_to(work.end_force, end, substep());
+  }
+  for (Index i = 0; i < vertex_count_; ++i) {
+    const Index v = local_groups_.vertex(i);
+    work.along_positions.row(i) = (force_.row(v) - work.resistance.row(v) + work.end_force.row(v)) / 2;
+    work.along_velocities.row(i) = work.resistance.row(v);
+  }
+}
+
+/// What springs to targets do counts as from outside: their V is left out, so their forces are too.
+void Solver::count_targets_as_outside() {
+  EnergyWork& work = energy_work_;
+  for (ConstraintGroup* group : local_groups_.in_use()) {
+    const GroupShape shape = group->shape();
+    if (group->targets().empty() || shape.count == 0) continue;
+    const auto n = static_cast<std::size_t>(shape.vertices);
+    const auto k = static_cast<std::size_t>(shape.rows);
+    work.slot.resize(3 * k);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(shape.count); ++i) {
+      group->project(q_, work.slot, static_cast<Index>(i), static_cast<Index>(i) + 1);
+      for (std::size_t entry = 0; entry < k * n; ++entry) {
+        const Eigen::Map<const Vec3> slot(work.slot.data() + 3 * (entry / n));
+        const Vec3 force = group->reduction()[i * k * n + entry] * slot;
+        const Index vertex = group->stencil()[i * n + entry % n];
+        work.along_positions.row(vertex) += force.transpose();
+        work.elastic_forces.row(vertex) -= force.transpose();
+      }
+    }
+  }
+}
+
+void Solver::keep_energy(const State& state) {
+  EnergyWork& work = energy_work_;
+  const StepForm form(state, settings_.integrator, substep());
+  for (Index i = 0; i < vertex_count_; ++i) {
+    work.velocities.row(i) = (q_.row(i) - form.position(local_groups_.vertex(i))) / form.inertia_step();
+  }
+  find_outside_forces(state);
+  evaluate_elastic();
+  count_targets_as_outside();
+  const OutsideForces outside{work.along_positions, work.along_velocities};
+  Positions& forces = residual_;
+  energy_.balance({q_, work.velocities, work.elastic, work.elastic_forces}, outside, substep(),
+                  settings_.energy_projection, forces);
+  global_step_.solve(forces, forces.cwiseAbs().maxCoeff(), work.way, *threads_);
+  energy_.move(work.velocities, outside, forces, work.way, inertia_weights_, q_);
+  evaluate_elastic();
+  energy_.finish(q_, work.elastic, work.velocities);
+}
+
+void Solver::commit_energy(State& state) {
+  EnergyWork& work = energy_work_;
+  work.debts.resize(static_cast<std::size_t>(vertex_count_));
+  energy_.write_debts(work.debts);
+  state.energy_debts.resize(work.debts.size());
+  for (Index i = 0; i < vertex_count_; ++i) {
+    const Index v = local_groups_.vertex(i);
+    state.velocities.row(v) = work.velocities.row(i);
+    state.energy_debts[static_cast<std::size_t>(v)] = work.debts[static_cast<std::size_t>(i)];
+  }
+}
+
+}  // namespace pliant
