@@ -123,6 +123,15 @@ TEST_CASE("resume at every tenth step: the same bits") {
     const std::vector<std::string> set = {"settings.integrator=bdf2", "settings.substeps=2", "settings.damping=3"};
     check_resume(parse_scene(busy_scene, {}, "busy.json", {.set = set}));
   }
+  SUBCASE("energy projection, with what single iterations have had too much") {
+    const std::vector<std::string> set = {"settings.energy_projection=1", "settings.iterations=1"};
+    check_resume(parse_scene(busy_scene, {}, "busy.json", {.set = set}));
+    Scene scene = builtin("bar", {.steps = 60, .set = set});
+    for (int i = 0; i < 40; ++i) scene.step();
+    const std::vector<Real>& debts = scene.simulation.state().energy_debts;
+    CHECK(std::ranges::any_of(debts, [](Real debt) { return debt > 0; }));
+    check_resume(builtin("bar", {.steps = 60, .set = set}));
+  }
 }
 
 TEST_CASE("a checkpoint says how far to go, and can be asked to go further") {

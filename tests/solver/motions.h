@@ -37,6 +37,25 @@ inline Real stretch(const Simulation& simulation) {
   return (simulation.state().positions.row(1) - simulation.state().positions.row(0)).norm() - 1;
 }
 
+struct Momenta {
+  Vec3 linear = Vec3::Zero();
+  Vec3 angular = Vec3::Zero();  // about the origin
+};
+
+/// Of the vertices [begin, end).
+inline Momenta momenta_of(const State& state, Index begin, Index end) {
+  Momenta sum;
+  for (Index i = begin; i < end; ++i) {
+    const Vec3 p = state.masses[static_cast<std::size_t>(i)] * row(state.velocities, i);
+    sum.linear += p;
+    sum.angular += row(state.positions, i).cross(p);
+  }
+  return sum;
+}
+inline Momenta momenta_of(const State& state) {
+  return momenta_of(state, 0, state.vertex_count());
+}
+
 /// A torus that flies, turns and vibrates, and a chain beside it that does so too.
 inline Simulation flying_bodies(const SolverSettings& settings) {
   Simulation simulation(settings);

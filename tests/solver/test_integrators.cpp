@@ -311,10 +311,14 @@ TEST_CASE("a step that is given up in a late substep leaves the state as it was,
   CHECK(largest_difference(simulation.state().positions, other.state().positions) == 0);
 }
 
-TEST_CASE("the bits are the same on any number of threads, with BDF2, substeps and damping") {
+TEST_CASE("the bits are the same on any number of threads, with BDF2, substeps, damping and energy projection") {
   const auto run = [](Index threads) {
-    Simulation simulation(
-        {.integrator = Integrator::bdf2, .substeps = 2, .iterations = 4, .damping = 2, .threads = threads});
+    Simulation simulation({.integrator = Integrator::bdf2,
+                           .substeps = 2,
+                           .iterations = 4,
+                           .damping = 2,
+                           .energy_projection = 0.5,
+                           .threads = threads});
     add_everything_solids(simulation, 48);
     add_gravity(simulation);
     advance(simulation, 5);

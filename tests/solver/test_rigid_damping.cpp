@@ -11,25 +11,6 @@
 using namespace pliant;
 using namespace pliant_tests;
 
-namespace {
-
-struct Momenta {
-  Vec3 linear = Vec3::Zero();
-  Vec3 angular = Vec3::Zero();
-};
-
-Momenta momenta_of(const State& state) {
-  Momenta sum;
-  for (Index i = 0; i < state.vertex_count(); ++i) {
-    const Vec3 p = state.masses[static_cast<std::size_t>(i)] * row(state.velocities, i);
-    sum.linear += p;
-    sum.angular += row(state.positions, i).cross(p);
-  }
-  return sum;
-}
-
-}  // namespace
-
 TEST_CASE("damping makes the amplitude decay at its rate, besides what the integrator takes") {
   constexpr Real rate = 0.5;
   constexpr Real omega = 2 * std::numbers::pi;

@@ -99,9 +99,9 @@ bool passes(const SolverSettings& settings) {
   try {
     const long count = allocations_of(settings);
     if (count == 0) return true;
-    std::printf("%ld allocations with back end %d, %d threads, integrator %d, %d substeps\n", count,
+    std::printf("%ld allocations with back end %d, %d threads, integrator %d, %d substeps, energy %g\n", count,
                 static_cast<int>(settings.backend), settings.threads, static_cast<int>(settings.integrator),
-                settings.substeps);
+                settings.substeps, settings.energy_projection);
     return false;
   } catch (const Error& error) {
     std::printf("skipped: %s\n", error.what());
@@ -124,6 +124,7 @@ int main() {
       for (const Start start : {Start::prediction, Start::positions}) {
         all_pass = passes({.start = start, .backend = backend, .threads = threads}) && all_pass;
       }
+      all_pass = passes({.energy_projection = 1, .backend = backend, .threads = threads}) && all_pass;
       for (const Integrator integrator : {Integrator::implicit_euler, Integrator::bdf2}) {
         const SolverSettings settings{
             .integrator = integrator, .substeps = 3, .damping = 2, .backend = backend, .threads = threads};

@@ -9,7 +9,7 @@ namespace {
 /// Amplitudes are changed by no more than these in one step. What cannot be given back is of vibrations far too fast
 /// for the step, and better lost than given to others. What there is too much after few iterations is not taken at
 /// once, which would brake, but kept from what later steps would be given.
-constexpr Real least_factor = 0.99;
+constexpr Real least_factor = 0.98;
 constexpr Real largest_factor = 2;
 
 /// Shares of an energy that are rounding.
@@ -94,41 +94,45 @@ void EnergyProjection::balance(const StepEnd& end, const OutsideForces& outside,
   }
 }
 
-void EnergyProjection::balance_part(std::size_t part, const StepEnd& end, const OutsideForces& outside, Real h,
-                                    Real share) {
-  const RigidMotion rigid = rigid_motion(part, end.positions, end.velocities);
-  Balance& balance = balances_[part];
+EnergyProjection::Work EnergyProjection::outside_work(std::size_t part, const RigidMotion& rigid, const StepEnd& end,
+                                                      const OutsideForces& outside, Real h) const {
+  const Balance& balance = balances_[part];
   const Vec3 shift = rigid.center - balance.center;
-  Real work = 0;
-  Real size = balance.target;
-  Vec3 torque = Vec3::Zero();
+  Work work;
   for (const Index v : parts_.part(part)) {
     const Vec3 way = row(end.positions, v) - row(positions_, v);
     if (is_held_[at(v)]) {
-      const Real given = -(row(elastic_forces_, v) + row(end.elastic_forces, v)).dot(way) / 2;
-      work += given;
-      size += std::abs(given);
+      work.add(-(row(elastic_forces_, v) + row(end.elastic_forces, v)).dot(way) / 2);
       continue;
     }
     const Vec3 force = row(outside.along_positions, v);
     const Vec3 resistance = row(outside.along_velocities, v);
     const Vec3 speed = row(velocities_, v) + row(end.velocities, v) - balance.velocity - rigid.velocity;
-    work += force.dot(way - shift) + h / 2 * resistance.dot(speed);
-    size += std::abs(force.dot(way)) + h * std::abs(resistance.dot(row(end.velocities, v)));
+    work.add(force.dot(way - shift));
+    work.add(h / 2 * resistance.dot(speed));
     if (!is_free_[part]) continue;
     const Vec3 arm = (row(positions_, v) + row(end.positions, v) - balance.center - rigid.center) / 2;
-    torque += arm.cross(force + resistance);
+    work.torque += arm.cross(force + resistance);
   }
+  return work;
+}
+
+void EnergyProjection::balance_part(std::size_t part, const StepEnd& end, const OutsideForces& outside, Real h,
+                                    Real share) {
+  const RigidMotion rigid = rigid_motion(part, end.positions, end.velocities);
+  const Work work = outside_work(part, rigid, end, outside, h);
   const Real energy = end.elastic[part] + vibration(part, rigid, end.positions, end.velocities) +
                       turning_energy(rigid.inertia, rigid.angular_momentum);
-  balance.elastic = end.elastic[part];
-  balance.noise = rounding * (size + energy);
-  const Real missing = balance.target + work - energy;
+  Balance& balance = balances_[part];
+  balance.noise = rounding * (balance.target + work.size + energy);
+  const Real missing = balance.target + work.sum - energy;
   const Real owed = std::clamp(missing, Real(0), balance.debt);
   balance.debt -= owed;
+  balance.elastic = end.elastic[part];
+  balance.work = work.sum;
   balance.target = energy + share * (missing - owed);
   balance.angular_momentum =
-      rigid.angular_momentum + share * (balance.angular_momentum + h * torque - rigid.angular_momentum);
+      rigid.angular_momentum + share * (balance.angular_momentum + h * work.torque - rigid.angular_momentum);
 }
 
 /// Of a part that nothing holds, less what moves it as a whole.
@@ -149,47 +153,60 @@ void EnergyProjection::write_forces(std::size_t part, const StepEnd& end, const 
   }
 }
 
-void EnergyProjection::move(const Positions& velocities, const OutsideForces& outside, const Positions& forces,
-                            const Positions& way, std::span<const Real> weights, Positions& positions) {
+/// The angular momentum that a part should have, or as near to it as its energy allows.
+Vec3 EnergyProjection::allowed_momentum(std::size_t part, const RigidMotion& rigid, Real elastic, Real scaled) const {
+  const Balance& balance = balances_[part];
+  const Vec3 change = balance.angular_momentum - rigid.angular_momentum;
+  const Real room = balance.target - elastic - least_factor * least_factor * scaled -
+                    turning_energy(rigid.inertia, rigid.angular_momentum);
+  const Real square = turning_energy(rigid.inertia, change);
+  const Real linear = rigid.turning.dot(change);
+  if (square + linear <= room + balance.noise) return balance.angular_momentum;
+  if (!(room > 0)) return rigid.angular_momentum;
+  const Real way = 2 * room / (linear + std::sqrt(linear * linear + 4 * square * room));
+  return rigid.angular_momentum + std::min(Real(1), way) * change;
+}
+
+void EnergyProjection::move(const StepEnd& end, const Positions& forces, const Positions& way,
+                            std::span<const Real> weights, Positions& positions) {
   for (std::size_t p = 0; p < parts_.count(); ++p) {
-    Balance& balance = balances_[p];
     Real slope = 0;
     Real curvature = 0;
-    Real work = 0;
     for (const Index v : parts_.part(p)) {
       const Real along = row(forces, v).dot(row(way, v));
       slope += along;
       curvature += along - weights[at(v)] * way.row(v).squaredNorm();
-      if (!is_held_[at(v)]) work += row(outside.along_positions, v).dot(row(way, v));
     }
-    const RigidMotion rigid = rigid_motion(p, positions, velocities);
-    const Real scaled = vibration(p, rigid, positions, velocities);
-    const Real missing =
-        balance.target - balance.elastic - scaled - turning_energy(rigid.inertia, balance.angular_momentum);
+    const Balance& balance = balances_[p];
+    const RigidMotion rigid = rigid_motion(p, end.positions, end.velocities);
+    const Real scaled = vibration(p, rigid, end.positions, end.velocities);
+    const Vec3 angular_momentum = allowed_momentum(p, rigid, balance.elastic, scaled);
+    const Real missing = balance.target - balance.elastic - scaled - turning_energy(rigid.inertia, angular_momentum);
     // The elastic energy is no steeper along the way than a parabola with Y − M/h² as its matrix.
     curvature = std::clamp(curvature, Real(0), slope);
     const Real excess = factor_of(scaled + curvature / 2, slope - curvature, missing, balance.noise) - 1;
     if (excess == 0) continue;
     for (const Index v : parts_.part(p)) positions.row(v) -= excess * way.row(v);
-    balance.target -= excess * work;
   }
 }
 
-void EnergyProjection::finish(const Positions& positions, std::span<const Real> elastic, Positions& velocities) {
+void EnergyProjection::finish(const StepEnd& end, const OutsideForces& outside, Real h, Positions& velocities) {
   for (std::size_t p = 0; p < parts_.count(); ++p) {
     Balance& balance = balances_[p];
-    const RigidMotion rigid = rigid_motion(p, positions, velocities);
-    const Vec3 turning = angular_velocity(rigid.inertia, balance.angular_momentum);
-    if (!turning.allFinite()) continue;
-    const Real scaled = vibration(p, rigid, positions, velocities);
-    const Real missing = balance.target - elastic[p] - scaled - turning.dot(balance.angular_momentum) / 2;
+    const RigidMotion rigid = rigid_motion(p, end.positions, end.velocities);
+    if (!rigid.turning.allFinite()) continue;
+    balance.target += outside_work(p, rigid, end, outside, h).sum - balance.work;
+    const Real scaled = vibration(p, rigid, end.positions, end.velocities);
+    const Vec3 angular_momentum = allowed_momentum(p, rigid, end.elastic[p], scaled);
+    const Vec3 turning = angular_velocity(rigid.inertia, angular_momentum);
+    const Real missing = balance.target - end.elastic[p] - scaled - turning.dot(angular_momentum) / 2;
     const Real factor = factor_of(scaled, 0, missing, balance.noise);
     const Real surplus = scaled * (factor * factor - 1) - missing;
     if (surplus > balance.noise) balance.debt += surplus;
     for (const Index v : parts_.part(p)) {
       if (is_held_[at(v)]) continue;
-      const Vec3 x = row(positions, v);
-      const Vec3 vibration = row(velocities, v) - rigid.velocity_at(x);
+      const Vec3 x = row(end.positions, v);
+      const Vec3 vibration = row(end.velocities, v) - rigid.velocity_at(x);
       velocities.row(v) = (rigid.velocity + turning.cross(x - rigid.center) + factor * vibration).transpose();
     }
   }

@@ -10,6 +10,8 @@
 // outside, with the force at which the step leaves them, so their own springs stay damped by the step. A part that
 // nothing holds is seen from its centre, whose flight is left alone, and v_rigid is its turning with the angular
 // momentum that it should have; of a part that something holds v_rigid is 0.
+#include <cmath>
+
 #include "pliant/solver/connected_parts.h"
 #include "pliant/solver/rigid_motion.h"
 
@@ -45,12 +47,14 @@ class EnergyProjection {
   /// force −∇H on each vertex, m × 3 [N], zero at held ones.
   void balance(const StepEnd& end, const OutsideForces& outside, Real h, Real share, Positions& forces);
 
-  /// Moves the positions at the end along `way`, which is Y⁻¹ of those forces. weights: M/h² of each vertex.
-  void move(const Positions& velocities, const OutsideForces& outside, const Positions& forces, const Positions& way,
-            std::span<const Real> weights, Positions& positions);
+  /// Moves the positions at that end along `way`, which is Y⁻¹ of those forces. weights: M/h² of each vertex.
+  /// `positions` may be those of the end.
+  void move(const StepEnd& end, const Positions& forces, const Positions& way, std::span<const Real> weights,
+            Positions& positions);
 
-  /// Gives the velocities at the end what is missing still at the positions that move() has left, with their V.
-  void finish(const Positions& positions, std::span<const Real> elastic, Positions& velocities);
+  /// Gives the velocities what is missing still where move() has left the positions; their V and the forces are now
+  /// those there. `velocities` may be those of the end.
+  void finish(const StepEnd& end, const OutsideForces& outside, Real h, Positions& velocities);
 
   /// Debts for the next step, m numbers [J].
   void write_debts(std::span<Real> debts) const;
@@ -59,6 +63,7 @@ class EnergyProjection {
   struct Balance {
     Real target = 0;                       // T + V of the beginning, then what it should be at the end
     Real elastic = 0;                      // at the end, before move()
+    Real work = 0;                         // from outside, up to there
     Real debt = 0;                         // see begin()
     Real noise = 0;                        // energies that are no larger are rounding
     Vec3 center = Vec3::Zero();            // at the beginning, of a part that nothing holds
@@ -66,9 +71,23 @@ class EnergyProjection {
     Vec3 angular_momentum = Vec3::Zero();  // about it: of the beginning, then that of the end
   };
 
+  /// What is done on a part from outside.
+  struct Work {
+    Real sum = 0;   // relative to the centre of a part that nothing holds [J]
+    Real size = 0;  // of its terms
+    Vec3 torque = Vec3::Zero();
+    void add(Real energy) {
+      sum += energy;
+      size += std::abs(energy);
+    }
+  };
+
   RigidMotion rigid_motion(std::size_t part, const Positions& positions, const Positions& velocities) const;
   Real vibration(std::size_t part, const RigidMotion& rigid, const Positions& positions,
                  const Positions& velocities) const;
+  Work outside_work(std::size_t part, const RigidMotion& rigid, const StepEnd& end, const OutsideForces& outside,
+                    Real h) const;
+  Vec3 allowed_momentum(std::size_t part, const RigidMotion& rigid, Real elastic, Real scaled) const;
   void balance_part(std::size_t part, const StepEnd& end, const OutsideForces& outside, Real h, Real share);
   void write_forces(std::size_t part, const StepEnd& end, const Positions& along_positions, Positions& forces) const;
 

@@ -89,23 +89,27 @@ void Solver::count_targets_as_outside() {
   }
 }
 
+void Solver::evaluate_end(const State& state) {
+  find_outside_forces(state);
+  evaluate_elastic();
+  count_targets_as_outside();
+}
+
 void Solver::keep_energy(const State& state) {
   EnergyWork& work = energy_work_;
   const StepForm form(state, settings_.integrator, substep());
   for (Index i = 0; i < vertex_count_; ++i) {
     work.velocities.row(i) = (q_.row(i) - form.position(local_groups_.vertex(i))) / form.inertia_step();
   }
-  find_outside_forces(state);
-  evaluate_elastic();
-  count_targets_as_outside();
+  const StepEnd end{q_, work.velocities, work.elastic, work.elastic_forces};
   const OutsideForces outside{work.along_positions, work.along_velocities};
+  evaluate_end(state);
   Positions& forces = residual_;
-  energy_.balance({q_, work.velocities, work.elastic, work.elastic_forces}, outside, substep(),
-                  settings_.energy_projection, forces);
+  energy_.balance(end, outside, substep(), settings_.energy_projection, forces);
   global_step_.solve(forces, forces.cwiseAbs().maxCoeff(), work.way, *threads_);
-  energy_.move(work.velocities, outside, forces, work.way, inertia_weights_, q_);
-  evaluate_elastic();
-  energy_.finish(q_, work.elastic, work.velocities);
+  energy_.move(end, forces, work.way, inertia_weights_, q_);
+  evaluate_end(state);
+  energy_.finish(end, outside, substep(), work.velocities);
 }
 
 void Solver::commit_energy(State& state) {

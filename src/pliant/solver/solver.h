@@ -99,6 +99,7 @@ class Solver {
   void begin_energy(const State& state);
   void find_outside_forces(const State& state);
   void count_targets_as_outside();
+  void evaluate_end(const State& state);
   void keep_energy(const State& state);
   void commit_energy(State& state);
   void commit(State& state);
