@@ -90,6 +90,12 @@ std::string frequency_text(const SystemInfo& info, const Simulation& simulation)
     text += fmt::format("\n  what swings faster than {:.2g} Hz loses half of it in a second{}",
                         half_life_frequency(settings), less_damping_text(simulation));
   }
+  if (settings.energy_projection > 0) {
+    text += fmt::format(
+        "\n  `energy_projection` gives back {:.3g} % of what steps take, of what swings slower than {:.2g} Hz",
+        100 * settings.energy_projection,
+        static_cast<Real>(settings.substeps) / settings.time_step / (2 * std::numbers::pi));
+  }
   if (settings.damping > 0) {
     text += fmt::format("\n  `damping` takes half of every vibration in {:.2g} s besides",
                         std::numbers::ln2 / settings.damping);

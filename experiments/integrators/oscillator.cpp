@@ -27,6 +27,13 @@ const std::vector<Method>& methods() {
   return list;
 }
 
+const std::vector<Method>& projected_methods() {
+  using pliant::Integrator;
+  static const std::vector<Method> list = {{"implicit Euler, energy projection", Integrator::implicit_euler, 1, 5, 1},
+                                           {"BDF2, energy projection", Integrator::bdf2, 1, 6, 1}};
+  return list;
+}
+
 pliant::Scene oscillator(const Lab& lab, const Method& method, double time_step, double damping) {
   pliant::Scene scene = lab.scene("integrators/oscillator");
   pliant::SolverSettings settings = scene.simulation.settings();
@@ -34,6 +41,7 @@ pliant::Scene oscillator(const Lab& lab, const Method& method, double time_step,
   settings.integrator = method.integrator;
   settings.substeps = method.substeps;
   settings.damping = damping;
+  settings.energy_projection = method.energy_projection;
   scene.simulation.set_settings(settings);
   return scene;
 }

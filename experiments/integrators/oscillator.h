@@ -13,10 +13,14 @@ struct Method {
   pliant::Integrator integrator = pliant::Integrator::implicit_euler;
   pliant::Index substeps = 1;
   int colour = 0;
+  double energy_projection = 0;
 };
 
 /// Implicit Euler, in 2 and 4 substeps, and BDF2.
 const std::vector<Method>& methods();
+
+/// Implicit Euler and BDF2 with energy projection.
+const std::vector<Method>& projected_methods();
 
 /// The scene with that method, in steps of `time_step` [s].
 pliant::Scene oscillator(const Lab& lab, const Method& method, double time_step, double damping = 0);

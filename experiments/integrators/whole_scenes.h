@@ -7,7 +7,10 @@ namespace pliant_experiments {
 /// The curtain of the damping experiment, at equal iterations and at equal cost.
 void measure_curtain(const Lab& lab, pliant_report::Chapter& chapter);
 
-/// Every built-in scene with BDF2 to its end.
+/// How large the kinetic energy of some scenes is, against fine substeps.
+void measure_liveliness(const Lab& lab, pliant_report::Chapter& chapter);
+
+/// Every built-in scene with BDF2, and with energy projection, to its end.
 void measure_builtin_scenes(const Lab& lab, pliant_report::Chapter& chapter);
 
 /// By what shares damping changes what it should leave alone.

@@ -62,6 +62,8 @@ class Check(unittest.TestCase):
             self.assertGreater(other["fastest_frequency"]["half_life_hz"], info["fastest_frequency"]["half_life_hz"])
         text = self.pliant("check", scene, "--set", "settings.damping=2").stdout
         self.assertIn("`damping` takes half of every vibration in 0.35 s", text)
+        text = self.pliant("check", scene, "--set", "settings.energy_projection=0.5").stdout
+        self.assertIn("`energy_projection` gives back 50 % of what steps take, of what swings slower than 0.32 Hz", text)
         self.assertNotIn("in a second", text)  # which has but two steps
         text = self.pliant("check", scene, "--set", "settings.time_step=0.1", "--set", "settings.substeps=1").stdout
         self.assertIn("loses half of it in a second, with `integrator` `bdf2`", text)

@@ -1,5 +1,6 @@
 #pragma once
-// External forces: evaluated once a step, at (qₙ, vₙ), before the prediction (thesis Sec. 3.1 and Chapter 5).
+// External forces: evaluated at (qₙ, vₙ), before the prediction of a step (thesis Sec. 3.1 and Chapter 5); where energy
+// is kept, also at its end, for their work.
 #include <optional>
 #include <string>
 #include <string_view>

@@ -40,7 +40,8 @@ void check_debts(const State& state) {
   const auto is_debt = [](Real energy) { return energy >= 0 && std::isfinite(energy); };
   if (state.energy_debts.empty()) return;
   if (state.energy_debts.size() == state.masses.size() && std::ranges::all_of(state.energy_debts, is_debt)) return;
-  fail_input("restore: the energy debts are not one for each vertex, 0 or more; give a state that state() has returned");
+  fail_input(
+      "restore: the energy debts are not one for each vertex, 0 or more; give a state that state() has returned");
 }
 
 }  // namespace
