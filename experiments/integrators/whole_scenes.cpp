@@ -1,6 +1,7 @@
 #include "integrators/whole_scenes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -183,7 +184,9 @@ void measure_curtain(const Lab& lab, Chapter& chapter) {
   judge_curtain(chapter, losses);
   Plot plot{
       .title = "Energy of the curtain at equal cost",
-      .caption = "Energy above that of the equilibrium, with 20 iterations a frame in all; the force ends at frame 30.",
+      .caption =
+          "Energy above that of the equilibrium, with 20 iterations a frame in all; the force ends at frame 30. Energy "
+          "projection comes on top of these.",
       .x = {.label = "frame"},
       .y = {.label = "energy [J]", .min = 0},
       .series = {},
@@ -201,7 +204,7 @@ void measure_curtain(const Lab& lab, Chapter& chapter) {
                           fmt::format("{:.0f}", mean(loss.trace.speed_sum, 600, 900)),
                           fmt::format("{:.0f}", 100 * loss.left(330)), fmt::format("{:.1f}", 100 * loss.left(900)),
                           fmt::format("{:.2f}", loss.milliseconds)});
-    if (i >= 5) continue;
+    if (i >= 5 && i != 7) continue;
     pliant_report::Series series{.name = loss.variant.name(),
                                  .x = loss.trace.frames,
                                  .y = loss.trace.total,
@@ -243,7 +246,7 @@ void measure_liveliness(const Lab& lab, Chapter& chapter) {
 }
 
 void measure_builtin_scenes(const Lab& lab, Chapter& chapter) {
-  constexpr double most_times = 10;  // a kinetic energy far past what less damping explains
+  constexpr std::array<double, 2> most_times = {10, 5};  // kinetic energies past what less damping explains
   const std::vector<Method> tried = {methods()[0],
                                      methods()[3],
                                      {"BDF2, 4 substeps", Integrator::bdf2, 4},
@@ -268,22 +271,22 @@ void measure_builtin_scenes(const Lab& lab, Chapter& chapter) {
       outcomes.push_back(run_scene(lab, builtin.name, method, steps));
       table.rows.back().push_back(outcomes.back().text());
     }
-    const auto is_calm = [&](std::size_t i, std::size_t against) {
-      return outcomes[i].has_ended && outcomes[i].most <= most_times * outcomes[against].most;
+    const auto is_calm = [&](std::size_t i, double times, std::size_t against) {
+      return outcomes[i].has_ended && outcomes[i].most <= times * outcomes[against].most;
     };
-    stable += is_calm(1, 0) ? 1 : 0;
-    projected += is_calm(3, 2) && is_calm(4, 2) ? 1 : 0;
+    stable += is_calm(1, most_times[0], 0) ? 1 : 0;
+    projected += is_calm(3, most_times[1], 2) && is_calm(4, most_times[1], 2) ? 1 : 0;
     ++count;
   }
   chapter.claims.push_back(claim(
       "BDF2 is stable on every built-in scene", "", stable == count,
       fmt::format("{} of {} scenes run to their ends with at most {:.0f} times the kinetic energy of implicit Euler",
-                  stable, count, most_times)));
+                  stable, count, most_times[0])));
   chapter.claims.push_back(
       claim("Energy projection is stable on every built-in scene, in either integrator", "", projected == count,
             fmt::format(
                 "{} of {} scenes run to their ends with at most {:.0f} times the kinetic energy of BDF2 in 4 substeps",
-                projected, count, most_times)));
+                projected, count, most_times[1])));
   chapter.blocks.emplace_back(std::move(table));
 }
 
