@@ -1,6 +1,6 @@
 #pragma once
 // External forces: evaluated at (qₙ, vₙ), before the prediction of a step (thesis Sec. 3.1 and Chapter 5); where energy
-// is kept, also at its end, for their work.
+// is kept, conservative ones also at its end, for their work.
 #include <optional>
 #include <string>
 #include <string_view>
@@ -25,8 +25,10 @@ class Force {
   /// Potential energy [J] of a conservative force; 0 for every other.
   virtual Real potential(const StateView& state) const;
 
-  /// Whether it depends on velocities, as what brakes does. Its work is then that along the mean velocity of a step.
-  virtual bool depends_on_velocities() const { return false; }
+  /// Whether it is conservative. Energy projection then counts its work by where vertices are at the ends of a step, so
+  /// that the sum of all energies is kept; that of every other force by the mean velocity of the step, in which it acts
+  /// as it was at the beginning.
+  virtual bool is_conservative() const { return false; }
 
   /// Whether it draws back like a spring that is evaluated at qₙ: such a force makes every step of BDF2 gain energy,
   /// however small, so the two are refused together.

@@ -25,6 +25,7 @@ class Gravity final : public Force {
   void add_to(Positions& forces, const StateView& state, Real time_step) override;
   /// −Σ m g·x
   Real potential(const StateView& state) const override;
+  bool is_conservative() const override { return true; }
 
   GravityOptions options() const { return {acceleration_}; }
   std::unique_ptr<Gravity> with(const GravityOptions& options) const {

@@ -31,6 +31,7 @@ class MouseSpring final : public Force {
   std::optional<Index> vertex_out_of_range(Index vertex_count) const override;
   /// k/2 (‖d‖ − L)²
   Real potential(const StateView& state) const override;
+  bool is_conservative() const override { return true; }
   bool is_explicit_spring() const override { return true; }
   std::optional<std::string> warning(const StateView& state, Real time_step) const override;
 

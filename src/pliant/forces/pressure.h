@@ -56,6 +56,7 @@ class Pressure final : public Force {
   void add_to(Positions& forces, const StateView& state, Real time_step) override;
   std::optional<Index> vertex_out_of_range(Index vertex_count) const override;
   Real potential(const StateView& state) const override;
+  bool is_conservative() const override { return true; }
 
   /// Explicit, at qₙ: stable for itself while h² ω² < 4, with the bound ω² = −dp/dV Σ ‖aᵢ‖²/mᵢ + |p| maxᵢ Σⱼ ‖Hᵢⱼ‖/mᵢ,
   /// a = ∂V/∂x and Hᵢⱼ = ∂²V/∂xᵢ∂xⱼ: the gas as a spring of the one vector a, and the turning of the normals, which

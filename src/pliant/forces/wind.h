@@ -55,7 +55,6 @@ class Wind final : public Force {
   /// `relative` is evaluated at vₙ, which alone would overshoot once x = h c ΣA/(3m) passes 2; each vertex' share is
   /// therefore scaled by (1 − e⁻ˣ)/x: the exact decay of a vertex that only the wind acts on.
   void add_to(Positions& forces, const StateView& state, Real time_step) override;
-  bool depends_on_velocities() const override { return options_.model == WindModel::relative; }
   std::optional<Index> vertex_out_of_range(Index vertex_count) const override;
 
   const WindOptions& options() const { return options_; }

@@ -90,7 +90,7 @@ void EnergyProjection::balance(const StepEnd& end, const OutsideForces& outside,
                                Positions& forces) {
   for (std::size_t p = 0; p < parts_.count(); ++p) {
     balance_part(p, end, outside, h, share);
-    write_forces(p, end, outside.along_positions, forces);
+    write_forces(p, end, outside, forces);
   }
 }
 
@@ -106,13 +106,15 @@ EnergyProjection::Work EnergyProjection::outside_work(std::size_t part, const Ri
       continue;
     }
     const Vec3 force = row(outside.along_positions, v);
-    const Vec3 resistance = row(outside.along_velocities, v);
+    const Vec3 applied = row(outside.along_velocities, v);
     const Vec3 speed = row(velocities_, v) + row(end.velocities, v) - balance.velocity - rigid.velocity;
     work.add(force.dot(way - shift));
-    work.add(h / 2 * resistance.dot(speed));
+    const Real along_velocity = h / 2 * applied.dot(speed);
+    work.add(along_velocity);
+    work.braked -= std::min(Real(0), along_velocity);
     if (!is_free_[part]) continue;
     const Vec3 arm = (row(positions_, v) + row(end.positions, v) - balance.center - rigid.center) / 2;
-    work.torque += arm.cross(force + resistance);
+    work.torque += arm.cross(force + applied);
   }
   return work;
 }
@@ -125,8 +127,9 @@ void EnergyProjection::balance_part(std::size_t part, const StepEnd& end, const 
                       turning_energy(rigid.inertia, rigid.angular_momentum);
   Balance& balance = balances_[part];
   balance.noise = rounding * (balance.target + work.size + energy);
+  if (work.braked > 0) balance.debt *= std::max(Real(0), 1 - work.braked / balance.target);  // its share of it
   const Real missing = balance.target + work.sum - energy;
-  const Real owed = std::clamp(missing, Real(0), balance.debt);
+  const Real owed = missing > 0 ? std::min(missing, balance.debt) : 0;
   balance.debt -= owed;
   balance.elastic = end.elastic[part];
   balance.work = work.sum;
@@ -136,19 +139,22 @@ void EnergyProjection::balance_part(std::size_t part, const StepEnd& end, const 
 }
 
 /// Of a part that nothing holds, less what moves it as a whole.
-void EnergyProjection::write_forces(std::size_t part, const StepEnd& end, const Positions& along_positions,
+void EnergyProjection::write_forces(std::size_t part, const StepEnd& end, const OutsideForces& outside,
                                     Positions& forces) const {
+  const auto force_on = [&](Index v) {
+    return Vec3(row(end.elastic_forces, v) + row(outside.along_positions, v) + row(outside.along_velocities, v));
+  };
   Vec3 acceleration = Vec3::Zero();
   if (is_free_[part]) {
     Real mass = 0;
     for (const Index v : parts_.part(part)) {
-      acceleration += row(along_positions, v) + row(end.elastic_forces, v);
+      acceleration += force_on(v);
       mass += masses_[at(v)];
     }
     acceleration /= mass;
   }
   for (const Index v : parts_.part(part)) {
-    const Vec3 force = row(end.elastic_forces, v) + row(along_positions, v) - masses_[at(v)] * acceleration;
+    const Vec3 force = force_on(v) - masses_[at(v)] * acceleration;
     forces.row(v) = (is_held_[at(v)] ? Vec3(Vec3::Zero()) : force).transpose();
   }
 }
@@ -167,26 +173,29 @@ Vec3 EnergyProjection::allowed_momentum(std::size_t part, const RigidMotion& rig
   return rigid.angular_momentum + std::min(Real(1), way) * change;
 }
 
-void EnergyProjection::move(const StepEnd& end, const Positions& forces, const Positions& way,
-                            std::span<const Real> weights, Positions& positions) {
+void EnergyProjection::move(const StepEnd& end, const OutsideForces& outside, const Positions& forces,
+                            const Positions& way, std::span<const Real> weights, Positions& positions) {
   for (std::size_t p = 0; p < parts_.count(); ++p) {
     Real slope = 0;
     Real curvature = 0;
+    Real work = 0;
     for (const Index v : parts_.part(p)) {
       const Real along = row(forces, v).dot(row(way, v));
       slope += along;
       curvature += along - weights[at(v)] * way.row(v).squaredNorm();
+      if (!is_held_[at(v)]) work += row(outside.along_velocities, v).dot(row(way, v));
     }
-    const Balance& balance = balances_[p];
+    Balance& balance = balances_[p];
     const RigidMotion rigid = rigid_motion(p, end.positions, end.velocities);
     const Real scaled = vibration(p, rigid, end.positions, end.velocities);
     const Vec3 angular_momentum = allowed_momentum(p, rigid, balance.elastic, scaled);
     const Real missing = balance.target - balance.elastic - scaled - turning_energy(rigid.inertia, angular_momentum);
     // The elastic energy is no steeper along the way than a parabola with Y − M/h² as its matrix.
-    curvature = std::clamp(curvature, Real(0), slope);
+    curvature = std::clamp(curvature, Real(0), std::max(Real(0), slope));
     const Real excess = factor_of(scaled + curvature / 2, slope - curvature, missing, balance.noise) - 1;
     if (excess == 0) continue;
     for (const Index v : parts_.part(p)) positions.row(v) -= excess * way.row(v);
+    balance.target -= excess * work;
   }
 }
 

@@ -27,8 +27,8 @@ struct StepEnd {
 
 /// What acts on the vertices from outside in a step, in the order of the local step; each m × 3 [N].
 struct OutsideForces {
-  const Positions& along_positions;   ///< mean over the step of those that depend on where vertices are
-  const Positions& along_velocities;  ///< of those that depend on how fast they move
+  const Positions& along_positions;   ///< whose work is that along the way of a vertex
+  const Positions& along_velocities;  ///< whose work is that along its mean velocity
 };
 
 class EnergyProjection {
@@ -49,8 +49,8 @@ class EnergyProjection {
 
   /// Moves the positions at that end along `way`, which is Y⁻¹ of those forces. weights: M/h² of each vertex.
   /// `positions` may be those of the end.
-  void move(const StepEnd& end, const Positions& forces, const Positions& way, std::span<const Real> weights,
-            Positions& positions);
+  void move(const StepEnd& end, const OutsideForces& outside, const Positions& forces, const Positions& way,
+            std::span<const Real> weights, Positions& positions);
 
   /// Gives the velocities what is missing still where move() has left the positions; their V and the forces are now
   /// those there. `velocities` may be those of the end.
@@ -73,8 +73,9 @@ class EnergyProjection {
 
   /// What is done on a part from outside.
   struct Work {
-    Real sum = 0;   // relative to the centre of a part that nothing holds [J]
-    Real size = 0;  // of its terms
+    Real sum = 0;     // relative to the centre of a part that nothing holds [J]
+    Real size = 0;    // of its terms
+    Real braked = 0;  // taken by forces along velocities
     Vec3 torque = Vec3::Zero();
     void add(Real energy) {
       sum += energy;
@@ -89,7 +90,7 @@ class EnergyProjection {
                     Real h) const;
   Vec3 allowed_momentum(std::size_t part, const RigidMotion& rigid, Real elastic, Real scaled) const;
   void balance_part(std::size_t part, const StepEnd& end, const OutsideForces& outside, Real h, Real share);
-  void write_forces(std::size_t part, const StepEnd& end, const Positions& along_positions, Positions& forces) const;
+  void write_forces(std::size_t part, const StepEnd& end, const OutsideForces& outside, Positions& forces) const;
 
   ConnectedParts parts_;
   std::vector<char> is_free_;  // of each part

@@ -1,14 +1,16 @@
 // Energy projection as a part of the step: what it needs of the local step, the global step and the forces.
+#include <cmath>
+
 #include "pliant/solver/integrator.h"
 #include "pliant/solver/solver.h"
 
 namespace pliant {
 
-/// Forces of the step; where the energy is kept, those that depend on velocities by themselves as well.
+/// Forces of the step; where the energy is kept, those that are not conservative by themselves as well.
 void Solver::add_forces(const State& state) {
-  const auto add = [&](bool is_along_velocities) {
+  const auto add = [&](bool is_conservative) {
     for (Force* force : forces_) {
-      if (force->depends_on_velocities() == is_along_velocities) force->add_to(force_, state.view(), substep());
+      if (force->is_conservative() == is_conservative) force->add_to(force_, state.view(), substep());
     }
   };
   force_.setZero();
@@ -16,9 +18,9 @@ void Solver::add_forces(const State& state) {
     for (Force* force : forces_) force->add_to(force_, state.view(), substep());
     return;
   }
-  add(true);
-  energy_work_.resistance = force_;
   add(false);
+  energy_work_.applied = force_;
+  add(true);
 }
 
 /// V of each part at q_, and −∇V.
@@ -45,25 +47,27 @@ void Solver::begin_energy(const State& state) {
     if (!work.debts.empty()) work.debts[static_cast<std::size_t>(i)] = state.energy_debts[static_cast<std::size_t>(v)];
   }
   evaluate_elastic();
+  work.along_positions.setZero();
+  count_targets_as_outside();
   energy_.begin({q_, work.velocities, work.elastic, work.elastic_forces}, masses_, work.debts);
 }
 
-/// Those that depend on positions are the mean of both ends of the step.
+/// Conservative ones are the mean of both ends of the step, at one time: they may change from step to step.
 void Solver::find_outside_forces(const State& state) {
   EnergyWork& work = energy_work_;
   for (Index i = 0; i < vertex_count_; ++i) {
     work.end_positions.row(local_groups_.vertex(i)) = q_.row(i);
     work.end_velocities.row(local_groups_.vertex(i)) = work.velocities.row(i);
   }
-  const StateView end{work.end_positions, work.end_velocities, state.masses, state.step + 1, state.time + substep()};
+  const StateView end{work.end_positions, work.end_velocities, state.masses, state.step, state.time};
   work.end_force.setZero();
   for (Force* force : forces_) {
-    if (!force->depends_on_velocities()) force->add_to(work.end_force, end, substep());
+    if (force->is_conservative()) force->add_to(work.end_force, end, substep());
   }
   for (Index i = 0; i < vertex_count_; ++i) {
     const Index v = local_groups_.vertex(i);
-    work.along_positions.row(i) = (force_.row(v) - work.resistance.row(v) + work.end_force.row(v)) / 2;
-    work.along_velocities.row(i) = work.resistance.row(v);
+    work.along_positions.row(i) = (force_.row(v) - work.applied.row(v) + work.end_force.row(v)) / 2;
+    work.along_velocities.row(i) = work.applied.row(v);
   }
 }
 
@@ -107,7 +111,7 @@ void Solver::keep_energy(const State& state) {
   Positions& forces = residual_;
   energy_.balance(end, outside, substep(), settings_.energy_projection, forces);
   global_step_.solve(forces, forces.cwiseAbs().maxCoeff(), work.way, *threads_);
-  energy_.move(end, forces, work.way, inertia_weights_, q_);
+  energy_.move(end, outside, forces, work.way, inertia_weights_, q_);
   evaluate_end(state);
   energy_.finish(end, outside, substep(), work.velocities);
 }
@@ -117,10 +121,11 @@ void Solver::commit_energy(State& state) {
   work.debts.resize(static_cast<std::size_t>(vertex_count_));
   energy_.write_debts(work.debts);
   state.energy_debts.resize(work.debts.size());
+  const Real left = std::exp(-2 * settings_.damping * substep());  // by damping, of the energy of a vibration
   for (Index i = 0; i < vertex_count_; ++i) {
     const Index v = local_groups_.vertex(i);
     state.velocities.row(v) = work.velocities.row(i);
-    state.energy_debts[static_cast<std::size_t>(v)] = work.debts[static_cast<std::size_t>(i)];
+    state.energy_debts[static_cast<std::size_t>(v)] = left * work.debts[static_cast<std::size_t>(i)];
   }
 }
 

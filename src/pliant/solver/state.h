@@ -62,7 +62,7 @@ struct StepReport {
   SetUpTimes set_up;  ///< parts of seconds_factor
 };
 
-/// The objective at the positions that the last step ended with.
+/// The objective at the positions that the last step ended with; energy projection has moved them past its minimum.
 struct Evaluation {
   Real residual = 0;  ///< largest force left on a vertex that is not held [N]
   Real inertia = 0;   ///< 1/(2h²) ‖M^½ (q − s)‖² [J], with 2h/3 for h in BDF2
