@@ -30,7 +30,7 @@ void measure_losses(const Lab& lab, Chapter& chapter) {
       .guides = {{0.3, "hω = 0.3", true}}};
   Table table{
       "Loss of amplitude in a period at hω = 0.3 (21 steps a period). Cost: iterations a step; energy projection costs "
-      "about three more.",
+      "two to three more.",
       {"integrator", "loss [%]", "of implicit Euler's", "cost"},
       {}};
   std::vector<double> at_03;
