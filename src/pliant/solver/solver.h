@@ -67,7 +67,7 @@ class Solver {
   struct EnergyWork {
     Positions velocities, elastic_forces, along_positions, along_velocities, way;
     Positions applied, end_positions, end_velocities, end_force;  // order of the simulation
-    std::vector<Real> elastic;                                       // of each part
+    std::vector<Real> elastic;                                    // of each part
     std::vector<Real> debts, no_weights, slot;
     std::vector<char> none_held;
   };
