@@ -10,7 +10,7 @@
 
 #include "pliant/core/stopwatch.h"
 #include "pliant/pliant.h"
-#include "pliant/solver/system_matrix.h"
+#include "pliant/solver/global/system_matrix.h"
 #ifdef PLIANT_HAS_CHOLMOD
 #include <cholmod.h>
 #endif

@@ -10,7 +10,7 @@
 
 #include "pliant/core/stopwatch.h"
 #include "pliant/pliant.h"
-#include "pliant/scene/timeline.h"
+#include "pliant/timeline/timeline.h"
 
 namespace {
 

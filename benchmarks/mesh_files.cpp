@@ -16,10 +16,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "pliant/core/atomic_file.h"
 #include "pliant/core/stopwatch.h"
-#include "pliant/mesh/io/mesh_file.h"
 #include "pliant/mesh/shapes.h"
+#include "pliant_io/files/atomic_file.h"
+#include "pliant_io/mesh/mesh_file.h"
 #ifdef PLIANT_HAS_TINYOBJLOADER
 #include <tiny_obj_loader.h>
 #endif

@@ -5,11 +5,11 @@ include(GNUInstallDirs)
 set(PLIANT_SCENES_INSTALL_DIR "${CMAKE_INSTALL_DATADIR}/pliant/scenes")
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/pliant")
 
-install(TARGETS pliant EXPORT pliantTargets INCLUDES DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
+install(TARGETS pliant pliant_io EXPORT pliantTargets INCLUDES DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
 if(PLIANT_BUILD_CLI)
   install(TARGETS pliant_cli)
 endif()
-install(DIRECTORY "${PROJECT_SOURCE_DIR}/src/pliant" "${PROJECT_BINARY_DIR}/generated/pliant"
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/src/pliant" "${PROJECT_SOURCE_DIR}/src/pliant_io" "${PROJECT_BINARY_DIR}/generated/pliant"
   DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" FILES_MATCHING PATTERN "*.h" PATTERN "detail" EXCLUDE)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/scenes/" DESTINATION "${PLIANT_SCENES_INSTALL_DIR}")
 

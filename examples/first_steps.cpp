@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include <pliant/pliant.h>
+#include <pliant_io/pliant_io.h>
 
 int main() {
   //! [first steps]

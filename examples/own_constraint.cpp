@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include <pliant/pliant.h>
+#include <pliant_io/pliant_io.h>
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "pliant/scene/scene.h"
+#include "pliant_io/scene/scene.h"
 #include "render/image.h"
 #include "report/report.h"
 

@@ -1,8 +1,8 @@
 // Checkpoints, as they come and with a checksum that fits: an Error or a scene that goes on with finite positions.
 #include "fuzz.h"
-#include "pliant/scene/checkpoint.h"
+#include "pliant_io/checkpoint/checkpoint.h"
 // Private to the library, and the only way behind the checksum, which no mutation meets.
-#include "pliant/scene/detail/checkpoint_file.h"
+#include "pliant_io/checkpoint/detail/checkpoint_file.h"
 
 namespace {
 

@@ -12,8 +12,8 @@
 #include "fuzz.h"
 #include "pliant/mesh/diagnosis.h"
 #include "pliant/mesh/geometry.h"
-#include "pliant/mesh/io/mesh_file.h"
-#include "pliant/mesh/io/read_file.h"
+#include "pliant_io/files/read_file.h"
+#include "pliant_io/mesh/mesh_file.h"
 
 namespace pliant_fuzz {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "fuzz.h"
-#include "pliant/mesh/io/point_cache.h"
+#include "pliant_io/mesh/point_cache.h"
 
 namespace {
 

@@ -8,10 +8,10 @@
 #include <unistd.h>
 
 #include "fuzz.h"
-#include "pliant/core/atomic_file.h"
 #include "pliant/mesh/shapes.h"
-#include "pliant/recorder/animation.h"
-#include "pliant/recorder/run_files.h"
+#include "pliant_io/export/animation.h"
+#include "pliant_io/files/atomic_file.h"
+#include "pliant_io/recorder/run_files.h"
 
 namespace {
 

@@ -1,7 +1,7 @@
 // Scene files, read and simulated for two steps where they are small: whatever the bytes are, an Error or finite
 // positions.
 #include "fuzz.h"
-#include "pliant/scene/scene.h"
+#include "pliant_io/scene/scene.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   pliant_fuzz::expect_errors_only([&] {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "fuzz.h"
-#include "pliant/mesh/io/vertex_map.h"
+#include "pliant_io/mesh/vertex_map.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   pliant_fuzz::expect_errors_only([&] {

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks who includes whom: a folder of src/pliant is a layer, and sees only the layers listed for it.
+"""Checks who includes whom: a folder of src/pliant or src/pliant_io is a layer, and sees only the layers listed for it.
 
   scripts/check_layers.py              checks this tree; prints file:line of each offence, exit code 1 if there is one
   scripts/check_layers.py --self-test  checks this script
@@ -9,22 +9,29 @@ import sys
 import tempfile
 from pathlib import Path
 
-# What a layer may include besides itself: whole layers, or single headers of a layer.
+# What a layer may include besides itself: whole targets or layers, or single headers of a layer.
 LAYERS = {
-    "core": [],
-    "mesh": ["core"],
-    "constraints": ["core", "mesh"],
-    "forces": ["core", "mesh"],
-    "collision": ["core", "mesh", "constraints/constraint_group.h"],
-    "solver": ["core", "constraints/constraint_group.h", "forces/force.h"],
-    "simulation": ["core", "mesh", "constraints", "forces", "collision", "solver"],
+    "pliant/core": [],
+    "pliant/mesh": ["pliant/core"],
+    "pliant/constraints": ["pliant/core", "pliant/mesh"],
+    "pliant/forces": ["pliant/core", "pliant/mesh"],
+    "pliant/collision": ["pliant/core", "pliant/mesh"],
+    "pliant/solver": ["pliant/core", "pliant/constraints/constraint_group.h", "pliant/forces/force.h"],
+    "pliant/simulation": ["pliant/core", "pliant/mesh", "pliant/constraints", "pliant/forces", "pliant/collision",
+                          "pliant/solver"],
 }
-LAYERS["scene"] = LAYERS["recorder"] = LAYERS["simulation"] + ["simulation"]
+LAYERS["pliant/timeline"] = LAYERS["pliant/simulation"] + ["pliant/simulation"]
+# All of the algorithm, and of files what is below.
+LAYERS["pliant_io/files"] = ["pliant"]
+LAYERS["pliant_io/mesh"] = LAYERS["pliant_io/files"] + ["pliant_io/files"]
+LAYERS["pliant_io/scene"] = LAYERS["pliant_io/mesh"] + ["pliant_io/mesh"]
+LAYERS["pliant_io/checkpoint"] = LAYERS["pliant_io/scene"] + ["pliant_io/scene"]
+LAYERS["pliant_io/recorder"] = LAYERS["pliant_io/mesh"] + ["pliant_io/mesh"]
+LAYERS["pliant_io/export"] = LAYERS["pliant_io/recorder"] + ["pliant_io/recorder"]
+TARGETS = ["pliant", "pliant_io"]
 
-# The solver knows numbers, not files.
-HIDDEN_FROM = {"solver": ["core/atomic_file.h"]}
+# The algorithm knows numbers, not files.
 FILE_HEADERS = {"fstream", "filesystem", "cstdio"}
-NO_FILES = {"solver"}
 
 # Folders outside the library; they use its public headers.
 USERS = ["apps", "benchmarks", "examples", "experiments", "python", "tests", "web"]
@@ -32,13 +39,13 @@ USERS = ["apps", "benchmarks", "examples", "experiments", "python", "tests", "we
 # Third-party headers by the start of their name, and the folders whose sources may include them. Only the first two are
 # known to the users of an installed library, so only they may stand in its public headers.
 THIRD_PARTY = {
-    "Eigen/": ["src/pliant", "apps", "benchmarks", "examples", "experiments", "python", "tests", "web"],
+    "Eigen/": ["src", "apps", "benchmarks", "examples", "experiments", "python", "tests", "web"],
     "unsupported/Eigen/": [],
-    "fmt/": ["src/pliant", "apps", "benchmarks", "experiments", "tests"],
-    "nlohmann/": ["src/pliant/scene", "src/pliant/recorder", "apps", "tests"],
+    "fmt/": ["src", "apps", "benchmarks", "experiments", "tests"],
+    "nlohmann/": ["src/pliant_io", "apps", "tests"],
     "CLI/": ["apps"],
-    "zlib": ["src/pliant/core"],
-    "cholmod": ["src/pliant/solver/factorization", "apps/bench", "benchmarks"],
+    "zlib": ["src/pliant_io/files"],
+    "cholmod": ["src/pliant/solver/global/factorization", "apps/bench", "benchmarks"],
     "epoxy/": ["apps/render"],
     "GLFW/": ["apps/viewer", "tests"],
     "imgui": ["apps/render", "apps/viewer"],
@@ -74,21 +81,25 @@ def climbs_out(file, name):
     return False
 
 
+def layer_of(path):
+    """The layer "pliant/core" of a path below src; None for an umbrella header."""
+    parts = path.split("/")
+    return "/".join(parts[:2]) if len(parts) > 2 else None
+
+
 def library_offence(layer, target):
-    """What is wrong with a file of `layer` (None: the umbrella header) including "pliant/`target`"."""
-    target_layer = target.split("/")[0] if "/" in target else None
-    if "/detail/" in target and target_layer != layer:
-        return f"pliant/{target} is private to {target_layer}"
+    """What is wrong with a file of `layer` (None: an umbrella header) including `target`, a path below src."""
+    target_layer = layer_of(target)
+    if "/detail/" in target and target_layer != layer and (layer is None or target.startswith("pliant/")):
+        return f"{target} is private to {target_layer}"
     if layer is None:
         return None
     if target_layer is None:
-        return f"pliant/{target} is for users of the library, not for its layers"
+        return f"{target} is for users of the library, not for its layers"
     if target_layer not in LAYERS:
-        return f"pliant/{target} is in no layer that scripts/check_layers.py knows"
-    if target in HIDDEN_FROM.get(layer, []):
-        return f"{layer} must not include pliant/{target}"
+        return f"{target} is in no layer that scripts/check_layers.py knows"
     if target_layer != layer and not is_allowed(target, LAYERS[layer]):
-        return f"{layer} may include {', '.join(LAYERS[layer]) or 'no other layer'}; not pliant/{target}"
+        return f"{layer} may include {', '.join(LAYERS[layer]) or 'no other layer'}; not {target}"
     return None
 
 
@@ -108,28 +119,29 @@ def file_offences(root, path):
     """Yields (line number, message) for one source or header."""
     file = path.relative_to(root).as_posix()
     parts = file.split("/")
-    in_library = parts[:2] == ["src", "pliant"]
-    layer = parts[2] if in_library and len(parts) > 3 else None
-    if layer is not None and layer not in LAYERS:
-        yield 1, f"src/pliant/{layer} is no layer that scripts/check_layers.py knows"
+    in_library = parts[0] == "src"
+    layer = layer_of(file[len("src/"):]) if in_library else None
+    if in_library and layer is not None and layer not in LAYERS:
+        yield 1, f"src/{layer} is no layer that scripts/check_layers.py knows"
         return
     is_public_header = in_library and path.suffix == ".h" and "detail" not in parts
     for number, name, is_quoted in includes(path):
         message = None
-        if name.startswith("pliant/"):
-            target = name[len("pliant/"):]
+        if name.split("/")[0] in TARGETS:
             if in_library and not is_quoted:
                 message = f'<{name}> is our own: write "{name}"'
+            elif in_library and parts[1] == "pliant" and not name.startswith("pliant/"):
+                message = f"the algorithm needs no files: not {name}"
             elif in_library:
-                message = library_offence(layer, target)
-            elif "/detail/" in target:
+                message = library_offence(layer, name)
+            elif "/detail/" in name:
                 message = f"{name} is private to the library"
         elif in_library and is_quoted:
-            message = f'"{name}" should be written "pliant/<layer>/<file>.h"'
+            message = f'"{name}" should be written "{parts[1]}/<layer>/<file>.h"'
         elif climbs_out(file, name):
             message = f'"{name}" leaves {parts[0]}/; the library is included as "pliant/<layer>/<file>.h"'
-        elif layer in NO_FILES and name in FILE_HEADERS:
-            message = f"{layer} must not read or write files: <{name}>"
+        elif in_library and parts[1] == "pliant" and name in FILE_HEADERS:
+            message = f"the algorithm must not read or write files: <{name}>"
         else:
             message = third_party_offence(file, name, is_public_header)
         if message:
@@ -138,8 +150,7 @@ def file_offences(root, path):
 
 def tree_offences(root):
     """All offences of a tree as lines "file:line: message", and the number of files looked at."""
-    files = sorted(
-        path for folder in ["src/pliant", *USERS] for path in (root / folder).rglob("*") if path.suffix in (".h", ".cpp"))
+    files = sorted(path for folder in ["src", *USERS] for path in (root / folder).rglob("*") if path.suffix in (".h", ".cpp"))
     lines = [f"{path.relative_to(root)}:{number}: {message}"
              for path in files for number, message in file_offences(root, path)]
     return lines, len(files)
@@ -155,43 +166,43 @@ SELF_TEST = [
     ("src/pliant/core/a.h", "<Eigen/Core>", False),
     ("src/pliant/core/a.h", "<fmt/format.h>", True),
     ("src/pliant/core/a.cpp", "<fmt/format.h>", False),
-    ("src/pliant/mesh/io/a.cpp", '"pliant/core/b.h"', False),
-    ("src/pliant/mesh/io/a.cpp", '"pliant/constraints/b.h"', True),
+    ("src/pliant_io/mesh/a.cpp", '"pliant/core/b.h"', False),
+    ("src/pliant_io/mesh/a.cpp", '"pliant/constraints/b.h"', False),
     ("src/pliant/mesh/a.cpp", '"pliant/pliant.h"', True),
     ("src/pliant/constraints/a.h", '"pliant/mesh/b.h"', False),
     ("src/pliant/constraints/a.h", '"pliant/forces/b.h"', True),
     ("src/pliant/constraints/a.h", '"pliant/solver/b.h"', True),
     ("src/pliant/forces/a.h", '"pliant/constraints/b.h"', True),
-    ("src/pliant/collision/a.h", '"pliant/constraints/constraint_group.h"', False),
+    ("src/pliant/collision/a.h", '"pliant/constraints/constraint_group.h"', True),
     ("src/pliant/collision/a.h", '"pliant/constraints/batch.h"', True),
     ("src/pliant/solver/a.h", '"pliant/constraints/constraint_group.h"', False),
     ("src/pliant/solver/a.h", '"pliant/forces/force.h"', False),
     ("src/pliant/solver/a.h", '"pliant/forces/wind.h"', True),
     ("src/pliant/solver/a.h", '"pliant/constraints/batch.h"', True),
     ("src/pliant/solver/a.h", '"pliant/mesh/mesh.h"', True),
-    ("src/pliant/solver/a.cpp", '"pliant/core/atomic_file.h"', True),
+    ("src/pliant/solver/a.cpp", '"pliant_io/files/atomic_file.h"', True),
     ("src/pliant/solver/a.cpp", "<fstream>", True),
     ("src/pliant/solver/a.cpp", "<nlohmann/json.hpp>", True),
     ("src/pliant/solver/a.cpp", "<cholmod.h>", True),
-    ("src/pliant/solver/factorization/a.cpp", "<cholmod.h>", False),
-    ("src/pliant/solver/factorization/a.h", "<cholmod.h>", True),
+    ("src/pliant/solver/global/factorization/a.cpp", "<cholmod.h>", False),
+    ("src/pliant/solver/global/factorization/a.h", "<cholmod.h>", True),
     ("src/pliant/simulation/a.cpp", '"pliant/solver/b.h"', False),
-    ("src/pliant/simulation/a.cpp", '"pliant/scene/b.h"', True),
-    ("src/pliant/scene/a.cpp", '"pliant/simulation/b.h"', False),
-    ("src/pliant/scene/a.cpp", '"pliant/recorder/b.h"', True),
-    ("src/pliant/scene/a.cpp", "<nlohmann/json.hpp>", False),
-    ("src/pliant/scene/a.h", "<nlohmann/json.hpp>", True),
-    ("src/pliant/scene/detail/a.h", "<nlohmann/json.hpp>", False),
-    ("src/pliant/scene/a.cpp", '"pliant/scene/detail/b.h"', False),
-    ("src/pliant/recorder/a.cpp", '"pliant/scene/b.h"', True),
-    ("src/pliant/recorder/a.cpp", '"pliant/simulation/detail/b.h"', True),
+    ("src/pliant/simulation/a.cpp", '"pliant_io/scene/b.h"', True),
+    ("src/pliant_io/scene/a.cpp", '"pliant/simulation/b.h"', False),
+    ("src/pliant_io/scene/a.cpp", '"pliant_io/recorder/b.h"', True),
+    ("src/pliant_io/scene/a.cpp", "<nlohmann/json.hpp>", False),
+    ("src/pliant_io/scene/a.h", "<nlohmann/json.hpp>", True),
+    ("src/pliant_io/scene/detail/a.h", "<nlohmann/json.hpp>", False),
+    ("src/pliant_io/scene/a.cpp", '"pliant_io/scene/detail/b.h"', False),
+    ("src/pliant_io/recorder/a.cpp", '"pliant_io/scene/b.h"', True),
+    ("src/pliant_io/recorder/a.cpp", '"pliant/simulation/detail/b.h"', True),
     ("src/pliant/helpers/a.cpp", "<vector>", True),
     ("src/pliant/pliant.h", '"pliant/simulation/b.h"', False),
     ("src/pliant/pliant.h", "<nlohmann/json.hpp>", True),
-    ("apps/cli/a.cpp", '"pliant/scene/b.h"', False),
-    ("apps/cli/a.cpp", '"pliant/scene/detail/b.h"', True),
+    ("apps/cli/a.cpp", '"pliant_io/scene/b.h"', False),
+    ("apps/cli/a.cpp", '"pliant_io/scene/detail/b.h"', True),
     ("apps/cli/a.cpp", "<CLI/CLI.hpp>", False),
-    ("apps/cli/a.cpp", '"../../src/pliant/scene/b.h"', True),
+    ("apps/cli/a.cpp", '"../../src/pliant_io/scene/b.h"', True),
     ("examples/a.cpp", '"pliant/pliant.h"', False),
     ("examples/a.cpp", "<fmt/format.h>", True),
     ("tests/mesh/a.cpp", "<doctest/doctest.h>", False),
@@ -200,7 +211,15 @@ SELF_TEST = [
     ("tests/mesh/a.cpp", '"../support/b.h"', False),
     ("tests/mesh/a.cpp", '"../../src/pliant/mesh/b.h"', True),
     ("tests/mesh/a.cpp", '"pliant/mesh/detail/b.h"', True),
-    ("src/pliant/mesh/io/a.cpp", '"pliant/mesh/io/detail/b.h"', False),
+    ("src/pliant_io/mesh/a.cpp", '"pliant_io/mesh/detail/b.h"', False),
+    ("src/pliant/core/a.cpp", "<nlohmann/json.hpp>", True),
+    ("src/pliant/core/a.cpp", "<zlib.h>", True),
+    ("src/pliant/timeline/a.cpp", '"pliant_io/mesh/b.h"', True),
+    ("src/pliant/pliant.h", '"pliant_io/mesh/b.h"', True),
+    ("src/pliant_io/files/a.cpp", "<zlib.h>", False),
+    ("src/pliant_io/files/a.cpp", '"pliant_io/mesh/b.h"', True),
+    ("src/pliant_io/pliant_io.h", '"pliant_io/scene/b.h"', False),
+    ("src/pliant_io/export/a.cpp", '"pliant_io/checkpoint/b.h"', True),
 ]
 
 

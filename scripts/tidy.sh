@@ -7,7 +7,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-arguments=(--quiet -p build/clang)
+arguments=(--quiet -p build/tidy)
 changed=0
 files=()
 for argument in "$@"; do
@@ -34,8 +34,9 @@ if [[ ${#files[@]} -eq 0 ]]; then
   exit 1
 fi
 
-cmake --preset clang >/dev/null
-cmake --build --preset clang --target pliant_generated_sources >/dev/null
+# Every source by itself, as clang-tidy reads them; nothing but what CMake generates is built.
+cmake --preset clang -B build/tidy -DCMAKE_UNITY_BUILD=OFF >/dev/null
+cmake --build build/tidy --target pliant_generated_sources >/dev/null
 if ! printf '%s\0' "${files[@]}" | xargs -0 -n 1 -P "$(nproc)" clang-tidy "${arguments[@]}"; then
   echo "tidy.sh: clang-tidy found what is listed above" >&2
   exit 1

@@ -8,7 +8,7 @@
 #include "bench/system.h"
 #include "pliant/core/error.h"
 #include "pliant/core/stopwatch.h"
-#include "pliant/solver/global_step.h"
+#include "pliant/solver/global/global_step.h"
 
 namespace pliant_bench {
 namespace {

@@ -8,7 +8,7 @@
 #include "bench/solves.h"
 #include "bench/system.h"
 #include "pliant/core/version.h"
-#include "pliant/solver/factorization/sweeps.h"
+#include "pliant/solver/global/factorization/sweeps.h"
 
 namespace pliant_bench {
 Machine this_machine() {

@@ -38,7 +38,7 @@ void print(const Row& row, Out out) {
                  field(row.bytes_per_second), field(row.share));
 }
 
-void print_set_up(const WorkloadResult& w, Out out) {
+void csv_set_up(const WorkloadResult& w, Out out) {
   const SetUpResult& s = w.set_up;
   const std::pair<const char*, double> parts[] = {{"mesh", s.mesh},
                                                   {"constraints", s.constraints},
@@ -78,7 +78,7 @@ void print_workload(const WorkloadResult& w, Out out) {
            each.iteration.min, each.iteration.median, times_eigen(w, each.iteration)},
           out);
   }
-  print_set_up(w, out);
+  csv_set_up(w, out);
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "pliant/solver/system_matrix.h"
+#include "pliant/solver/global/system_matrix.h"
 
 namespace pliant_bench {
 

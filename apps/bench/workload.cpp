@@ -7,7 +7,7 @@
 
 #include "pliant/core/printable.h"
 #include "pliant/pliant.h"
-#include "pliant/scene/nearest_names.h"
+#include "pliant_io/scene/nearest_names.h"
 
 namespace pliant_bench {
 namespace {

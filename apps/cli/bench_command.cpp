@@ -12,9 +12,9 @@
 #include "bench/solves.h"
 #include "choice_option.h"
 #include "commands.h"
-#include "pliant/core/atomic_file.h"
 #include "pliant/core/printable.h"
-#include "pliant/scene/nearest_names.h"
+#include "pliant_io/files/atomic_file.h"
+#include "pliant_io/scene/nearest_names.h"
 #include "scene_options.h"
 #include "terminal.h"
 

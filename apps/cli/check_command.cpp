@@ -12,7 +12,7 @@
 #include "commands.h"
 #include "pliant/core/printable.h"
 #include "pliant/mesh/geometry.h"
-#include "pliant/solver/integrator.h"
+#include "pliant/solver/integration/integrator.h"
 #include "scene_options.h"
 
 namespace pliant_cli {

@@ -12,9 +12,9 @@
 #include "number_option.h"
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
-#include "pliant/mesh/io/mesh_file.h"
-#include "pliant/recorder/export.h"
-#include "pliant/recorder/run_files.h"
+#include "pliant_io/export/export.h"
+#include "pliant_io/mesh/mesh_file.h"
+#include "pliant_io/recorder/run_files.h"
 #include "terminal.h"
 
 namespace pliant_cli {

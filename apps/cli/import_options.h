@@ -4,7 +4,7 @@
 
 #include "choice_option.h"
 #include "number_option.h"
-#include "pliant/mesh/io/mesh_file.h"
+#include "pliant_io/mesh/mesh_file.h"
 
 namespace pliant_cli {
 

@@ -13,7 +13,7 @@
 #include "import_options.h"
 #include "pliant/core/printable.h"
 #include "pliant/mesh/diagnosis.h"
-#include "pliant/mesh/io/mesh_file.h"
+#include "pliant_io/mesh/mesh_file.h"
 
 namespace pliant_cli {
 namespace {

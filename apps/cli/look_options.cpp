@@ -8,8 +8,8 @@
 #include "commands.h"
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
-#include "pliant/recorder/run_files.h"
-#include "pliant/scene/checkpoint.h"
+#include "pliant_io/checkpoint/checkpoint.h"
+#include "pliant_io/recorder/run_files.h"
 #include "terminal.h"
 
 namespace pliant_cli {

@@ -12,7 +12,7 @@
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
 #include "pliant/core/version.h"
-#include "pliant/scene/nearest_names.h"
+#include "pliant_io/scene/nearest_names.h"
 #include "terminal.h"
 
 namespace {

@@ -11,9 +11,9 @@
 #include "commands.h"
 #include "number_option.h"
 #include "pliant/core/printable.h"
-#include "pliant/recorder/recorder.h"
-#include "pliant/recorder/run_files.h"
-#include "pliant/scene/checkpoint.h"
+#include "pliant_io/checkpoint/checkpoint.h"
+#include "pliant_io/recorder/recorder.h"
+#include "pliant_io/recorder/run_files.h"
 #include "progress.h"
 #include "terminal.h"
 

@@ -2,8 +2,8 @@
 // A scene to the files of a run: what `pliant run` and `pliant resume` share.
 #include <CLI/CLI.hpp>
 
-#include "pliant/recorder/run_info.h"
-#include "pliant/scene/scene.h"
+#include "pliant_io/recorder/run_info.h"
+#include "pliant_io/scene/scene.h"
 
 namespace pliant_cli {
 

@@ -8,9 +8,9 @@
 
 #include "commands.h"
 #include "look_options.h"
-#include "pliant/core/atomic_file.h"
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
+#include "pliant_io/files/atomic_file.h"
 #include "render/film_writer.h"
 #include "render/picture_maker.h"
 #include "render/take.h"

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "commands.h"
-#include "pliant/recorder/recorder.h"
-#include "pliant/recorder/run_files.h"
+#include "pliant_io/recorder/recorder.h"
+#include "pliant_io/recorder/run_files.h"
 #include "recording.h"
 #include "scene_options.h"
 #include "terminal.h"

@@ -6,8 +6,8 @@
 
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
-#include "pliant/scene/builtin_scenes.h"
-#include "pliant/scene/nearest_names.h"
+#include "pliant_io/scene/builtin_scenes.h"
+#include "pliant_io/scene/nearest_names.h"
 
 namespace pliant_cli {
 namespace fs = std::filesystem;

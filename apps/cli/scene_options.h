@@ -6,7 +6,7 @@
 
 #include "choice_option.h"
 #include "number_option.h"
-#include "pliant/scene/scene.h"
+#include "pliant_io/scene/scene.h"
 
 namespace pliant_cli {
 

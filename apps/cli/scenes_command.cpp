@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "commands.h"
-#include "pliant/scene/builtin_scenes.h"
-#include "pliant/scene/scene.h"
+#include "pliant_io/scene/builtin_scenes.h"
+#include "pliant_io/scene/scene.h"
 
 namespace pliant_cli {
 

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "commands.h"
-#include "pliant/scene/schema.h"
+#include "pliant_io/scene/schema.h"
 
 namespace pliant_cli {
 

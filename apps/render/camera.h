@@ -1,6 +1,6 @@
 #pragma once
 // From the scene's camera to matrices, and the automatic one.
-#include "pliant/scene/view_settings.h"
+#include "pliant_io/scene/view_settings.h"
 #include "render/gl_objects.h"
 
 namespace pliant_render {

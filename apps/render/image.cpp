@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 #include <stb/stb_image_write.h>
 
-#include "pliant/core/atomic_file.h"
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
+#include "pliant_io/files/atomic_file.h"
 
 namespace pliant_render {
 namespace {

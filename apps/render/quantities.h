@@ -1,6 +1,6 @@
 #pragma once
 // What colours tell: a number for each vertex.
-#include "pliant/scene/view_settings.h"
+#include "pliant_io/scene/view_settings.h"
 #include "render/scenery.h"
 
 namespace pliant_render {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "pliant/scene/view_settings.h"
+#include "pliant_io/scene/view_settings.h"
 #include "render/camera.h"
 
 struct ImFont;

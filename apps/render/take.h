@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "pliant/recorder/animation.h"
-#include "pliant/scene/scene.h"
+#include "pliant_io/export/animation.h"
+#include "pliant_io/scene/scene.h"
 #include "render/scenery.h"
 #include "render/signs.h"
 

@@ -7,7 +7,7 @@
 namespace pliant_report {
 namespace {
 
-constexpr double margin = 5;  ///< between a label and its line, or the area's edges
+constexpr double label_margin = 5;  ///< between a label and its line, or the area's edges
 
 /// Where the label of a guide could stand, the best places first.
 std::vector<Box> possible_boxes(const PlacedGuide& guide, bool is_vertical, const Box& area) {
@@ -20,19 +20,19 @@ std::vector<Box> possible_boxes(const PlacedGuide& guide, bool is_vertical, cons
     }
   };
   if (is_vertical) {
-    const auto rows = static_cast<int>((area.height() - 2 * margin) / line_height);
+    const auto rows = static_cast<int>((area.height() - 2 * label_margin) / line_height);
     for (int row = 0; row < rows; ++row) {
-      const double top = area.top + margin + row * line_height;
-      add(guide.start.x + margin, top);
-      add(guide.start.x - margin - width, top);
+      const double top = area.top + label_margin + row * line_height;
+      add(guide.start.x + label_margin, top);
+      add(guide.start.x - label_margin - width, top);
     }
   } else {
     const double above = guide.start.y - line_height - 1;
     const double below = guide.start.y + 1;
-    const double free = area.width() - width - 2 * margin;
+    const double free = area.width() - width - 2 * label_margin;
     for (const double share : {1.0, 0.0, 0.75, 0.5, 0.25}) {
-      add(area.left + margin + share * free, above);
-      add(area.left + margin + share * free, below);
+      add(area.left + label_margin + share * free, above);
+      add(area.left + label_margin + share * free, below);
     }
   }
   return boxes;
@@ -66,7 +66,7 @@ std::vector<PlacedGuide> place_guides(const Plot& plot, const PlotLayout& layout
     if (!(share >= 0 && share <= 1)) continue;
     const double x = area.left + share * area.width();
     const double y = area.bottom - share * area.height();
-    const std::string label = shortened(guide.label, area.width() / 2 - 2 * margin);
+    const std::string label = shortened(guide.label, area.width() / 2 - 2 * label_margin);
     guides.push_back(guide.is_vertical ? PlacedGuide{{x, area.top}, {x, area.bottom}, label, {}}
                                        : PlacedGuide{{area.left, y}, {area.right, y}, label, {}});
     is_vertical.push_back(guide.is_vertical);

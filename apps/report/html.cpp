@@ -92,21 +92,21 @@ std::string_view word(Verdict verdict) {
 }
 
 std::string badge(Verdict verdict) {
-  struct Look {
+  struct Badge {
     std::string_view name;
     std::string_view shape;
   };
-  constexpr std::array<Look, 3> looks = {{
+  constexpr std::array<Badge, 3> badges = {{
       {"holds", "<circle cx=\"8\" cy=\"8\" r=\"7\"/><path class=\"sign\" d=\"M4.6 8.3l2.4 2.5l4.4-5.2\"/>"},
       {"fails",
        "<path d=\"M8 .2l7.8 7.8l-7.8 7.8l-7.8-7.8z\"/><path class=\"sign\" d=\"M5.6 5.6l4.8 4.8m0-4.8l-4.8 4.8\"/>"},
       {"reported", "<circle class=\"ring\" cx=\"8\" cy=\"8\" r=\"5.5\"/>"},
   }};
-  const Look& look = looks[verdict == Verdict::holds ? 0 : verdict == Verdict::fails ? 1 : 2];
+  const Badge& shown = badges[verdict == Verdict::holds ? 0 : verdict == Verdict::fails ? 1 : 2];
   return fmt::format(
       "<span class=\"verdict {}\"><svg viewBox=\"0 0 16 16\" width=\"14\" height=\"14\" aria-hidden=\"true\">{}</svg>{}"
       "</span>",
-      look.name, look.shape, word(verdict));
+      shown.name, shown.shape, word(verdict));
 }
 
 std::string tally(const std::vector<Claim>& claims) {

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "pliant/core/base64.h"
+#include "pliant_io/files/base64.h"
 #include "report/html_parts.h"
 #include "report/text.h"
 

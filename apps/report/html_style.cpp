@@ -5,7 +5,7 @@
 namespace pliant_report {
 namespace {
 
-constexpr std::string_view style = R"(:root {
+constexpr std::string_view html_rules = R"(:root {
   color-scheme: light dark;
   --ground: #ffffff; --text: #1f2429; --soft: #5a636d; --line: #dcdfe3; --panel: #f6f7f8; --link: #14509e;
   --holds: #12704f; --fails: #a83226; --reported: #5a636d;
@@ -109,7 +109,7 @@ img { display: block; max-width: 100%; height: auto; border-radius: 3px; }
 }  // namespace
 
 std::string page_style() {
-  return std::string(style) + plot_style();
+  return std::string(html_rules) + plot_style();
 }
 
 }  // namespace pliant_report

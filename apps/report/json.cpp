@@ -8,32 +8,32 @@
 namespace pliant_report {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 /// JSON has no number that is not finite.
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
+OrderedJson number(double value) {
+  return std::isfinite(value) ? OrderedJson(value) : OrderedJson(nullptr);
 }
 
-Json numbers(const std::vector<double>& values) {
-  Json list = Json::array();
+OrderedJson numbers(const std::vector<double>& values) {
+  OrderedJson list = OrderedJson::array();
   for (const double value : values) list.push_back(number(value));
   return list;
 }
 
-Json axis_json(const Axis& axis) {
-  Json json = {{"label", axis.label}, {"logarithmic", axis.is_logarithmic}};
+OrderedJson axis_json(const Axis& axis) {
+  OrderedJson json = {{"label", axis.label}, {"logarithmic", axis.is_logarithmic}};
   if (axis.min) json["min"] = number(*axis.min);
   if (axis.max) json["max"] = number(*axis.max);
   return json;
 }
 
-Json plot_json(const Plot& plot) {
-  Json series = Json::array();
+OrderedJson plot_json(const Plot& plot) {
+  OrderedJson series = OrderedJson::array();
   for (const Series& each : plot.series) {
     series.push_back({{"name", each.name}, {"x", numbers(each.x)}, {"y", numbers(each.y)}});
   }
-  Json guides = Json::array();
+  OrderedJson guides = OrderedJson::array();
   for (const Guide& guide : plot.guides) {
     guides.push_back({{"value", number(guide.value)}, {"label", guide.label}, {"axis", guide.is_vertical ? "x" : "y"}});
   }
@@ -41,8 +41,8 @@ Json plot_json(const Plot& plot) {
           {"y", axis_json(plot.y)}, {"series", series},        {"guides", guides}};
 }
 
-Json claims_json(const std::vector<Claim>& claims) {
-  Json list = Json::array();
+OrderedJson claims_json(const std::vector<Claim>& claims) {
+  OrderedJson list = OrderedJson::array();
   for (const Claim& claim : claims) {
     list.push_back(
         {{"text", claim.text}, {"by", claim.by}, {"verdict", word(claim.verdict)}, {"evidence", claim.evidence}});
@@ -51,11 +51,11 @@ Json claims_json(const std::vector<Claim>& claims) {
 }
 
 /// Sorts the blocks of a chapter by what they are.
-struct Blocks {
-  Json paragraphs = Json::array();
-  Json plots = Json::array();
-  Json tables = Json::array();
-  Json pictures = Json::array();
+struct JsonBlocks {
+  OrderedJson paragraphs = OrderedJson::array();
+  OrderedJson plots = OrderedJson::array();
+  OrderedJson tables = OrderedJson::array();
+  OrderedJson pictures = OrderedJson::array();
 
   void operator()(const Paragraph& paragraph) { paragraphs.push_back(paragraph.text); }
   void operator()(const Plot& plot) { plots.push_back(plot_json(plot)); }
@@ -67,8 +67,8 @@ struct Blocks {
   }
 };
 
-Json chapter_json(const Chapter& chapter) {
-  Blocks blocks;
+OrderedJson chapter_json(const Chapter& chapter) {
+  JsonBlocks blocks;
   for (const Block& block : chapter.blocks) std::visit(blocks, block);
   return {{"name", chapter.name},
           {"title", chapter.title},
@@ -84,16 +84,16 @@ Json chapter_json(const Chapter& chapter) {
 }  // namespace
 
 std::string to_json(const Report& report) {
-  Json facts = Json::object();
+  OrderedJson facts = OrderedJson::object();
   for (const auto& [name, value] : report.facts) facts[name] = value;
-  Json chapters = Json::array();
+  OrderedJson chapters = OrderedJson::array();
   for (const Chapter& chapter : report.chapters) chapters.push_back(chapter_json(chapter));
-  const Json json = {{"title", report.title},
-                     {"introduction", report.introduction},
-                     {"facts", std::move(facts)},
-                     {"chapters", std::move(chapters)}};
+  const OrderedJson json = {{"title", report.title},
+                            {"introduction", report.introduction},
+                            {"facts", std::move(facts)},
+                            {"chapters", std::move(chapters)}};
   // Texts may hold bytes that are not UTF-8; they must not cost the report.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+  return json.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + '\n';
 }
 
 }  // namespace pliant_report

@@ -29,7 +29,7 @@ constexpr Scheme dark = {
     "#15181c", "#e2e6ea", "#aab2bb",
     "#7d8690", "#2b3037", {"#257dfe", "#ff8a29", "#42c392", "#c064ae", "#f8d43e", "#a8e3e0", "#b3a9f8", "#ee333a"}};
 
-constexpr std::string_view shapes =
+constexpr std::string_view shape_rules =
     R"(.plot { font: 13px system-ui, -apple-system, "Segoe UI", Roboto, "Helvetica Neue", Arial, sans-serif; }
 .plot text { stroke: none; }
 .plot-title { font-weight: 600; }
@@ -67,7 +67,7 @@ std::string plot_style() {
   return fmt::format(
       "{}{}@media screen and (prefers-color-scheme: dark) {{\n{}}}\n"
       "@media print {{\n.plot {{ break-inside: avoid; print-color-adjust: exact; }}\n}}\n",
-      shapes, colours(light), colours(dark));
+      shape_rules, colours(light), colours(dark));
 }
 
 }  // namespace pliant_report

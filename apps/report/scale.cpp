@@ -8,10 +8,10 @@
 namespace pliant_report {
 namespace {
 
-constexpr double largest = DBL_MAX / 2;  ///< so that max − min is finite
-constexpr double narrowest = 1e-290;     ///< so that steps between ticks are no denormal numbers
-constexpr double finest = 1e-11;         ///< of the values: below it, rounding is what would be seen
-constexpr double far_outside = 1e6;      ///< in lengths of the axis: more would make lines of nothing but rounding
+constexpr double largest_bound = DBL_MAX / 2;  ///< so that max − min is finite
+constexpr double narrowest = 1e-290;           ///< so that steps between ticks are no denormal numbers
+constexpr double finest = 1e-11;               ///< of the values: below it, rounding is what would be seen
+constexpr double far_outside = 1e6;  ///< in lengths of the axis: more would make lines of nothing but rounding
 
 bool can_show(bool is_logarithmic, double value) {
   return std::isfinite(value) && (!is_logarithmic || value >= DBL_MIN);
@@ -19,14 +19,14 @@ bool can_show(bool is_logarithmic, double value) {
 
 /// A range of linear coordinates that ticks can be found for.
 Extent widened(Extent range) {
-  range.min = std::clamp(range.min, -largest, largest);
-  range.max = std::clamp(range.max, -largest, largest);
+  range.min = std::clamp(range.min, -largest_bound, largest_bound);
+  range.max = std::clamp(range.max, -largest_bound, largest_bound);
   const double size = std::max(std::abs(range.min), std::abs(range.max));
   if (range.max - range.min <= std::max(narrowest, finest * size)) {
     const double middle = range.min / 2 + range.max / 2;
     const double half = size > 0 ? std::max(narrowest, 0.05 * size) : 1.0;
-    range.min = std::max(middle - half, -largest);
-    range.max = std::min(middle + half, largest);
+    range.min = std::max(middle - half, -largest_bound);
+    range.max = std::min(middle + half, largest_bound);
   }
   return range;
 }
@@ -45,8 +45,8 @@ Extent widened_decades(Extent range) {
 }
 
 Extent with_margin(const Extent& values, double margin, bool is_logarithmic) {
-  const double room = std::min((values.max / 2 - values.min / 2) * margin * 2, largest);
-  Extent result{std::max(values.min - room, -largest), std::min(values.max + room, largest)};
+  const double room = std::min((values.max / 2 - values.min / 2) * margin * 2, largest_bound);
+  Extent result{std::max(values.min - room, -largest_bound), std::min(values.max + room, largest_bound)};
   if (is_logarithmic) return result;
   if (values.min >= 0 && result.min < 0) result.min = 0;
   if (values.max <= 0 && result.max > 0) result.max = 0;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "pliant/mesh/io/read_file.h"
+#include "pliant_io/files/read_file.h"
 
 namespace pliant_sweep {
 namespace {

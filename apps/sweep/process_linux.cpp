@@ -25,7 +25,7 @@ std::string reason(int error_number) {
   return std::generic_category().message(error_number);
 }
 
-[[noreturn]] void fail_output(const std::filesystem::path& path, std::string_view why) {
+[[noreturn]] void fail_process(const std::filesystem::path& path, std::string_view why) {
   throw pliant::Error(pliant::ErrorKind::output, fmt::format("{}: {}", pliant::printable_place(path.string()), why));
 }
 
@@ -85,11 +85,11 @@ std::string end_text(const ProcessEnd& end) {
 ChildProcess::ChildProcess(const std::string& program, const std::vector<std::string>& arguments,
                            const std::filesystem::path& output) {
   const Descriptor file(open(output.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
-  if (file.number() < 0) fail_output(output, fmt::format("cannot be written: {}", reason(errno)));
+  if (file.number() < 0) fail_process(output, fmt::format("cannot be written: {}", reason(errno)));
   // The writing end of a pipe is the standard input: nothing can be read there, and it is closed when the process ends.
   int ends[2] = {-1, -1};
   if (pipe2(ends, O_CLOEXEC) != 0) {
-    fail_output(output.parent_path(), fmt::format("no run can be started: {}; give fewer --jobs", reason(errno)));
+    fail_process(output.parent_path(), fmt::format("no run can be started: {}; give fewer --jobs", reason(errno)));
   }
   Descriptor life(ends[0]);
   const Descriptor other_end(ends[1]);
@@ -98,7 +98,7 @@ ChildProcess::ChildProcess(const std::string& program, const std::vector<std::st
     pliant::fail_input(fmt::format("{}: cannot be started: {}", pliant::printable_place(program), reason(error)));
   }
   if (error != 0) {
-    fail_output(output.parent_path(), fmt::format("no run can be started: {}; give fewer --jobs", reason(error)));
+    fail_process(output.parent_path(), fmt::format("no run can be started: {}; give fewer --jobs", reason(error)));
   }
   life_ = life.release();
 }
@@ -156,10 +156,10 @@ std::string own_program() {
 FolderLock::FolderLock(const std::filesystem::path& folder) {
   // Without O_CLOEXEC: a run whose sweep was killed goes on, and nobody else may write in its folder meanwhile.
   folder_ = open(folder.c_str(), O_RDONLY | O_DIRECTORY);  // NOLINT(android-cloexec-open)
-  if (folder_ < 0) fail_output(folder, fmt::format("cannot be used for a sweep: {}", reason(errno)));
+  if (folder_ < 0) fail_process(folder, fmt::format("cannot be used for a sweep: {}", reason(errno)));
   if (flock(folder_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;  // not all file systems know locks
   close(folder_);
-  fail_output(folder, "another sweep runs here, or its runs still do; wait for them, or give another folder");
+  fail_process(folder, "another sweep runs here, or its runs still do; wait for them, or give another folder");
 }
 
 FolderLock::~FolderLock() {

@@ -7,11 +7,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "pliant/core/atomic_file.h"
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
-#include "pliant/mesh/io/read_file.h"
-#include "pliant/scene/scene.h"
+#include "pliant_io/files/atomic_file.h"
+#include "pliant_io/files/read_file.h"
+#include "pliant_io/scene/scene.h"
 #include "sweep/measurement_table.h"
 
 namespace pliant_sweep {

@@ -4,8 +4,8 @@
 #include <chrono>
 #include <memory>
 
-#include "pliant/core/atomic_file.h"
 #include "pliant/core/error.h"
+#include "pliant_io/files/atomic_file.h"
 #include "sweep/process.h"
 
 namespace pliant_sweep {

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "pliant/core/csv.h"
+#include "pliant_io/files/csv.h"
 #include "sweep/sweep.h"
 
 namespace pliant_sweep {

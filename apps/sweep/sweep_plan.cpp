@@ -10,17 +10,17 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "pliant/core/atomic_file.h"
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
 #include "pliant/core/version.h"
-#include "pliant/mesh/io/read_file.h"
+#include "pliant_io/files/atomic_file.h"
+#include "pliant_io/files/read_file.h"
 
 namespace pliant_sweep {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 constexpr std::string_view plan_name = "sweep.json";
 constexpr std::string_view format_name = "sweep";
@@ -31,25 +31,25 @@ constexpr std::string_view format_name = "sweep";
 
 // ---- to sweep.json and back
 
-Json texts_json(const std::vector<TextStamp>& texts) {
-  Json list = Json::array();
+OrderedJson texts_json(const std::vector<TextStamp>& texts) {
+  OrderedJson list = OrderedJson::array();
   for (const TextStamp& text : texts) list.push_back({{"file", text.file.string()}, {"crc32", text.crc32}});
   return list;
 }
 
-Json plan_json(const SweepPlan& plan) {
+OrderedJson plan_json(const SweepPlan& plan) {
   const SweepSetup& setup = plan.setup;
   std::map<std::string, std::uint32_t> files = setup.files;
   files.insert(plan.other_files.begin(), plan.other_files.end());
-  Json json = {{"pliant_file", format_name},
-               {"pliant", pliant::version},
-               {"scene", setup.scene},
-               {"texts", texts_json(setup.texts)},
-               {"files", files},
-               {"set", setup.set},
-               {"options", Json::object()},
-               {"vary", Json::array()},
-               {"runs", Json::array()}};
+  OrderedJson json = {{"pliant_file", format_name},
+                      {"pliant", pliant::version},
+                      {"scene", setup.scene},
+                      {"texts", texts_json(setup.texts)},
+                      {"files", files},
+                      {"set", setup.set},
+                      {"options", OrderedJson::object()},
+                      {"vary", OrderedJson::array()},
+                      {"runs", OrderedJson::array()}};
   for (const auto& [name, value] : setup.options) json["options"][name] = value;
   for (const Variation& each : setup.variations) {
     json["vary"].push_back({{"path", each.path}, {"values", each.values}});
@@ -71,21 +71,21 @@ bool is_run_name(const std::string& name) {
 }
 
 [[noreturn]] void fail_json(const std::string& what) {
-  throw Json::other_error::create(501, what, nullptr);
+  throw OrderedJson::other_error::create(501, what, nullptr);
 }
 
-std::uint32_t crc32_of(const Json& json) {
+std::uint32_t crc32_of(const OrderedJson& json) {
   const bool is_ours = json.is_number_unsigned() && json.get<std::uint64_t>() <= 0xFFFF'FFFFU;
   if (!is_ours) fail_json("a CRC-32 that is none");
   return json.get<std::uint32_t>();
 }
 
-/// @throws Json::exception
-EarlierPlan earlier_of(const Json& json) {
+/// @throws OrderedJson::exception
+EarlierPlan earlier_of(const OrderedJson& json) {
   EarlierPlan earlier;
   if (json.at("pliant_file") != format_name) fail_json("not of a sweep");
   earlier.version = json.at("pliant").get<std::string>();
-  for (const Json& text : json.at("texts")) {
+  for (const OrderedJson& text : json.at("texts")) {
     earlier.setup.texts.push_back({text.at("file").get<std::string>(), crc32_of(text.at("crc32"))});
   }
   for (const auto& [path, crc32] : json.at("files").items()) earlier.setup.files.emplace(path, crc32_of(crc32));
@@ -93,11 +93,11 @@ EarlierPlan earlier_of(const Json& json) {
   for (const auto& [name, value] : json.at("options").items()) {
     earlier.setup.options.emplace_back(name, value.get<std::string>());
   }
-  for (const Json& each : json.at("vary")) {
+  for (const OrderedJson& each : json.at("vary")) {
     earlier.setup.variations.push_back({each.at("path").get<std::string>(), {}});
   }
   std::set<std::string> names;
-  for (const Json& each : json.at("runs")) {
+  for (const OrderedJson& each : json.at("runs")) {
     SweepRun run{each.at("values").get<Combination>(), each.at("name").get<std::string>()};
     const bool is_ours = is_run_name(run.name) && run.values.size() == earlier.setup.variations.size();
     if (!is_ours) fail_json("a run without its values");
@@ -119,8 +119,8 @@ std::optional<EarlierPlan> read_earlier_plan(const fs::path& folder) {
   }
   std::string why;
   try {
-    return earlier_of(Json::parse(pliant::read_file(file)));
-  } catch (const Json::exception& error) {
+    return earlier_of(OrderedJson::parse(pliant::read_file(file)));
+  } catch (const OrderedJson::exception& error) {
     why = pliant::printable(error.what());
   }
   fail_output(file, fmt::format("was not written by a sweep ({}); choose another folder", why));
@@ -271,7 +271,7 @@ void begin_sweep(const fs::path& folder, const SweepPlan& plan) {
       check(path, "cannot be removed");
     }
   }
-  const std::string text = plan_json(plan).dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+  const std::string text = plan_json(plan).dump(2, ' ', false, OrderedJson::error_handler_t::replace) + '\n';
   pliant::write_file_atomically(folder / plan_name, text);
   fs::create_directories(folder / "runs", error);
   check(folder / "runs", "cannot be made");

@@ -164,13 +164,13 @@ std::vector<double> thinned(const std::vector<double>& values, std::size_t strid
 std::optional<Series> time_series(const std::filesystem::path& file, const std::string& column, std::size_t& stride) {
   try {
     const MeasurementTable table = read_measurements(file);
-    const auto* times = table.find("time");
+    const auto* row_times = table.find("time");
     const auto* values = table.find(column);
-    if (times == nullptr || values == nullptr || values->empty()) return std::nullopt;
+    if (row_times == nullptr || values == nullptr || values->empty()) return std::nullopt;
     constexpr std::size_t most = 1000;
     const std::size_t every = (values->size() + most - 1) / most;
     stride = std::max(stride, every);
-    return Series{"", thinned(*times, every), thinned(*values, every)};
+    return Series{"", thinned(*row_times, every), thinned(*values, every)};
   } catch (const pliant::Error&) {  // it was there a moment ago; the others still tell something
     return std::nullopt;
   }

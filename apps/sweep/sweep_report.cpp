@@ -8,10 +8,10 @@
 
 #include <fmt/format.h>
 
-#include "pliant/core/atomic_file.h"
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
 #include "pliant/core/version.h"
+#include "pliant_io/files/atomic_file.h"
 #include "report/report.h"
 #include "report/typeset.h"
 

@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
-#include "pliant/core/crc32.h"
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
-#include "pliant/mesh/io/read_file.h"
+#include "pliant_io/files/crc32.h"
+#include "pliant_io/files/read_file.h"
 
 namespace pliant_sweep {
 namespace {

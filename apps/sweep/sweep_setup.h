@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "pliant/scene/scene.h"
+#include "pliant_io/scene/scene.h"
 #include "sweep/variation.h"
 
 namespace pliant_sweep {

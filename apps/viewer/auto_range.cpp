@@ -6,8 +6,8 @@
 namespace pliant_viewer {
 namespace {
 
-constexpr Seconds patience{2};
-constexpr float least = 1e-6F;
+constexpr Seconds needed_for{2};
+constexpr float smallest_range = 1e-6F;
 
 /// The next of 1, 2, 5, 10, ... that is no smaller.
 float round_up(float number) {
@@ -21,12 +21,12 @@ float round_up(float number) {
 }  // namespace
 
 std::array<float, 2> AutoRange::update(pliant::ColourBy colour, float largest, Clock::time_point now) {
-  if (!std::isfinite(largest)) largest = least;
-  const float wanted = round_up(std::max(largest, least));
+  if (!std::isfinite(largest)) largest = smallest_range;
+  const float wanted = round_up(std::max(largest, smallest_range));
   const bool is_another = colour != colour_;
   colour_ = colour;
   if (is_another || wanted >= bound_) last_needed_ = now;
-  if (is_another || wanted > bound_ || now - last_needed_ > patience) {
+  if (is_another || wanted > bound_ || now - last_needed_ > needed_for) {
     bound_ = wanted;
     last_needed_ = now;
   }

@@ -1,6 +1,6 @@
 #pragma once
 // The range of a colour map while nobody knows what is still to come.
-#include "pliant/scene/view_settings.h"
+#include "pliant_io/scene/view_settings.h"
 #include "viewer/pacer.h"
 
 namespace pliant_viewer {

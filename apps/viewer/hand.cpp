@@ -6,9 +6,9 @@
 namespace pliant_viewer {
 namespace {
 
-constexpr float slack = 4;       // units that a click may move
-constexpr float pin_reach = 9;   // units about a pin that count as the pin
-constexpr float rope_reach = 7;  // units about a rope that count as the rope
+constexpr float click_slack = 4;  // units that a click may move
+constexpr float pin_reach = 9;    // units about a pin that count as the pin
+constexpr float rope_reach = 7;   // units about a rope that count as the rope
 constexpr float zoom_a_notch = 0.88F;
 
 /// Lets something act on the scene that is seen; after a restart, which may have another mesh, nothing happens.
@@ -95,7 +95,7 @@ Vec3f Hand::target(const Vec2f& at, const Place& place) const {
 void Hand::move(const Vec2f& to, const Place& place) {
   const Vec2f by = (to - last_) / place.screen.size.y();
   last_ = to;
-  const bool is_click = (to - pressed_).norm() <= slack * place.unit;
+  const bool is_click = (to - pressed_).norm() <= click_slack * place.unit;
   switch (action_) {
     case Action::orbit:
       place.camera.orbit(by, place.floor);
@@ -138,7 +138,7 @@ void Hand::release(const MouseEvent& event, const Place& place) {
     action_ = Action::none;
   } else if (action == Action::touch_pin) {
     toggle_pin(vertex_, true, place);
-  } else if (action == Action::touch_body && (event.place - pressed_).norm() <= slack * place.unit) {
+  } else if (action == Action::touch_body && (event.place - pressed_).norm() <= click_slack * place.unit) {
     toggle_pin(point_.nearest_vertex(place.snapshot->frame.content.positions), false, place);
   }
 }

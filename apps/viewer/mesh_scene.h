@@ -1,7 +1,7 @@
 #pragma once
 // A mesh without a scene: simulated as what it most likely is.
-#include "pliant/mesh/io/mesh_file.h"
-#include "pliant/scene/scene.h"
+#include "pliant_io/mesh/mesh_file.h"
+#include "pliant_io/scene/scene.h"
 
 namespace pliant_viewer {
 

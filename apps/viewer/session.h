@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "pliant/scene/scene.h"
+#include "pliant_io/scene/scene.h"
 #include "viewer/parameters.h"
 #include "viewer/picking.h"
 

@@ -16,8 +16,8 @@ using namespace pliant_report;
 
 constexpr int steps_before = 36;           // six after the sheet is let go
 constexpr double pull_per_stiffness = .1;  // [m]: as far as that the softer and the stiffer sheet are pulled alike
-constexpr double soft = 1e3;               // [N/m]
-constexpr double stiff = 1e5;
+constexpr double soft_springs = 1e3;       // [N/m]
+constexpr double stiff_springs = 1e5;
 constexpr int small = 31;  // vertices a side
 constexpr int large = 81;
 constexpr int repeats = 5;
@@ -41,7 +41,7 @@ struct Case {
   std::size_t watched = 0;  ///< iterations in which it was looked for
 
   std::string sheet() const { return fmt::format("{0} × {0}, k = {1:g} N/m", size, stiffness); }
-  bool is_stiff() const { return stiffness == stiff; }
+  bool is_stiff() const { return stiffness == stiff_springs; }
   double seconds_per_iteration() const { return projective.seconds.back() / projective.iterations.back(); }
 };
 
@@ -304,10 +304,10 @@ void add_plots(Chapter& chapter, const std::vector<const Case*>& small_sheets,
 }  // namespace
 
 Chapter run_convergence(const Lab& lab) {
-  const Case soft_small = measure(lab, small, soft, 20000);
-  const Case stiff_small = measure(lab, small, stiff, 200000);
-  const Case soft_large = measure(lab, large, soft, 2000);
-  const Case stiff_large = measure(lab, large, stiff, 2000);
+  const Case soft_small = measure(lab, small, soft_springs, 20000);
+  const Case stiff_small = measure(lab, small, stiff_springs, 200000);
+  const Case soft_large = measure(lab, large, soft_springs, 2000);
+  const Case stiff_large = measure(lab, large, stiff_springs, 2000);
   const std::vector<const Case*> small_sheets = {&soft_small, &stiff_small};
   const std::vector<const Case*> large_sheets = {&soft_large, &stiff_large};
   const std::vector<const Case*> all = {&soft_small, &stiff_small, &soft_large, &stiff_large};

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "pliant/recorder/measurements.h"
+#include "pliant_io/recorder/measurements.h"
 
 namespace pliant_experiments {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "integrators/oscillator.h"
 #include "pliant/core/error.h"
-#include "pliant/scene/builtin_scenes.h"
+#include "pliant_io/scene/builtin_scenes.h"
 #include "support/claims.h"
 #include "support/statistics.h"
 #include "support/trace.h"

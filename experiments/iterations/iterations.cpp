@@ -14,11 +14,11 @@ namespace {
 using namespace pliant;
 using namespace pliant_report;
 
-constexpr double soft = 50;    // [N/m]
-constexpr double stiff = 5e3;  // [N/m]
-constexpr std::array<int, 9> counts = {1, 2, 5, 10, 20, 50, 100, 200, 500};
+constexpr double soft_stiffness = 50;    // [N/m]
+constexpr double stiff_stiffness = 5e3;  // [N/m]
+constexpr std::array<int, 9> iteration_counts = {1, 2, 5, 10, 20, 50, 100, 200, 500};
 constexpr int steps = 600;      // 10 s
-constexpr int last_steps = 60;  // whose mean counts as rest
+constexpr int last_steps = 60;  // whose mean iteration_counts as rest
 constexpr int fall_steps = 60;  // in which the way there is compared
 constexpr double pbd_share = .5;
 constexpr int few = 10;  // iterations, as they are usual
@@ -33,7 +33,8 @@ struct Method {
 
   double at_rest(std::size_t i) const { return falls[i].last_mean(last_steps); }
   const Fall& fall_of(int iterations) const {
-    return falls[static_cast<std::size_t>(std::find(counts.begin(), counts.end(), iterations) - counts.begin())];
+    return falls[static_cast<std::size_t>(std::find(iteration_counts.begin(), iteration_counts.end(), iterations) -
+                                          iteration_counts.begin())];
   }
 };
 
@@ -80,7 +81,7 @@ Strip measure(const Lab& lab, double stiffness) {
   Strip result{stiffness, stretch_at_rest(lab, stiffness), fall(rest, by_newton(lab, stiffness), fall_steps),
                methods(lab, stiffness)};
   for (Method& method : result.methods) {
-    for (const int iterations : counts) {
+    for (const int iterations : iteration_counts) {
       lab.say(fmt::format("{}, {}, {} iterations", result.name(), method.name, iterations));
       method.falls.push_back(fall(rest, method.make(iterations), steps));
     }
@@ -101,8 +102,8 @@ Plot rest_plot(const Strip& of) {
   for (const Method& method : of.methods) {
     Series series{
         .name = method.name, .mark = Mark::line_and_points, .is_dashed = method.is_dashed, .colour = method.colour};
-    for (std::size_t i = 0; i < counts.size(); ++i) {
-      series.x.push_back(counts[i]);
+    for (std::size_t i = 0; i < iteration_counts.size(); ++i) {
+      series.x.push_back(iteration_counts[i]);
       series.y.push_back(100 * method.at_rest(i));
     }
     plot.series.push_back(std::move(series));
@@ -123,7 +124,7 @@ Plot cost_plot(const Strip& of) {
   for (const Method& method : of.methods) {
     Series series{
         .name = method.name, .mark = Mark::line_and_points, .is_dashed = method.is_dashed, .colour = method.colour};
-    for (std::size_t i = 0; i < counts.size(); ++i) {
+    for (std::size_t i = 0; i < iteration_counts.size(); ++i) {
       series.x.push_back(1e3 * method.falls[i].seconds);
       series.y.push_back(of.error(method, i));
     }
@@ -159,12 +160,13 @@ Plot way_plot(const Strip& of) {
 Table rest_table(const Strip& of) {
   Table table{fmt::format("Stretch at rest [%], {}; the equilibrium is at {:.5f} %", of.name(), 100 * of.at_rest),
               {"method"}};
-  for (const int count : counts) table.columns.push_back(fmt::format("{}", count));
+  for (const int count : iteration_counts) table.columns.push_back(fmt::format("{}", count));
   table.columns.emplace_back("ms an iteration");
   for (const Method& method : of.methods) {
     std::vector<std::string> row = {method.name};
-    for (std::size_t i = 0; i < counts.size(); ++i) row.push_back(fmt::format("{:.5f}", 100 * method.at_rest(i)));
-    row.push_back(fmt::format("{:.4f}", 1e3 * method.falls.back().seconds / counts.back()));
+    for (std::size_t i = 0; i < iteration_counts.size(); ++i)
+      row.push_back(fmt::format("{:.5f}", 100 * method.at_rest(i)));
+    row.push_back(fmt::format("{:.4f}", 1e3 * method.falls.back().seconds / iteration_counts.back()));
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -200,8 +202,8 @@ std::string stretches(const Strip& of, const Method& method, std::initializer_li
 
 /// Whether the stretch at rest is within that share of the exact one for all numbers of iterations from `least` on.
 bool is_within(const Strip& of, const Method& method, int least, double share) {
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    if (counts[i] >= least && !(of.error(method, i) <= share)) return false;
+  for (std::size_t i = 0; i < iteration_counts.size(); ++i) {
+    if (iteration_counts[i] >= least && !(of.error(method, i) <= share)) return false;
   }
   return true;
 }
@@ -261,14 +263,14 @@ Claim xpbd_is_soft(const Strips& strips) {
 
 Claim xpbd_converges(const Strips& strips) {
   constexpr double share = .05;
-  Claim claim{fmt::format("XPBD comes to the same stiffness within {} iterations", counts.back()),
+  Claim claim{fmt::format("XPBD comes to the same stiffness within {} iterations", iteration_counts.back()),
               "Macklin et al. 2016", Verdict::holds};
   for (const Strip* of : strips) {
-    const double error = of->error(of->xpbd(), counts.size() - 1);
+    const double error = of->error(of->xpbd(), iteration_counts.size() - 1);
     if (error > share) claim.verdict = Verdict::fails;
     claim.evidence +=
         fmt::format("{}: off by {:.2g} % of the exact stretch, in substeps of one iteration by {:.2g} %. ", of->name(),
-                    100 * error, 100 * of->error(of->xpbd_in_substeps(), counts.size() - 1));
+                    100 * error, 100 * of->error(of->xpbd_in_substeps(), iteration_counts.size() - 1));
   }
   claim.evidence += fmt::format("Asked for: {:.0f} %.", 100 * share);
   return claim;
@@ -278,9 +280,10 @@ Claim pbd_has_no_stiffness(const Strips& strips) {
   Claim claim{"PBD gets the stiffer the more iterations it takes, and knows of no stiffness", "Bouaziz et al. 2014",
               Verdict::holds};
   const Method& first = strips.front()->pbd();
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    claim.evidence += fmt::format("{:.3g} % with {}, ", 100 * first.at_rest(i), counts[i]);
-    if (i > 0 && counts[i] > few && first.at_rest(i) > .75 * first.at_rest(i - 1)) claim.verdict = Verdict::fails;
+  for (std::size_t i = 0; i < iteration_counts.size(); ++i) {
+    claim.evidence += fmt::format("{:.3g} % with {}, ", 100 * first.at_rest(i), iteration_counts[i]);
+    if (i > 0 && iteration_counts[i] > few && first.at_rest(i) > .75 * first.at_rest(i - 1))
+      claim.verdict = Verdict::fails;
   }
   claim.evidence += "whatever k is.";
   return claim;
@@ -289,8 +292,8 @@ Claim pbd_has_no_stiffness(const Strips& strips) {
 }  // namespace
 
 Chapter run_iterations(const Lab& lab) {
-  const Strip softer = measure(lab, soft);
-  const Strip stiffer = measure(lab, stiff);
+  const Strip softer = measure(lab, soft_stiffness);
+  const Strip stiffer = measure(lab, stiff_stiffness);
   const Strips strips = {&softer, &stiffer};
 
   Chapter chapter;

@@ -15,7 +15,7 @@ namespace {
 
 using namespace pliant;
 
-constexpr int most_newton_iterations = 200;
+constexpr int newton_limit = 200;
 constexpr double resting_move = 1e-11;  // [m], of every vertex
 constexpr double long_step = 1;         // [s]
 constexpr int most_long_steps = 1000;
@@ -68,7 +68,7 @@ Mover by_newton(const Lab& lab, double stiffness) {
     const EulerStep step = next_step(simulation, model);
     const Positions before = simulation.state().positions;
     Positions q = step.predicted;
-    newton->minimise(step, q, most_newton_iterations);
+    newton->minimise(step, q, newton_limit);
     simulation.set_state(q, (q - before) / step.time_step);
     return simulation.state().positions;
   };
@@ -86,7 +86,7 @@ double stretch_at_rest(const Lab& lab, double stiffness) {
   for (int i = 0; i < most_long_steps; ++i) {
     const Positions before = simulation.state().positions;
     Positions q = before;
-    newton.minimise(next_step(simulation, model), q, most_newton_iterations);
+    newton.minimise(next_step(simulation, model), q, newton_limit);
     simulation.set_state(q, still);
     if ((q - before).cwiseAbs().maxCoeff() < resting_move) return stretch(scene, q);
   }

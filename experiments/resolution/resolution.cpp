@@ -17,11 +17,11 @@ using namespace pliant_report;
 // Each number of cells is twice the one before.
 constexpr std::array<int, 4> sizes = {11, 21, 41, 81};
 constexpr std::array<std::string_view, 3> diagonals = {"forward", "alternating", "crossed"};
-constexpr double tension = 2.5;  // [N/m], a tenth of the stiffness
+constexpr double pulling_tension = 2.5;  // [N/m], a tenth of the stiffness
 constexpr double angle_step = 7.5;
 constexpr int pulled_size = 41;
 
-const Material springs{"springs", "springs of one constant k", 5};
+const Material spring_material{"springs", "springs of one constant k", 5};
 const Material strain{"strain", "triangle strain", 6};
 const Material fibres{"fibres", "fibres of one EA", 7};
 
@@ -96,7 +96,7 @@ Pulling pull(const Lab& lab, const Material& material, const Tessellation& tesse
   Pulling pulling{material, tessellation};
   for (double degrees = 0; degrees <= 180; degrees += angle_step) {
     pulling.degrees.push_back(degrees);
-    pulling.elongations.push_back(elongation(pulled(lab, material, tessellation, degrees, tension), degrees));
+    pulling.elongations.push_back(elongation(pulled(lab, material, tessellation, degrees, pulling_tension), degrees));
   }
   return pulling;
 }
@@ -133,7 +133,7 @@ Plot pull_plot(const std::vector<Pulling>& all) {
             .caption = fmt::format("{0} × {0} vertices under the same tension of {1} N/m everywhere. Triangle strain "
                                    "gives way alike in all directions. Springs whose diagonals lean one way resist "
                                    "along them (45 degrees) and give way across them (135 degrees).",
-                                   pulled_size, tension),
+                                   pulled_size, pulling_tension),
             .x = {.label = "direction, from the rows of the mesh [degrees]", .min = 0., .max = 180.},
             .y = {.label = "elongation [%]", .min = 0.},
             .series = {}};
@@ -168,8 +168,8 @@ void add_pictures(const Lab& lab, Chapter& chapter) {
     return lab.picture(hung(lab, material, tessellation));
   };
   lab.show(chapter,
-           {picture(springs, {21, "forward"}), picture(springs, {21, "backward"}), picture(strain, {21, "forward"}),
-            picture(strain, {21, "backward"})},
+           {picture(spring_material, {21, "forward"}), picture(spring_material, {21, "backward"}),
+            picture(strain, {21, "forward"}), picture(strain, {21, "backward"})},
            2,
            "Above, springs of one constant: with diagonals from the lower left to the upper right the cloth goes one "
            "way, with the others the other way. Below, triangle strain on the same two meshes.");
@@ -241,7 +241,7 @@ Claim springs_depend_on_direction(const std::vector<Pulling>& pullings) {
   Claim claim{"Springs whose diagonals all lean one way are several times as stiff along them as across", "",
               Verdict::reported};
   for (const Pulling& pulling : pullings) {
-    if (pulling.material.scene != springs.scene) continue;
+    if (pulling.material.scene != spring_material.scene) continue;
     const Extent found = extent(pulling.elongations);
     claim.evidence +=
         fmt::format("{} diagonals: elongations from {:.2f} to {:.2f} %, a factor of {:.2f}. ",
@@ -270,9 +270,9 @@ Claim fibres_halve(const Hanging& hanging) {
 }  // namespace
 
 Chapter run_resolution(const Lab& lab) {
-  const std::vector<Hanging> hanging = {hang(lab, springs), hang(lab, strain), hang(lab, fibres)};
+  const std::vector<Hanging> hanging = {hang(lab, spring_material), hang(lab, strain), hang(lab, fibres)};
   const std::vector<Pulling> pullings = {
-      pull(lab, springs, {pulled_size, "forward"}), pull(lab, springs, {pulled_size, "alternating"}),
+      pull(lab, spring_material, {pulled_size, "forward"}), pull(lab, spring_material, {pulled_size, "alternating"}),
       pull(lab, strain, {pulled_size, "forward"}), pull(lab, strain, {pulled_size, "crossed"})};
 
   Chapter chapter;

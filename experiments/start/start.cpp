@@ -17,8 +17,8 @@ using pliant_report::Chapter;
 using pliant_report::Plot;
 
 constexpr Index converged = 3000;
-constexpr int frames = 30;
-constexpr std::array<Index, 8> counts = {1, 2, 3, 5, 10, 20, 50, 100};
+constexpr int start_frames = 30;
+constexpr std::array<Index, 8> start_counts = {1, 2, 3, 5, 10, 20, 50, 100};
 
 /// Mean over the frames of the largest error of a vertex [m], by number of iterations.
 using Errors = std::map<Index, double>;
@@ -47,14 +47,14 @@ std::map<Start, Errors> measure(const Lab& lab, pliant::Scene& scene, const plia
   std::map<Start, Errors> errors;
   Steps steps(scene);
   pliant::State state = begin;
-  for (int frame = 0; frame < frames; ++frame) {
-    lab.say(fmt::format("frame {} of {}", frame + 1, frames));
+  for (int frame = 0; frame < start_frames; ++frame) {
+    lab.say(fmt::format("frame {} of {}", frame + 1, start_frames));
     const pliant::State exact = steps.from(lab, state, Start::prediction, converged);
     residual = std::max(residual, scene.simulation.evaluate().residual);
     for (const Start start : {Start::prediction, Start::positions}) {
-      for (const Index count : counts) {
+      for (const Index count : start_counts) {
         const pliant::State found = steps.from(lab, state, start, count);
-        errors[start][count] += (found.positions - exact.positions).rowwise().norm().maxCoeff() / frames;
+        errors[start][count] += (found.positions - exact.positions).rowwise().norm().maxCoeff() / start_frames;
       }
     }
     state = exact;

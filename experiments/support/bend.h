@@ -3,7 +3,7 @@
 #include <array>
 
 #include "pliant/constraints/bending.h"
-#include "pliant/scene/scene.h"
+#include "pliant_io/scene/scene.h"
 
 namespace pliant_experiments {
 

@@ -2,7 +2,7 @@
 // The scenes of the experiments, which are part of the program: every experiments/*/*.json.
 #include <span>
 
-#include "pliant/scene/builtin_scenes.h"
+#include "pliant_io/scene/builtin_scenes.h"
 
 namespace pliant_experiments {
 

@@ -1,7 +1,7 @@
 #pragma once
 // What is measured of a scene step by step.
 #include "lab.h"
-#include "pliant/recorder/measurements.h"
+#include "pliant_io/recorder/measurements.h"
 
 namespace pliant_experiments {
 

@@ -3,7 +3,7 @@
 #include <string_view>
 
 #include "pliant/constraints/constraint_set.h"
-#include "pliant/solver/local_step.h"
+#include "pliant/solver/local/local_step.h"
 
 namespace pliant_tests {
 

@@ -10,6 +10,8 @@
 #include "pliant/mesh/shapes.h"
 #include "pliant/mesh/topology.h"
 
+namespace test_bending {
+
 using namespace pliant;
 using namespace pliant_tests;
 
@@ -155,3 +157,5 @@ TEST_CASE("absolute bending does not see a mirrored bump, signed bending does") 
         doctest::Approx(2).epsilon(0.05));
   CHECK(energy_of_dent(HingeBending{.stiffness = kappa, .orientation = Orientation::signed_}) > 1);
 }
+
+}  // namespace test_bending

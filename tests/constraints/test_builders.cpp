@@ -8,6 +8,8 @@
 #include "pliant/mesh/shapes.h"
 #include "pliant/mesh/topology.h"
 
+namespace test_builders {
+
 using namespace pliant;
 using namespace pliant_tests;
 
@@ -130,3 +132,5 @@ TEST_CASE("a flat mesh is flat to bending, however it lies in space") {
     }
   }
 }
+
+}  // namespace test_builders

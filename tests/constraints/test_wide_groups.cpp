@@ -6,6 +6,8 @@
 #include "pliant/constraints/builtin.h"
 #include "pliant/mesh/shapes.h"
 
+namespace test_wide_groups {
+
 using namespace pliant;
 using namespace pliant_tests;
 
@@ -87,3 +89,5 @@ TEST_CASE("constraints that the local step could not hold are refused, whoever m
   advance(simulation, 1);
   CHECK(simulation.state().positions.allFinite());
 }
+
+}  // namespace test_wide_groups

@@ -5,9 +5,11 @@
 #include <doctest/doctest.h>
 #include <sys/resource.h>
 
-#include "pliant/core/atomic_file.h"
+#include "pliant_io/files/atomic_file.h"
 #include "tests/mesh/meshes.h"
 #include "tests/support/temporary_folder.h"
+
+namespace test_atomic_file {
 
 namespace fs = std::filesystem;
 using namespace pliant;
@@ -131,3 +133,5 @@ TEST_CASE("what cannot be written is an output error with the path and the reaso
   CHECK(fs::is_character_file("/dev/null"));
   CHECK(folder.file_count() == 0);
 }
+
+}  // namespace test_atomic_file

@@ -2,7 +2,9 @@
 
 #include <doctest/doctest.h>
 
-#include "pliant/core/base64.h"
+#include "pliant_io/files/base64.h"
+
+namespace test_base64 {
 
 using pliant::base64;
 
@@ -28,3 +30,5 @@ TEST_CASE("base64 takes any bytes, and uses all of its digits") {
     CHECK(text.find(digit) != std::string::npos);
   }
 }
+
+}  // namespace test_base64

@@ -1,6 +1,8 @@
 #include <doctest/doctest.h>
 
-#include "pliant/core/csv.h"
+#include "pliant_io/files/csv.h"
+
+namespace test_csv {
 
 using namespace pliant;
 
@@ -13,3 +15,5 @@ TEST_CASE("a field of a table has quotes where it needs them") {
   CHECK(csv_field("a\nb") == "\"a\nb\"");
   CHECK(csv_field("a\r") == "\"a\r\"");
 }
+
+}  // namespace test_csv

@@ -2,6 +2,8 @@
 
 #include "pliant/core/printable.h"
 
+namespace test_printable {
+
 using namespace pliant;
 
 TEST_CASE("what commands a terminal or turns the direction of writing becomes a blank, and what is no UTF-8 a mark") {
@@ -17,3 +19,5 @@ TEST_CASE("what is long is cut between characters") {
   CHECK(printable("aäb", 3) == "aä...");
   CHECK(printable("aäb", 2) == "a...");
 }
+
+}  // namespace test_printable

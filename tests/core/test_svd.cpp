@@ -3,6 +3,8 @@
 #include "pliant/core/svd.h"
 #include "random.h"
 
+namespace test_svd {
+
 using namespace pliant;
 using namespace pliant_tests;
 
@@ -124,3 +126,5 @@ TEST_CASE("any_orthogonal is a unit vector at a right angle, and always the same
     CHECK(t == detail::any_orthogonal(u));
   }
 }
+
+}  // namespace test_svd

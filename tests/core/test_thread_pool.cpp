@@ -6,6 +6,8 @@
 #include "../mesh/meshes.h"
 #include "pliant/core/thread_pool.h"
 
+namespace test_thread_pool {
+
 using namespace pliant;
 using namespace pliant_tests;
 
@@ -40,3 +42,5 @@ TEST_CASE("a negative number of threads is refused, zero means all processors") 
   CHECK(contains(error_of([] { ThreadPool(-1); }), "threads: -1 is negative"));
   CHECK(ThreadPool(0).thread_count() >= 1);
 }
+
+}  // namespace test_thread_pool

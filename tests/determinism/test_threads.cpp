@@ -6,6 +6,8 @@
 #include "../simulation/run.h"
 #include "pliant/core/error.h"
 
+namespace test_threads {
+
 using namespace pliant;
 using namespace pliant_tests;
 
@@ -96,3 +98,5 @@ TEST_CASE("a simulation goes on where it was after it has been moved") {
   advance(elsewhere, 3);
   CHECK(same_bits(bits_of(elsewhere), bits_of(stayed)));
 }
+
+}  // namespace test_threads

@@ -5,7 +5,9 @@
 #include <doctest/doctest.h>
 
 #include "pliant/constraints/builtin.h"
-#include "pliant/scene/scene.h"
+#include "pliant_io/scene/scene.h"
+
+namespace test_readme {
 
 namespace {
 
@@ -72,3 +74,5 @@ TEST_CASE("the README's scene runs") {
   for (int i = 0; i < 5; ++i) scene.step();
   CHECK(scene.simulation.state().positions.allFinite());
 }
+
+}  // namespace test_readme

@@ -8,11 +8,13 @@
 #include "pliant/forces/mouse_spring.h"
 #include "pliant/forces/pressure.h"
 #include "pliant/forces/wind.h"
-#include "pliant/mesh/io/mesh_file.h"
 #include "pliant/mesh/shapes.h"
-#include "pliant/scene/event_options.h"
-#include "pliant/scene/scene.h"
+#include "pliant_io/mesh/mesh_file.h"
+#include "pliant_io/scene/event_options.h"
+#include "pliant_io/scene/scene.h"
 #include "tests/support/temporary_folder.h"
+
+namespace test_scenes_page {
 
 namespace {
 
@@ -138,3 +140,5 @@ TEST_CASE("the tables list every option") {
 }
 
 }  // namespace
+
+}  // namespace test_scenes_page

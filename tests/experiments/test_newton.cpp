@@ -8,6 +8,8 @@
 #include "pliant/core/error.h"
 #include "pliant/mesh/shapes.h"
 
+namespace test_newton {
+
 using namespace pliant;
 using namespace pliant_experiments;
 using namespace pliant_tests;
@@ -141,3 +143,5 @@ TEST_CASE("what is no spring and no pin is refused") {
   simulation.add(body, TriangleStrain{});
   CHECK_THROWS_WITH_AS(mass_spring(simulation), doctest::Contains("triangle_strain"), Error);
 }
+
+}  // namespace test_newton

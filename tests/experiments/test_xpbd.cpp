@@ -7,6 +7,8 @@
 #include "pliant/core/error.h"
 #include "pliant/mesh/shapes.h"
 
+namespace test_xpbd {
+
 using namespace pliant;
 using namespace pliant_experiments;
 using namespace pliant_tests;
@@ -128,3 +130,5 @@ TEST_CASE("XPBD: soft pins are refused") {
   simulation.add(BodyId{0}, Position{.on = {3}, .hold = Hold::soft});
   CHECK_THROWS_WITH_AS(Xpbd(simulation, {}), doctest::Contains("soft pins"), Error);
 }
+
+}  // namespace test_xpbd

@@ -8,6 +8,8 @@
 #include "pliant/forces/test_force.h"
 #include "pliant/mesh/shapes.h"
 
+namespace test_forces {
+
 using namespace pliant;
 using namespace pliant_tests;
 
@@ -177,3 +179,5 @@ TEST_CASE("the targets of a drag stand in the order of its constraints, whatever
   CHECK(simulation.target(drag, 0) == Vec3::Constant(1));
   CHECK(simulation.target(drag, 2) == Vec3::Constant(3));
 }
+
+}  // namespace test_forces

@@ -11,6 +11,8 @@
 #include "pliant/forces/pressure.h"
 #include "pliant/mesh/shapes.h"
 
+namespace test_pressure {
+
 using namespace pliant;
 using namespace pliant_tests;
 
@@ -223,3 +225,5 @@ TEST_CASE("only the selected, closed part of a body holds the pressure") {
   options.on = ball;
   CHECK(refusal(both, options).empty());
 }
+
+}  // namespace test_pressure

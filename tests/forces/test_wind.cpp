@@ -9,6 +9,8 @@
 #include "pliant/forces/wind.h"
 #include "pliant/mesh/shapes.h"
 
+namespace test_wind {
+
 using namespace pliant;
 using namespace pliant_tests;
 
@@ -202,3 +204,5 @@ TEST_CASE("what a wind refuses") {
       error_of([&] { simulation.add_force(std::make_unique<Wind>(outside, std::vector<Real>{1}, WindOptions{})); }),
       "wind: vertex 3 is out of range"));
 }
+
+}  // namespace test_wind

@@ -5,7 +5,7 @@
 
 #include <doctest/doctest.h>
 
-#include "pliant/mesh/io/mesh_file.h"
+#include "pliant_io/mesh/mesh_file.h"
 #include "tests/mesh/meshes.h"
 #include "tests/support/temporary_folder.h"
 

@@ -9,6 +9,8 @@
 #include "pliant/mesh/topology.h"
 #include "tests/mesh/files.h"
 
+namespace test_diagnosis {
+
 using namespace pliant;
 using namespace pliant_tests;
 
@@ -241,3 +243,5 @@ TEST_CASE("counts agree with the topology of random triangles, whatever passes t
     CHECK(count(diagnose(mesh), DefectKind::nonmanifold_vertices) == vertex_rings(mesh).nonmanifold_vertex_count);
   }
 }
+
+}  // namespace test_diagnosis

@@ -8,6 +8,8 @@
 #include "pliant/mesh/shapes.h"
 #include "tests/mesh/meshes.h"
 
+namespace test_geometry {
+
 using namespace pliant;
 using namespace pliant_tests;
 
@@ -149,3 +151,5 @@ TEST_CASE("an inverted tetrahedron is told from a flat one") {
   CHECK(refusal(mesh) ==
         "flag: tetrahedron 1 (vertices 0, 2, 1, 3) is inverted, its volume is -0.167 m^3; swap two of its vertices");
 }
+
+}  // namespace test_geometry

@@ -11,6 +11,8 @@
 #include "pliant/mesh/topology.h"
 #include "tests/mesh/meshes.h"
 
+namespace test_join {
+
 using namespace pliant;
 using namespace pliant_tests;
 
@@ -189,3 +191,5 @@ TEST_CASE("what joining refuses") {
   bad[1] = {"", mesh_of({{0, nan, 0}})};
   CHECK(contains(error_of([&] { join(bad, 0); }), "part 1: "));
 }
+
+}  // namespace test_join

@@ -7,6 +7,8 @@
 #include "pliant/mesh/shapes.h"
 #include "tests/mesh/meshes.h"
 
+namespace test_mass {
+
 using namespace pliant;
 using namespace pliant_tests;
 
@@ -98,3 +100,5 @@ TEST_CASE("a density asks for its elements") {
   CHECK(contains(refusal(sheet, Mass::line_density(1)), "given as a line density, but the mesh has no edge elements"));
   CHECK(contains(refusal(bar({}), Mass::area_density(1)), "given as an area density, but the mesh has no triangles"));
 }
+
+}  // namespace test_mass

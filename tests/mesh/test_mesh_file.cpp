@@ -3,10 +3,12 @@
 
 #include <doctest/doctest.h>
 
-#include "pliant/mesh/io/mesh_file.h"
 #include "pliant/mesh/shapes.h"
 #include "pliant/mesh/topology.h"
+#include "pliant_io/mesh/mesh_file.h"
 #include "tests/mesh/files.h"
+
+namespace test_mesh_file {
 
 namespace fs = std::filesystem;
 using namespace pliant;
@@ -124,3 +126,5 @@ TEST_CASE("every truncation of a file is a mesh or an error, in every format") {
     }
   }
 }
+
+}  // namespace test_mesh_file

@@ -7,10 +7,12 @@
 #include <sys/stat.h>
 
 #include "pliant/mesh/geometry.h"
-#include "pliant/mesh/io/obj.h"
 #include "pliant/mesh/shapes.h"
 #include "pliant/mesh/topology.h"
+#include "pliant_io/mesh/obj.h"
 #include "tests/mesh/files.h"
+
+namespace test_obj {
 
 namespace fs = std::filesystem;
 using namespace pliant;
@@ -357,3 +359,5 @@ TEST_CASE("what cannot be written leaves no file behind") {
   CHECK(contains(error_of([&] { write_obj(absent, mesh, mesh.vertices); }, ErrorKind::output), absent.string()));
   CHECK(folder.file_count() == 1);
 }
+
+}  // namespace test_obj

@@ -4,6 +4,8 @@
 
 #include "tests/mesh/files.h"
 
+namespace test_off {
+
 using namespace pliant;
 using namespace pliant_tests;
 
@@ -102,3 +104,5 @@ TEST_CASE("a malformed OFF file is refused with its place") {
   check("OFF\n4 1 0\n" + quad + "2 1 1\n", "a:7: an edge from vertex 1 to itself;");
   check(std::string("OFF\n4 1 0\n0 \0 0\n", 16), "a:");
 }
+
+}  // namespace test_off

@@ -4,9 +4,11 @@
 
 #include <doctest/doctest.h>
 
-#include "pliant/mesh/io/ply.h"
 #include "pliant/mesh/shapes.h"
+#include "pliant_io/mesh/ply.h"
 #include "tests/mesh/files.h"
+
+namespace test_ply {
 
 namespace fs = std::filesystem;
 using namespace pliant;
@@ -297,3 +299,5 @@ TEST_CASE("a malformed PLY file is refused with its place") {
     check(start + "\x03" + std::string(12, '\0'), "a: row 0 of element \"face\": a face with vertex 0 at two corners;");
   }
 }
+
+}  // namespace test_ply

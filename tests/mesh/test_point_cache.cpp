@@ -7,8 +7,10 @@
 #include <doctest/doctest.h>
 
 #include "pliant/core/error.h"
-#include "pliant/mesh/io/point_cache.h"
+#include "pliant_io/mesh/point_cache.h"
 #include "tests/support/temporary_folder.h"
+
+namespace test_point_cache {
 
 namespace {
 
@@ -197,3 +199,5 @@ TEST_CASE("frames that are there already, and other times") {
 }
 
 }  // namespace
+
+}  // namespace test_point_cache

@@ -12,6 +12,8 @@
 #include "pliant/mesh/topology.h"
 #include "tests/mesh/meshes.h"
 
+namespace test_shapes {
+
 using namespace pliant;
 using namespace pliant_tests;
 
@@ -306,3 +308,5 @@ TEST_CASE("shapes too large for memory are refused, not tried") {
   refused([] { bar({.cells = {huge, huge, huge}}); }, "bar: cells ask for 9.9e+27 vertices");
   refused([] { chain({.links = huge}); }, "chain: links ask for 2.15e+09 vertices");
 }
+
+}  // namespace test_shapes

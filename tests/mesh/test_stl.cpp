@@ -12,6 +12,8 @@
 #include "pliant/mesh/topology.h"
 #include "tests/mesh/files.h"
 
+namespace test_stl {
+
 using namespace pliant;
 using namespace pliant_tests;
 
@@ -203,3 +205,5 @@ TEST_CASE("a malformed STL file is refused with its place") {
   check("solid\n" + text_facet("vertex 0 0 0\nvertex 1 nan 0\n"), "a:5: \"nan\" is not finite;");
   check("solid\n" + text_facet("vertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\n"), "a:9: the file ends without endsolid;");
 }
+
+}  // namespace test_stl

@@ -8,6 +8,8 @@
 #include "pliant/mesh/shapes.h"
 #include "tests/mesh/files.h"
 
+namespace test_tetrahedron_files {
+
 using namespace pliant;
 using namespace pliant_tests;
 
@@ -169,3 +171,5 @@ TEST_CASE("malformed TetGen files are refused with their place") {
   check(points + "1 4 0\n0 0 1 2 3\n1 0 1 2 3\n", "a:8: more rows than the first line counts;");
   check(points + "3 4 0\n0 0 1 2 3 # and two more\n", "a:8: the file ends before its last tetrahedra;");
 }
+
+}  // namespace test_tetrahedron_files

@@ -8,6 +8,8 @@
 #include "pliant/mesh/topology.h"
 #include "tests/mesh/meshes.h"
 
+namespace test_topology {
+
 using namespace pliant;
 using namespace pliant_tests;
 
@@ -219,3 +221,5 @@ TEST_CASE("components are numbered by their smallest vertex, through elements of
   CHECK(components(mesh) == std::vector<Index>(17, 0));
   CHECK(components(Mesh{}).empty());
 }
+
+}  // namespace test_topology

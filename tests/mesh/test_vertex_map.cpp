@@ -4,8 +4,10 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
-#include "pliant/mesh/io/vertex_map.h"
+#include "pliant_io/mesh/vertex_map.h"
 #include "tests/mesh/files.h"
+
+namespace test_vertex_map {
 
 using namespace pliant;
 using namespace pliant_tests;
@@ -89,3 +91,5 @@ TEST_CASE("arrays that are no map are refused") {
     CHECK(refusal(whole.substr(0, length)).starts_with("a:"));
   }
 }
+
+}  // namespace test_vertex_map

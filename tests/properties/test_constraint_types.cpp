@@ -8,6 +8,8 @@
 #include "pliant/mesh/shapes.h"
 #include "pliant/mesh/topology.h"
 
+namespace test_constraint_types {
+
 using namespace pliant;
 using namespace pliant_tests;
 
@@ -194,3 +196,5 @@ TEST_CASE_TEMPLATE_DEFINE("the energy grows in proportion to the stiffness", Typ
   });
 }
 TEST_CASE_TEMPLATE_APPLY(linear_in_stiffness, BuiltinConstraints);
+
+}  // namespace test_constraint_types

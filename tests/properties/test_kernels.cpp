@@ -4,6 +4,8 @@
 #include "pliant/constraints/kernels/local_kernels.h"
 #include "projection_samples.h"
 
+namespace test_kernels {
+
 using namespace pliant;
 using namespace pliant_tests;
 
@@ -238,3 +240,5 @@ TEST_CASE("a batch takes from a kernel what it does, and does the rest by itself
     for (std::size_t a = 12 * i; a < 12 * i + 12; ++a) CHECK(std::abs(forces[a] - one_by_one[a]) < 1e-9 * scale);
   }
 }
+
+}  // namespace test_kernels

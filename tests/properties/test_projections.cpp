@@ -4,6 +4,8 @@
 #include "pliant/core/svd.h"
 #include "projection_samples.h"
 
+namespace test_projections {
+
 using namespace pliant;
 using namespace pliant_tests;
 
@@ -167,3 +169,5 @@ TEST_CASE("a tetrahedron is projected to a positive determinant, however it has 
     }
   }
 }
+
+}  // namespace test_projections

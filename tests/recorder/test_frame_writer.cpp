@@ -6,10 +6,12 @@
 #include <doctest/doctest.h>
 
 #include "pliant/core/error.h"
-#include "pliant/mesh/io/obj.h"
 #include "pliant/mesh/shapes.h"
-#include "pliant/recorder/frame_writer.h"
+#include "pliant_io/mesh/obj.h"
+#include "pliant_io/recorder/frame_writer.h"
 #include "tests/support/temporary_folder.h"
+
+namespace test_frame_writer {
 
 namespace {
 
@@ -107,3 +109,5 @@ TEST_CASE("OBJ frames of several bodies are one file with an object each") {
 }
 
 }  // namespace
+
+}  // namespace test_frame_writer

@@ -6,7 +6,9 @@
 
 #include "pliant/core/error.h"
 #include "pliant/mesh/shapes.h"
-#include "pliant/recorder/keyframes.h"
+#include "pliant_io/export/keyframes.h"
+
+namespace test_keyframes {
 
 namespace {
 
@@ -116,3 +118,5 @@ TEST_CASE("tolerances and counts out of range") {
 }
 
 }  // namespace
+
+}  // namespace test_keyframes

@@ -13,8 +13,10 @@
 #include "pliant/constraints/triangle_strain.h"
 #include "pliant/forces/gravity.h"
 #include "pliant/mesh/shapes.h"
-#include "pliant/recorder/recorder.h"
+#include "pliant_io/recorder/recorder.h"
 #include "tests/support/temporary_folder.h"
+
+namespace test_measurements {
 
 namespace {
 
@@ -160,3 +162,5 @@ TEST_CASE("groups that come and go have columns from the start, and 0 where they
 }
 
 }  // namespace
+
+}  // namespace test_measurements

@@ -6,11 +6,13 @@
 #include <doctest/doctest.h>
 
 #include "pliant/core/error.h"
-#include "pliant/mesh/io/obj.h"
 #include "pliant/mesh/shapes.h"
-#include "pliant/recorder/recorder.h"
-#include "pliant/recorder/run_files.h"
+#include "pliant_io/mesh/obj.h"
+#include "pliant_io/recorder/recorder.h"
+#include "pliant_io/recorder/run_files.h"
 #include "tests/support/temporary_folder.h"
+
+namespace test_run_files {
 
 namespace {
 
@@ -170,3 +172,5 @@ TEST_CASE("a run.json of something else is not replaced") {
 }
 
 }  // namespace
+
+}  // namespace test_run_files

@@ -3,6 +3,8 @@
 #include "../core/random.h"
 #include "render/camera.h"
 
+namespace test_camera {
+
 using namespace pliant_render;
 using pliant_tests::Random;
 
@@ -104,3 +106,5 @@ TEST_CASE("a target alone is in the middle as well, and nothing is divided by ze
     CHECK(view.projection(1).allFinite());
   }
 }
+
+}  // namespace test_camera

@@ -17,6 +17,8 @@
 #include "tests/mesh/meshes.h"
 #include "tests/support/temporary_folder.h"
 
+namespace test_film_writer {
+
 namespace fs = std::filesystem;
 using namespace pliant_render;
 using namespace pliant_tests;
@@ -401,3 +403,5 @@ TEST_CASE("frames of another size, and no frames, are the program's mistakes") {
   CHECK_THROWS_AS(writer.close(), std::logic_error);
   CHECK(folder.file_count() == 0);
 }
+
+}  // namespace test_film_writer

@@ -11,6 +11,8 @@
 #include "tests/mesh/meshes.h"
 #include "tests/support/temporary_folder.h"
 
+namespace test_image {
+
 namespace fs = std::filesystem;
 using namespace pliant_render;
 using namespace pliant_tests;
@@ -114,3 +116,5 @@ TEST_CASE("frames of several sizes make no contact sheet, nor do none") {
   CHECK_THROWS_AS(contact_sheet({}, 2, 0, black), std::logic_error);
   CHECK_THROWS_AS(contact_sheet(std::span(frames).first(1), 0, 0, black), std::logic_error);
 }
+
+}  // namespace test_image

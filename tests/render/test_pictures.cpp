@@ -9,6 +9,8 @@
 #include "render/picture_maker.h"
 #include "render/quantities.h"
 
+namespace test_pictures {
+
 using namespace pliant_render;
 using namespace pliant_tests;
 
@@ -250,3 +252,5 @@ TEST_CASE("a size past what the driver draws is refused") {
     CHECK((contains(message, "size: ") || contains(message, "OpenGL: ")));
   }
 }
+
+}  // namespace test_pictures

@@ -5,6 +5,8 @@
 #include "render/quantities.h"
 #include "render/signs.h"
 
+namespace test_quantities {
+
 using namespace pliant_render;
 using pliant::ColourBy;
 
@@ -88,3 +90,5 @@ TEST_CASE("lightness rises evenly along the map of speeds, and falls to both end
     CHECK(lightness(both[both.size() - 1 - i]) > lightness(both[both.size() - 1 - i + 16]));
   }
 }
+
+}  // namespace test_quantities

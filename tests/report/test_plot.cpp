@@ -13,6 +13,8 @@
 #include "tests/core/random.h"
 #include "tests/report/markup.h"
 
+namespace test_plot {
+
 using namespace pliant_report;
 using namespace pliant_tests;
 
@@ -355,3 +357,5 @@ TEST_CASE("a plot has a name for those who do not see it, and every text is esca
     CHECK((text.find("xmlns=\"http://www.w3.org/2000/svg\"") != std::string::npos) == is_alone);
   }
 }
+
+}  // namespace test_plot

@@ -4,9 +4,11 @@
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
-#include "pliant/core/base64.h"
+#include "pliant_io/files/base64.h"
 #include "report/report.h"
 #include "tests/report/markup.h"
+
+namespace test_report {
 
 using namespace pliant_report;
 using namespace pliant_tests;
@@ -256,3 +258,5 @@ TEST_CASE("JSON takes texts that are not UTF-8 and times that are not finite") {
   CHECK(json["chapters"][1]["seconds"] == 1.0);
   CHECK(Markup(to_html(report)).of_class("took").size() == 1);
 }
+
+}  // namespace test_report

@@ -2,6 +2,8 @@
 
 #include "report/text.h"
 
+namespace test_text {
+
 using namespace pliant_report;
 
 TEST_CASE("text for pages has no markup, no control characters and no bytes that are not UTF-8") {
@@ -37,3 +39,5 @@ TEST_CASE("a text that is shortened fits and says that it goes on") {
   CHECK(text.ends_with("…"));
   CHECK(text.starts_with("a te"));
 }
+
+}  // namespace test_text

@@ -10,6 +10,8 @@
 #include "report/ticks.h"
 #include "tests/core/random.h"
 
+namespace test_ticks {
+
 using namespace pliant_report;
 using pliant_tests::Random;
 
@@ -150,3 +152,5 @@ TEST_CASE("logarithmic ticks of any range lie in it in order, few enough, and th
     }
   }
 }
+
+}  // namespace test_ticks

@@ -3,6 +3,8 @@
 
 #include "report/typeset.h"
 
+namespace test_typeset {
+
 using pliant_report::with_powers;
 
 TEST_CASE("numbers with exponents become powers of ten") {
@@ -34,3 +36,5 @@ TEST_CASE("the page and its plots have powers, the data do not") {
   }
   CHECK(pliant_report::to_json(report).find("5e5") != std::string::npos);
 }
+
+}  // namespace test_typeset

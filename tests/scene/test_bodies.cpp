@@ -6,9 +6,11 @@
 
 #include "pliant/core/error.h"
 #include "pliant/mesh/topology.h"
-#include "pliant/scene/scene.h"
+#include "pliant_io/scene/scene.h"
 #include "tests/mesh/meshes.h"
 #include "tests/support/temporary_folder.h"
+
+namespace test_bodies {
 
 namespace {
 
@@ -141,3 +143,5 @@ TEST_CASE("pressure from a scene") {
 }
 
 }  // namespace
+
+}  // namespace test_bodies

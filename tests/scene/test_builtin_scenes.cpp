@@ -10,10 +10,12 @@
 
 #include "pliant/mesh/geometry.h"
 #include "pliant/mesh/topology.h"
-#include "pliant/scene/builtin_scenes.h"
-#include "pliant/scene/nearest_names.h"
-#include "pliant/scene/scene.h"
+#include "pliant_io/scene/builtin_scenes.h"
+#include "pliant_io/scene/nearest_names.h"
+#include "pliant_io/scene/scene.h"
 #include "tests/support/temporary_folder.h"
+
+namespace test_builtin_scenes {
 
 namespace {
 
@@ -322,3 +324,5 @@ TEST_CASE("nearest names") {
 }
 
 }  // namespace
+
+}  // namespace test_builtin_scenes

@@ -5,9 +5,11 @@
 #include <fmt/format.h>
 
 #include "pliant/core/error.h"
-#include "pliant/scene/builtin_scenes.h"
-#include "pliant/scene/checkpoint.h"
+#include "pliant_io/checkpoint/checkpoint.h"
+#include "pliant_io/scene/builtin_scenes.h"
 #include "tests/support/temporary_folder.h"
+
+namespace test_checkpoint {
 
 using namespace pliant;
 using pliant_tests::TemporaryFolder;
@@ -218,3 +220,5 @@ TEST_CASE("a mesh that was changed since is named") {
   std::filesystem::remove(mesh);
   CHECK(refusal(TemporaryFolder::read(checkpoint)).find("sail.obj: no such file") != std::string::npos);
 }
+
+}  // namespace test_checkpoint

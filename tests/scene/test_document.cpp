@@ -8,7 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "pliant/core/error.h"
-#include "pliant/scene/document.h"
+#include "pliant_io/scene/document.h"
+
+namespace test_document {
 
 namespace {
 
@@ -224,3 +226,5 @@ TEST_CASE("damaged CBOR is refused") {
 }
 
 }  // namespace
+
+}  // namespace test_document

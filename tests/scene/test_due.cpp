@@ -4,6 +4,8 @@
 #include "../mesh/meshes.h"
 #include "timeline_rig.h"
 
+namespace test_due {
+
 using namespace pliant;
 using namespace pliant_tests;
 
@@ -176,3 +178,5 @@ TEST_CASE("events, motions and ramps that are refused") {
   CHECK(contains(ramp(GroupId{9}, 5, 1), "group 9 does not exist"));
   CHECK(rig.timeline.is_over());
 }
+
+}  // namespace test_due

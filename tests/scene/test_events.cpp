@@ -7,8 +7,10 @@
 
 #include "../mesh/meshes.h"
 #include "pliant/pliant.h"
-#include "pliant/scene/scene.h"
+#include "pliant_io/scene/scene.h"
 #include "tests/support/temporary_folder.h"
+
+namespace test_events {
 
 using namespace pliant;
 using namespace pliant_tests;
@@ -388,3 +390,5 @@ TEST_CASE("times beyond all steps are read, and never come") {
   CHECK(scene.simulation.find_group("skin").has_value());
   CHECK(!scene.timeline.is_over());
 }
+
+}  // namespace test_events

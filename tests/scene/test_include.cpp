@@ -4,11 +4,13 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
-#include "pliant/core/crc32.h"
 #include "pliant/core/error.h"
-#include "pliant/scene/builtin_scenes.h"
-#include "pliant/scene/scene.h"
+#include "pliant_io/files/crc32.h"
+#include "pliant_io/scene/builtin_scenes.h"
+#include "pliant_io/scene/scene.h"
 #include "tests/support/temporary_folder.h"
+
+namespace test_include {
 
 namespace {
 
@@ -227,3 +229,5 @@ TEST_CASE("the CRC-32 of gzip") {
 }
 
 }  // namespace
+
+}  // namespace test_include

@@ -4,8 +4,10 @@
 #include <doctest/doctest.h>
 
 #include "pliant/core/error.h"
-#include "pliant/scene/scene.h"
+#include "pliant_io/scene/scene.h"
 #include "tests/support/temporary_folder.h"
+
+namespace test_maps {
 
 namespace {
 
@@ -174,3 +176,5 @@ TEST_CASE("meshes of every format, scaled and turned") {
 }
 
 }  // namespace
+
+}  // namespace test_maps

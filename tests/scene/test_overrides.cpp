@@ -4,7 +4,9 @@
 #include <doctest/doctest.h>
 
 #include "pliant/core/error.h"
-#include "pliant/scene/scene.h"
+#include "pliant_io/scene/scene.h"
+
+namespace test_overrides {
 
 namespace {
 
@@ -128,3 +130,5 @@ TEST_CASE("a scene can be read again from its source") {
 }
 
 }  // namespace
+
+}  // namespace test_overrides

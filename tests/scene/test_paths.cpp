@@ -4,7 +4,10 @@
 #include <doctest/doctest.h>
 
 #include "../mesh/meshes.h"
+#include "pliant_io/mesh/follow_cache.h"
 #include "timeline_rig.h"
+
+namespace test_paths {
 
 using namespace pliant;
 using namespace pliant_tests;
@@ -229,3 +232,5 @@ TEST_CASE("pins follow an animation, linear between its frames, and stay where i
                  }),
                  "vertex 2 is out of range"));
 }
+
+}  // namespace test_paths

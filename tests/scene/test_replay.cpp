@@ -5,6 +5,8 @@
 #include "../mesh/meshes.h"
 #include "timeline_rig.h"
 
+namespace test_replay {
+
 using namespace pliant;
 using namespace pliant_tests;
 
@@ -208,3 +210,5 @@ TEST_CASE("an edit that fails takes those of its step back, and says which it wa
   untouched.simulation.step();
   CHECK(rig.simulation.state().positions == untouched.simulation.state().positions);
 }
+
+}  // namespace test_replay

@@ -4,7 +4,9 @@
 
 #include <doctest/doctest.h>
 
-#include "pliant/scene/scene.h"
+#include "pliant_io/scene/scene.h"
+
+namespace test_scene {
 
 namespace {
 
@@ -166,3 +168,5 @@ TEST_CASE("overrides take the place of the scene's values") {
 }
 
 }  // namespace
+
+}  // namespace test_scene

@@ -4,8 +4,10 @@
 #include <doctest/doctest.h>
 
 #include "pliant/core/error.h"
-#include "pliant/scene/scene.h"
+#include "pliant_io/scene/scene.h"
 #include "tests/support/temporary_folder.h"
+
+namespace test_scene_errors {
 
 namespace {
 
@@ -233,3 +235,5 @@ TEST_CASE("a scene file that is not there, and one in a folder of its own") {
 }
 
 }  // namespace
+
+}  // namespace test_scene_errors

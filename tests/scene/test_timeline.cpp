@@ -3,7 +3,9 @@
 
 #include <doctest/doctest.h>
 
-#include "pliant/scene/scene.h"
+#include "pliant_io/scene/scene.h"
+
+namespace test_timeline {
 
 namespace {
 
@@ -79,3 +81,5 @@ TEST_CASE("a later move takes over from where an earlier one has come") {
 }
 
 }  // namespace
+
+}  // namespace test_timeline

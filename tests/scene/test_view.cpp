@@ -4,7 +4,9 @@
 #include <doctest/doctest.h>
 
 #include "pliant/core/error.h"
-#include "pliant/scene/scene.h"
+#include "pliant_io/scene/scene.h"
+
+namespace test_view {
 
 namespace {
 
@@ -76,3 +78,5 @@ TEST_CASE("a view that cannot be drawn") {
 }
 
 }  // namespace
+
+}  // namespace test_view

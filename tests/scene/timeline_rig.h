@@ -3,7 +3,7 @@
 #include "pliant/constraints/builtin.h"
 #include "pliant/forces/gravity.h"
 #include "pliant/mesh/shapes.h"
-#include "pliant/scene/timeline.h"
+#include "pliant/timeline/timeline.h"
 
 namespace pliant_tests {
 

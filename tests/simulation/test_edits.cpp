@@ -6,6 +6,8 @@
 #include "pliant/simulation/undo.h"
 #include "run.h"
 
+namespace test_edits {
+
 using namespace pliant;
 using namespace pliant_tests;
 
@@ -297,3 +299,5 @@ TEST_CASE("changes that are kept stay") {
   changed.remove(GroupId{2});
   CHECK(!changed.groups().contains(GroupId{2}));
 }
+
+}  // namespace test_edits

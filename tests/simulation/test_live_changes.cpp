@@ -9,6 +9,8 @@
 #include "pliant/mesh/shapes.h"
 #include "run.h"
 
+namespace test_live_changes {
+
 using namespace pliant;
 using namespace pliant_tests;
 
@@ -245,3 +247,5 @@ TEST_CASE("what is refused leaves the simulation as it was") {
   advance(untouched.simulation, 5);
   CHECK(simulation.state().positions == untouched.simulation.state().positions);
 }
+
+}  // namespace test_live_changes

@@ -7,8 +7,10 @@
 
 #include "pliant/constraints/builtin.h"
 #include "pliant/mesh/shapes.h"
-#include "pliant/scene/timeline.h"
+#include "pliant/timeline/timeline.h"
 #include "run.h"
+
+namespace test_live_edits {
 
 using namespace pliant;
 using namespace pliant_tests;
@@ -264,3 +266,5 @@ TEST_CASE("several edits at once") {
     s.release(id(s, "pins"), std::array<Index, 1>{56});
   });
 }
+
+}  // namespace test_live_edits

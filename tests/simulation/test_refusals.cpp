@@ -6,6 +6,8 @@
 #include "pliant/mesh/shapes.h"
 #include "run.h"
 
+namespace test_refusals {
+
 using namespace pliant;
 using namespace pliant_tests;
 
@@ -142,3 +144,5 @@ TEST_CASE("a simulation without a body, and a body that is not there") {
   CHECK(contains(error_of([&] { simulation.step(); }), "no body"));
   CHECK(contains(error_of([&] { simulation.add(BodyId{0}, EdgeSpring{}); }), "body 0 does not exist"));
 }
+
+}  // namespace test_refusals

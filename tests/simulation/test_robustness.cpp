@@ -7,6 +7,8 @@
 #include "pliant/mesh/geometry.h"
 #include "run.h"
 
+namespace test_robustness {
+
 using namespace pliant;
 using namespace pliant_tests;
 
@@ -190,3 +192,5 @@ TEST_CASE("a vertex without elements falls freely beside its body") {
   CHECK(simulation.state().positions(mesh.vertex_count() - 1, 2) ==
         doctest::Approx(-9.81 / 3600 * 60 * 61 / 2).epsilon(1e-12));
 }
+
+}  // namespace test_robustness

@@ -3,7 +3,9 @@
 
 #include "../mesh/meshes.h"
 #include "pliant/pliant.h"
-#include "pliant/scene/timeline.h"
+#include "pliant/timeline/timeline.h"
+
+namespace test_stop {
 
 using namespace pliant;
 using namespace pliant_tests;
@@ -87,3 +89,5 @@ TEST_CASE("a step that is given up takes back the events of its step") {
   timeline.step(cloth.simulation);
   CHECK(cloth.simulation.stiffness(cloth.springs) == 900);
 }
+
+}  // namespace test_stop

@@ -8,6 +8,8 @@
 #include "pliant/core/error.h"
 #include "pliant/pliant.h"
 
+namespace test_divergence {
+
 using namespace pliant;
 
 namespace {
@@ -154,3 +156,5 @@ TEST_CASE("an evaluation between a changed time step and a failed step does not 
   calm.step();
   CHECK(disturbed.state().positions == calm.state().positions);
 }
+
+}  // namespace test_divergence

@@ -9,6 +9,8 @@
 #include "pliant/constraints/builtin.h"
 #include "pliant/mesh/shapes.h"
 
+namespace test_dynamics {
+
 using namespace pliant;
 using namespace pliant_tests;
 
@@ -176,3 +178,5 @@ TEST_CASE("a vertex on a line falls freely along it, once converged") {
   // Across the line the weight stretches the spring of 1e4 N/m.
   CHECK((x - x.dot(d) * d).norm() == doctest::Approx(2 * g / std::sqrt(2) / 1e4).epsilon(1e-3));
 }
+
+}  // namespace test_dynamics

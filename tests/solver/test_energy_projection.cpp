@@ -11,7 +11,9 @@
 #include "motions.h"
 #include "pliant/core/error.h"
 #include "pliant/forces/mouse_spring.h"
-#include "pliant/solver/system_matrix.h"
+#include "pliant/solver/global/system_matrix.h"
+
+namespace test_energy_projection {
 
 using namespace pliant;
 using namespace pliant_tests;
@@ -471,3 +473,5 @@ TEST_CASE("debts that no step has made are refused") {
   state.energy_debts.clear();
   CHECK(refusal() == "(taken)");
 }
+
+}  // namespace test_energy_projection

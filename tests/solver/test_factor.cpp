@@ -8,9 +8,11 @@
 #include "pliant/constraints/batch.h"
 #include "pliant/constraints/builtin.h"
 #include "pliant/core/error.h"
-#include "pliant/solver/factorization/factorization.h"
-#include "pliant/solver/factorization/panel_factor.h"
-#include "pliant/solver/factorization/panel_values.h"
+#include "pliant/solver/global/factorization/factorization.h"
+#include "pliant/solver/global/factorization/panel_factor.h"
+#include "pliant/solver/global/factorization/panel_values.h"
+
+namespace test_factor {
 
 using namespace pliant;
 using namespace pliant_tests;
@@ -222,3 +224,5 @@ TEST_CASE("every ordering gives the same solution, and one that a back end does 
   eigen->analyze(lower_of(dense));
   check_solve(*eigen, dense, random);
 }
+
+}  // namespace test_factor

@@ -6,9 +6,11 @@
 #include "../core/random.h"
 #include "../mesh/meshes.h"
 #include "pliant/pliant.h"
-#include "pliant/solver/factorization/factorization.h"
-#include "pliant/solver/factorization/panel_factor.h"
-#include "pliant/solver/global_step.h"
+#include "pliant/solver/global/factorization/factorization.h"
+#include "pliant/solver/global/factorization/panel_factor.h"
+#include "pliant/solver/global/global_step.h"
+
+namespace test_global_step {
 
 using namespace pliant;
 using namespace pliant_tests;
@@ -236,3 +238,5 @@ TEST_CASE("parts that nothing holds move as a whole exactly as the forces on the
     CHECK((force - moved).norm() < 1e-9 * r.norm());
   }
 }
+
+}  // namespace test_global_step

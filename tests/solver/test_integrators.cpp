@@ -12,7 +12,9 @@
 #include "pliant/forces/mouse_spring.h"
 #include "pliant/mesh/shapes.h"
 #include "pliant/simulation/undo.h"
-#include "pliant/solver/integrator.h"
+#include "pliant/solver/integration/integrator.h"
+
+namespace test_integrators {
 
 using namespace pliant;
 using namespace pliant_tests;
@@ -364,3 +366,5 @@ TEST_CASE("an explicit spring and BDF2 refuse each other") {
   CHECK(euler.settings().integrator == Integrator::implicit_euler);
   CHECK_NOTHROW(euler.step());
 }
+
+}  // namespace test_integrators

@@ -7,8 +7,10 @@
 #include "../mesh/meshes.h"
 #include "../simulation/everything.h"
 #include "../simulation/run.h"
-#include "pliant/solver/local_step.h"
-#include "pliant/solver/locality.h"
+#include "pliant/solver/local/local_step.h"
+#include "pliant/solver/local/locality.h"
+
+namespace test_locality {
 
 using namespace pliant;
 using namespace pliant_tests;
@@ -254,3 +256,5 @@ TEST_CASE("a group that cannot be put in another order leaves all as they are") 
   for (Rig* rig : {&ordered, &shuffled}) advance(rig->simulation, 4);
   check_same(ordered, shuffled);
 }
+
+}  // namespace test_locality

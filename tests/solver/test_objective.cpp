@@ -7,7 +7,9 @@
 #include "pliant/core/error.h"
 #include "pliant/mesh/geometry.h"
 #include "pliant/mesh/topology.h"
-#include "pliant/solver/local_step.h"
+#include "pliant/solver/local/local_step.h"
+
+namespace test_objective {
 
 using namespace pliant;
 using namespace pliant_tests;
@@ -234,3 +236,5 @@ TEST_CASE("strain alone keeps an unloaded body at rest to the last bit: rounding
     }
   }
 }
+
+}  // namespace test_objective

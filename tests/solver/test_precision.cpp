@@ -9,8 +9,10 @@
 #include "../simulation/run.h"
 #include "../support/temporary_folder.h"
 #include "pliant/pliant.h"
-#include "pliant/scene/builtin_scenes.h"
-#include "pliant/scene/scene.h"
+#include "pliant_io/scene/builtin_scenes.h"
+#include "pliant_io/scene/scene.h"
+
+namespace test_precision {
 
 using namespace pliant;
 using namespace pliant_tests;
@@ -157,3 +159,5 @@ TEST_CASE("in every built-in scene a step in single precision comes to the same 
     CHECK(largest_difference(exact, start.positions) > 1e-5 * size);
   }
 }
+
+}  // namespace test_precision

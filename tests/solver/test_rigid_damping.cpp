@@ -6,7 +6,9 @@
 
 #include "../simulation/run.h"
 #include "motions.h"
-#include "pliant/solver/rigid_damping.h"
+#include "pliant/solver/integration/rigid_damping.h"
+
+namespace test_rigid_damping {
 
 using namespace pliant;
 using namespace pliant_tests;
@@ -119,3 +121,5 @@ TEST_CASE("held vertices keep their velocities, and count in the motion that is 
   CHECK(row(v, 0) == Vec3(0, 0, 0));
   CHECK((row(v, 1) - Vec3(1, 4, 0)).norm() < 1e-14);
 }
+
+}  // namespace test_rigid_damping

@@ -5,6 +5,8 @@
 #include "pliant/constraints/builtin.h"
 #include "pliant/mesh/shapes.h"
 
+namespace test_statics {
+
 using namespace pliant;
 using namespace pliant_tests;
 
@@ -139,3 +141,5 @@ TEST_CASE("a clamped heavy sheet droops as the elastica does: within 1 % with 40
     CHECK(-end[2] / (end[0] - length) == doctest::Approx(ratio).epsilon(0.01));
   }
 }
+
+}  // namespace test_statics

@@ -8,6 +8,8 @@
 #include "pliant/mesh/shapes.h"
 #include "pliant/simulation/simulation.h"
 
+namespace test_system_info {
+
 namespace {
 
 using namespace pliant;
@@ -98,3 +100,5 @@ TEST_CASE("asking changes no step") {
 }
 
 }  // namespace
+
+}  // namespace test_system_info

@@ -7,7 +7,7 @@
 
 #include "../simulation/everything.h"
 #include "pliant/core/error.h"
-#include "pliant/scene/timeline.h"
+#include "pliant/timeline/timeline.h"
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define PLIANT_OWN_MALLOC 0

@@ -9,8 +9,8 @@
 #include <sys/stat.h>
 
 #include "../support/temporary_folder.h"
-#include "pliant/core/atomic_file.h"
 #include "pliant/core/error.h"
+#include "pliant_io/files/atomic_file.h"
 
 namespace {
 

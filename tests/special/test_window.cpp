@@ -11,7 +11,7 @@
 #include "../support/temporary_folder.h"
 #include "pliant/core/error.h"
 #include "pliant/pliant.h"
-#include "pliant/recorder/animation.h"
+#include "pliant_io/export/animation.h"
 #include "viewer/live_stage.h"
 #include "viewer/playback.h"
 #include "viewer/viewer.h"

@@ -7,6 +7,8 @@
 #include "sweep/run_result.h"
 #include "tests/support/temporary_folder.h"
 
+namespace test_run_result {
+
 namespace {
 
 using namespace pliant_sweep;
@@ -146,3 +148,5 @@ TEST_CASE("a run that did not end by itself says why") {
 }
 
 }  // namespace
+
+}  // namespace test_run_result

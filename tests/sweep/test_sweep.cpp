@@ -10,6 +10,8 @@
 #include "sweep/sweep.h"
 #include "tests/support/temporary_folder.h"
 
+namespace test_sweep {
+
 namespace {
 
 using namespace pliant_sweep;
@@ -216,3 +218,5 @@ TEST_CASE("the worst outcome is the exit code") {
 }
 
 }  // namespace
+
+}  // namespace test_sweep

@@ -7,6 +7,8 @@
 #include "sweep/sweep.h"
 #include "tests/support/temporary_folder.h"
 
+namespace test_sweep_plan {
+
 namespace {
 
 using namespace pliant_sweep;
@@ -254,3 +256,5 @@ TEST_CASE("processors are shared out") {
 }
 
 }  // namespace
+
+}  // namespace test_sweep_plan

@@ -8,6 +8,8 @@
 #include "sweep/sweep_report.h"
 #include "tests/support/temporary_folder.h"
 
+namespace test_sweep_plots {
+
 namespace {
 
 using namespace pliant_sweep;
@@ -147,3 +149,5 @@ TEST_CASE("plots of an earlier start that are drawn no more are removed, other f
 }
 
 }  // namespace
+
+}  // namespace test_sweep_plots

@@ -7,6 +7,8 @@
 #include "pliant/core/error.h"
 #include "sweep/variation.h"
 
+namespace test_variation {
+
 namespace {
 
 using namespace pliant_sweep;
@@ -110,3 +112,5 @@ TEST_CASE("a table has texts without the quotes of JSON") {
 }
 
 }  // namespace
+
+}  // namespace test_variation

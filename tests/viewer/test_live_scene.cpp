@@ -8,6 +8,8 @@
 #include "pliant/mesh/shapes.h"
 #include "viewer/live_scene.h"
 
+namespace test_live_scene {
+
 using namespace pliant_viewer;
 
 namespace {
@@ -117,3 +119,5 @@ TEST_CASE("a mesh that is another one after a restart is shown as what it is") {
   CHECK(live.shown().scenery->vertex_count == 18);
   CHECK(live.shown().frame.content.positions.size() == 18);
 }
+
+}  // namespace test_live_scene

@@ -4,6 +4,8 @@
 #include "viewer/auto_range.h"
 #include "viewer/pulse.h"
 
+namespace test_pace {
+
 using namespace pliant_viewer;
 
 namespace {
@@ -90,3 +92,5 @@ TEST_CASE("a range grows at once to a round number, and shrinks only after a whi
   CHECK(range.update(ColourBy::speed, 0, at(4))[1] > 0);
   CHECK(std::isfinite(range.update(ColourBy::speed, std::numeric_limits<float>::infinity(), at(5))[1]));
 }
+
+}  // namespace test_pace

@@ -4,6 +4,8 @@
 #include "render/picture_maker.h"
 #include "viewer/picking.h"
 
+namespace test_picking {
+
 using namespace pliant_viewer;
 using pliant_render::Viewpoint;
 
@@ -142,3 +144,5 @@ TEST_CASE("a point that is carried along at its depth stays under the mouse") {
   CHECK(screen.depth_of(carried) == doctest::Approx(depth));
   CHECK_FALSE(screen.place_of(screen.viewpoint.eye - screen.viewpoint.forward()).has_value());
 }
+
+}  // namespace test_picking

@@ -5,6 +5,8 @@
 #include "pliant/core/error.h"
 #include "viewer/session.h"
 
+namespace test_session {
+
 using namespace pliant_viewer;
 
 namespace {
@@ -219,3 +221,5 @@ TEST_CASE("parameters have the names, units and ranges of their types, and refus
   CHECK_THROWS_AS(session.set("force:wind.gust_strength", {2, 0, 0}), pliant::Error);
   CHECK(find(session.parameters(), "force:wind.gust_strength").value[0] == 0);
 }
+
+}  // namespace test_session

@@ -1,6 +1,6 @@
 #pragma once
 // How the picture is drawn.
-#include "pliant/scene/view_settings.h"
+#include "pliant_io/scene/view_settings.h"
 #include "viewer/panels/panel_style.h"
 #include "viewer/stage.h"
 

@@ -22,6 +22,17 @@ using Edge = std::array<Index, 2>;
 using Triangle = std::array<Index, 3>;
 using Tetrahedron = std::array<Index, 4>;
 
+/// An index as a place in a standard container.
+constexpr std::size_t at(Index i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// The number of entries of a container.
+template <class List>
+constexpr Index count_of(const List& list) {
+  return static_cast<Index>(list.size());
+}
+
 /// Row i of an m × 3 array as a column vector.
 inline Vec3 row(const Positions& x, Index i) {
   return x.row(i).transpose();

@@ -17,15 +17,6 @@ namespace {
 /// Distance of a corner from its polygon's plane, relative to the polygon's size, past which the polygon is bent.
 constexpr Real bend_limit = 0.05;
 
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
-
-template <class List>
-Index count_of(const List& list) {
-  return static_cast<Index>(list.size());
-}
-
 class SpreadOf {
  public:
   void add(Real value) {

@@ -13,15 +13,6 @@ constexpr std::array<std::array<int, 2>, 6> tetrahedron_sides{{{0, 1}, {0, 2}, {
 /// Outward faces of a tetrahedron of positive volume.
 constexpr std::array<std::array<int, 3>, 4> tetrahedron_faces{{{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
 
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
-
-template <typename Elements>
-Index count_of(const Elements& elements) {
-  return static_cast<Index>(elements.size());
-}
-
 /// Entries in ascending order of (key vertex, entry); those of vertex v are [offsets[v], offsets[v + 1]).
 template <typename Entry>
 struct Buckets {

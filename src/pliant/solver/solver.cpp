@@ -5,7 +5,7 @@
 
 #include "pliant/core/error.h"
 #include "pliant/core/stopwatch.h"
-#include "pliant/solver/integrator.h"
+#include "pliant/solver/integration/integrator.h"
 
 namespace pliant {
 namespace {

@@ -5,11 +5,11 @@
 
 #include "pliant/core/thread_pool.h"
 #include "pliant/forces/force.h"
-#include "pliant/solver/energy_projection.h"
-#include "pliant/solver/global_step.h"
-#include "pliant/solver/local_step.h"
-#include "pliant/solver/locality.h"
-#include "pliant/solver/rigid_damping.h"
+#include "pliant/solver/global/global_step.h"
+#include "pliant/solver/integration/energy_projection.h"
+#include "pliant/solver/integration/rigid_damping.h"
+#include "pliant/solver/local/local_step.h"
+#include "pliant/solver/local/locality.h"
 #include "pliant/solver/state.h"
 #include "pliant/solver/system_info.h"
 

@@ -13,10 +13,6 @@ namespace {
 
 using Vector = Eigen::VectorX<Real>;
 
-std::size_t at(Index i) {
-  return static_cast<std::size_t>(i);
-}
-
 /// y = M^-½ K M^-½ x, where `scale` is M^-½, and 0 at held vertices.
 void multiply(const LowerMatrix& K, const Vector& scale, const Vector& x, Vector& y) {
   y.setZero();

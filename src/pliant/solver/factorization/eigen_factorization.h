@@ -1,8 +1,0 @@
-#pragma once
-#include "pliant/solver/factorization/factorization.h"
-
-namespace pliant {
-
-std::unique_ptr<Factorization> make_eigen_factorization();
-
-}  // namespace pliant

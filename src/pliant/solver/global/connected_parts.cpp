@@ -1,0 +1,80 @@
+#include "pliant/solver/global/connected_parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace pliant {
+namespace {
+
+/// Marks the vertices of constraints that a translation does not leave as they are.
+void mark_anchored(const ConstraintGroup& group, std::vector<char>& is_anchored) {
+  const GroupShape shape = group.shape();
+  const auto n = static_cast<std::size_t>(shape.vertices);
+  const auto k = static_cast<std::size_t>(shape.rows);
+  const std::span<const Real> reduction = group.reduction();
+  for (std::size_t i = 0; i < static_cast<std::size_t>(shape.count); ++i) {
+    bool holds = false;
+    for (std::size_t r = 0; r < k; ++r) {
+      const std::span<const Real> row = reduction.subspan((i * k + r) * n, n);
+      const Real sum = std::accumulate(row.begin(), row.end(), Real(0));
+      Real size = 0;
+      for (const Real coefficient : row) size += std::abs(coefficient);
+      holds = holds || std::abs(sum) > 1e-6 * size;
+    }
+    for (std::size_t a = 0; holds && a < n; ++a) is_anchored[at(group.stencil()[i * n + a])] = 1;
+  }
+}
+
+/// The lowest vertex that each one is connected with.
+std::vector<Index> find_roots(const LowerMatrix& matrix) {
+  std::vector<Index> parent(at(matrix.size()));
+  std::iota(parent.begin(), parent.end(), Index{0});
+  const auto root_of = [&](Index vertex) {
+    while (parent[at(vertex)] != vertex) vertex = parent[at(vertex)] = parent[at(parent[at(vertex)])];
+    return vertex;
+  };
+  for (Index column = 0; column < matrix.size(); ++column) {
+    for (Index e = matrix.column_starts[at(column)]; e < matrix.column_starts[at(column) + 1]; ++e) {
+      const Index a = root_of(column);
+      const Index b = root_of(matrix.rows[at(e)]);
+      parent[at(std::max(a, b))] = std::min(a, b);
+    }
+  }
+  for (Index vertex = 0; vertex < matrix.size(); ++vertex) parent[at(vertex)] = root_of(vertex);
+  return parent;
+}
+
+}  // namespace
+
+ConnectedParts find_parts(const LowerMatrix& matrix) {
+  const std::vector<Index> roots = find_roots(matrix);
+  ConnectedParts parts;
+  std::vector<std::size_t> next(roots.size(), 0);  // of the part of a root
+  for (const Index root : roots) ++next[at(root)];
+  for (std::size_t& place : next) {
+    if (place == 0) continue;
+    const std::size_t first = parts.starts.back();
+    parts.starts.push_back(first + place);
+    place = first;
+  }
+  parts.vertices.resize(roots.size());
+  for (std::size_t i = 0; i < roots.size(); ++i) parts.vertices[next[at(roots[i])]++] = static_cast<Index>(i);
+  return parts;
+}
+
+ConnectedParts find_free_parts(const ConnectedParts& parts, std::span<ConstraintGroup* const> groups,
+                               std::span<const char> is_held) {
+  std::vector<char> is_anchored(is_held.begin(), is_held.end());
+  for (const ConstraintGroup* group : groups) mark_anchored(*group, is_anchored);
+  ConnectedParts free;
+  for (std::size_t i = 0; i < parts.count(); ++i) {
+    const std::span<const Index> part = parts.part(i);
+    if (std::ranges::any_of(part, [&](Index vertex) { return is_anchored[at(vertex)] != 0; })) continue;
+    free.vertices.insert(free.vertices.end(), part.begin(), part.end());
+    free.starts.push_back(free.vertices.size());
+  }
+  return free;
+}
+
+}  // namespace pliant

@@ -1,0 +1,8 @@
+#pragma once
+#include "pliant/solver/global/factorization/factorization.h"
+
+namespace pliant {
+
+std::unique_ptr<Factorization> make_cholmod_factorization(Ordering ordering);
+
+}  // namespace pliant

@@ -1,0 +1,161 @@
+#include "pliant/solver/global/global_step.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pliant/core/stopwatch.h"
+
+namespace pliant {
+namespace {
+
+/// Past this, single precision would cost iterations: what a solve gets wrong can be a motion that is soft against the
+/// one asked for, and so one that the iterations mend slowly.
+constexpr Real largest_contraction = 0.01;
+constexpr int power_iterations = 4;
+
+/// y = Y x for three columns.
+void multiply(const LowerMatrix& Y, const Positions& x, Positions& y) {
+  y.setZero();
+  for (Index column = 0; column < Y.size(); ++column) {
+    const auto begin = static_cast<std::size_t>(Y.column_starts[static_cast<std::size_t>(column)]);
+    const auto end = static_cast<std::size_t>(Y.column_starts[static_cast<std::size_t>(column) + 1]);
+    y.row(column) += Y.values[begin] * x.row(column);
+    for (std::size_t e = begin + 1; e < end; ++e) {
+      y.row(Y.rows[e]) += Y.values[e] * x.row(column);
+      y.row(column) += Y.values[e] * x.row(Y.rows[e]);
+    }
+  }
+}
+
+Real largest_diagonal(const LowerMatrix& Y) {
+  Real largest = 0;
+  for (Index c = 0; c < Y.size(); ++c) {
+    largest = std::max(largest, Y.values[static_cast<std::size_t>(Y.column_starts[static_cast<std::size_t>(c)])]);
+  }
+  return largest;
+}
+
+/// One constant, which has every component's constant in it, and two without any order.
+void fill_starts(Positions& x) {
+  for (Eigen::Index i = 0; i < x.rows(); ++i) {
+    const auto place = static_cast<Real>(i);
+    x(i, 0) = 1;
+    x(i, 1) = std::sin(1.3 * place * place + place);
+    x(i, 2) = std::cos(0.7 * place) + std::sin(0.001 * place);
+  }
+}
+
+}  // namespace
+
+void GlobalStep::analyze(const LowerMatrix& matrix) {
+  single_.clear();
+  double_.clear();
+  factorization_->analyze(matrix);
+}
+
+void GlobalStep::factorize(const LowerMatrix& matrix, Precision precision, std::span<const Real> weights,
+                           const ConnectedParts& parts, ThreadPool& threads, SetUpTimes& times) {
+  Stopwatch watch;
+  weights_ = weights;
+  parts_ = &parts;
+  correction_.resize(parts.count() == 0 ? 0 : matrix.size(), 3);
+  contraction_ = 0;
+  factorization_->factorize(matrix);
+  times.numeric = watch.lap();
+  fill(matrix, precision, threads);
+  times.repack = watch.lap();
+  if (precision == Precision::double_) return;
+  contraction_ = estimate_contraction(matrix, threads);
+  times.estimate = watch.lap();
+  if (contraction_ <= largest_contraction) return;
+  fill(matrix, Precision::double_, threads);
+  times.repack += watch.lap();
+}
+
+/// The other panels go: both would take half as much memory again.
+void GlobalStep::fill(const LowerMatrix& matrix, Precision precision, ThreadPool& threads) {
+  const FactorView factor = factorization_->factor();
+  const auto fill_one = [&](auto& panels, auto& others) {
+    others.clear();
+    if (!panels.is_laid_out()) panels.lay_out(factor);
+    panels.fill(factor, largest_diagonal(matrix), threads);
+  };
+  precision_ = precision;
+  if (precision == Precision::double_) {
+    fill_one(double_, single_);
+  } else {
+    fill_one(single_, double_);
+  }
+}
+
+template <class Visit>
+auto GlobalStep::visit_panels(Visit&& visit) {
+  return precision_ == Precision::double_ ? visit(double_) : visit(single_);
+}
+
+SolveTimes GlobalStep::solve(const Positions& r, Real largest, Positions& x, ThreadPool& threads) {
+  const SolveTimes times = visit_panels([&](auto& panels) { return panels.solve(r, largest, x, threads); });
+  correct_means(r, x);
+  return times;
+}
+
+SolveTimes GlobalStep::move(const Positions& r, Real largest, Positions& q, ThreadPool& threads) {
+  if (parts_->count() == 0) {
+    return visit_panels([&](auto& panels) { return panels.solve(r, largest, q, threads, Store::onto); });
+  }
+  const SolveTimes times = solve(r, largest, correction_, threads);
+  q += correction_;
+  return times;
+}
+
+/// On a part that nothing holds, Σ M/h² x = Σ r exactly, since no constraint resists its translation; the factor alone
+/// is not that exact.
+void GlobalStep::correct_means(const Positions& r, Positions& x) const {
+  for (std::size_t i = 0; i < parts_->count(); ++i) {
+    Vec3 missing = Vec3::Zero();
+    Real weight = 0;
+    for (const Index v : parts_->part(i)) {
+      const Real w = weights_[static_cast<std::size_t>(v)];
+      missing += r.row(v).transpose() - w * x.row(v).transpose();
+      weight += w;
+    }
+    const Vec3 shift = missing / weight;
+    for (const Index v : parts_->part(i)) x.row(v) += shift.transpose();
+  }
+}
+
+Real GlobalStep::estimate_contraction(const LowerMatrix& matrix, ThreadPool& threads) {
+  for (Positions* x : {&trial_, &image_, &solved_}) x->resize(matrix.size(), 3);
+  fill_starts(trial_);
+  Real largest = 0;
+  for (int i = 0; i < power_iterations; ++i) {
+    const Vec3 before = trial_.colwise().norm().transpose();
+    multiply(matrix, trial_, image_);
+    solve(image_, image_.cwiseAbs().maxCoeff(), solved_, threads);
+    trial_ -= solved_;
+    const Vec3 after = trial_.colwise().norm().transpose();
+    if (!after.allFinite()) return std::numeric_limits<Real>::infinity();
+    for (int axis = 0; axis < 3; ++axis) {
+      if (before[axis] > 0) largest = std::max(largest, after[axis] / before[axis]);
+      if (after[axis] > 0) trial_.col(axis) /= after[axis];
+    }
+  }
+  return largest;
+}
+
+void GlobalStep::describe(SystemInfo& info) const {
+  const auto take = [&info](const auto& panels) {
+    info.factor_entries = static_cast<std::int64_t>(panels.entry_count());
+    info.supernodes = panels.panel_count();
+    info.sweep_bytes = static_cast<std::int64_t>(panels.sweep_bytes());
+  };
+  if (precision_ == Precision::double_) {
+    take(double_);
+  } else {
+    take(single_);
+  }
+  info.precision = precision_;
+  info.contraction = contraction_;
+}
+
+}  // namespace pliant

@@ -1,0 +1,128 @@
+#include "pliant/solver/global/system_matrix.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "pliant/core/error.h"
+
+namespace pliant {
+namespace {
+
+/// Calls visit(row, column, a, b) for every pair of different stencil places with row > column.
+template <class Visit>
+void for_each_pair(std::span<const Index> stencil, std::size_t n, Visit&& visit) {
+  for (std::size_t first = 0; first + n <= stencil.size(); first += n) {
+    for (std::size_t a = 1; a < n; ++a) {
+      for (std::size_t b = 0; b < a; ++b) {
+        const Index u = stencil[first + a];
+        const Index v = stencil[first + b];
+        visit(std::max(u, v), std::min(u, v), first / n, a, b);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+bool SystemMatrix::set_groups(Index vertex_count, std::span<const ConstraintGroup* const> groups) {
+  const LowerMatrix before = std::exchange(matrix_, {});
+  find_pattern(vertex_count, groups);
+  matrix_.values.assign(matrix_.rows.size(), 0);
+  units_.clear();
+  std::vector<Real> sums(matrix_.rows.size(), 0);
+  std::vector<char> touched(matrix_.rows.size(), 0);
+  for (const ConstraintGroup* group : groups) units_.push_back(unit_matrix(*group, sums, touched));
+  return matrix_.rows != before.rows || matrix_.column_starts != before.column_starts;
+}
+
+void SystemMatrix::find_pattern(Index vertex_count, std::span<const ConstraintGroup* const> groups) {
+  // All pairs into buckets by column, then each bucket sorted and rid of what is double.
+  std::vector<std::size_t> bucket_ends(at(vertex_count) + 1, 0);
+  const auto for_all_pairs = [&](auto&& visit) {
+    for (const ConstraintGroup* group : groups) {
+      for_each_pair(group->stencil(), static_cast<std::size_t>(group->shape().vertices), visit);
+    }
+  };
+  for_all_pairs([&](Index, Index column, auto...) { ++bucket_ends[at(column) + 1]; });
+  for (std::size_t c = 1; c < bucket_ends.size(); ++c) bucket_ends[c] += bucket_ends[c - 1];
+  std::vector<Index> entries(bucket_ends.back());
+  std::vector<std::size_t> next(bucket_ends.begin(), bucket_ends.end() - 1);
+  for_all_pairs([&](Index row, Index column, auto...) { entries[next[at(column)]++] = row; });
+
+  matrix_.column_starts.reserve(at(vertex_count) + 1);
+  for (Index column = 0; column < vertex_count; ++column) {
+    const auto begin = entries.begin() + static_cast<std::ptrdiff_t>(bucket_ends[at(column)]);
+    const auto end = entries.begin() + static_cast<std::ptrdiff_t>(bucket_ends[at(column) + 1]);
+    std::sort(begin, end);
+    matrix_.rows.push_back(column);
+    matrix_.rows.insert(matrix_.rows.end(), begin, std::unique(begin, end));
+    if (matrix_.rows.size() > at(std::numeric_limits<Index>::max())) {
+      fail_input("the system matrix has more than 2^31 - 1 entries; use a coarser mesh");
+    }
+    matrix_.column_starts.push_back(static_cast<Index>(matrix_.rows.size()));
+  }
+}
+
+Index SystemMatrix::place(Index row, Index column) const {
+  const auto begin = matrix_.rows.begin() + matrix_.column_starts[at(column)];
+  const auto end = matrix_.rows.begin() + matrix_.column_starts[at(column) + 1];
+  return static_cast<Index>(std::lower_bound(begin, end, row) - matrix_.rows.begin());
+}
+
+SystemMatrix::UnitMatrix SystemMatrix::unit_matrix(const ConstraintGroup& group, std::vector<Real>& sums,
+                                                   std::vector<char>& touched) const {
+  const GroupShape shape = group.shape();
+  const auto n = static_cast<std::size_t>(shape.vertices);
+  const auto k = static_cast<std::size_t>(shape.rows);
+  const std::span<const Real> reduction = group.reduction();
+  const std::span<const Real> measure = group.measure();
+  UnitMatrix unit;
+  const auto add = [&](Index where, std::size_t i, std::size_t a, std::size_t b) {
+    Real product = 0;
+    for (std::size_t row = 0; row < k; ++row) {
+      const Real* coefficients = &reduction[(i * k + row) * n];
+      product += coefficients[a] * coefficients[b];
+    }
+    if (!touched[at(where)]) {
+      touched[at(where)] = 1;
+      unit.places.push_back(where);
+    }
+    sums[at(where)] += measure[i] * product;
+  };
+  const std::span<const Index> stencil = group.stencil();
+  for (std::size_t s = 0; s < stencil.size(); ++s) add(matrix_.column_starts[at(stencil[s])], s / n, s % n, s % n);
+  for_each_pair(stencil, n, [&](Index row, Index column, std::size_t i, std::size_t a, std::size_t b) {
+    add(place(row, column), i, a, b);
+  });
+  unit.values.reserve(unit.places.size());
+  for (const Index where : unit.places) {
+    unit.values.push_back(std::exchange(sums[at(where)], 0));
+    touched[at(where)] = 0;
+  }
+  return unit;
+}
+
+void SystemMatrix::sum(std::span<const Real> masses, Real time_step, std::span<const ConstraintGroup* const> groups,
+                       std::span<const char> is_held) {
+  std::ranges::fill(matrix_.values, Real(0));
+  const Index m = matrix_.size();
+  for (Index i = 0; i < m; ++i) {
+    matrix_.values[at(matrix_.column_starts[at(i)])] = masses[at(i)] / (time_step * time_step);
+  }
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const UnitMatrix& unit = units_[g];
+    const Real stiffness = groups[g]->stiffness();
+    for (std::size_t e = 0; e < unit.places.size(); ++e) {
+      matrix_.values[at(unit.places[e])] += stiffness * unit.values[e];
+    }
+  }
+  for (Index column = 0; column < m; ++column) {
+    const Index diagonal = matrix_.column_starts[at(column)];
+    for (Index e = diagonal + 1; e < matrix_.column_starts[at(column) + 1]; ++e) {
+      if (is_held[at(column)] || is_held[at(matrix_.rows[at(e)])]) matrix_.values[at(e)] = 0;
+    }
+  }
+}
+
+}  // namespace pliant

@@ -1,0 +1,225 @@
+#include "pliant/solver/integration/energy_projection.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pliant {
+namespace {
+
+/// Amplitudes are changed by no more than these in one step. What cannot be given back is of vibrations far too fast
+/// for the step, and better lost than given to others. What there is too much after few iterations is not taken at
+/// once, which would brake, but kept from what later steps would be given.
+constexpr Real least_factor = 0.98;
+constexpr Real largest_factor = 2;
+
+/// Shares of an energy that are rounding.
+constexpr Real rounding = 1e-13;
+
+/// x with square·(x² − 1) + linear·(x − 1) = missing, as far as it may go; 1 where that is rounding, or no number.
+Real factor_of(Real square, Real linear, Real missing, Real noise) {
+  const Real slope = 2 * square + linear;  // at 1
+  if (!(std::abs(missing) > noise)) return 1;
+  const Real root = std::sqrt(std::max(Real(0), slope * slope + 4 * square * missing));
+  const Real factor = 1 + 2 * missing / (slope + root);
+  return slope > 0 && !std::isnan(factor) ? std::clamp(factor, least_factor, largest_factor) : 1;
+}
+
+/// Of a turning with that angular momentum [J].
+Real turning_energy(const Mat3& inertia, const Vec3& angular_momentum) {
+  return angular_velocity(inertia, angular_momentum).dot(angular_momentum) / 2;
+}
+
+}  // namespace
+
+void EnergyProjection::set_parts(ConnectedParts parts, const ConnectedParts& free_parts,
+                                 std::span<const char> is_held) {
+  parts_ = std::move(parts);
+  is_held_.assign(is_held.begin(), is_held.end());
+  part_of_vertex_.resize(is_held.size());
+  for (std::size_t p = 0; p < parts_.count(); ++p) {
+    for (const Index v : parts_.part(p)) part_of_vertex_[at(v)] = static_cast<Index>(p);
+  }
+  is_free_.assign(parts_.count(), 0);
+  for (std::size_t i = 0; i < free_parts.count(); ++i) {
+    is_free_[at(part_of_vertex_[at(free_parts.part(i).front())])] = 1;
+  }
+  balances_.resize(parts_.count());
+}
+
+/// All zero where something holds the part.
+RigidMotion EnergyProjection::rigid_motion(std::size_t part, const Positions& positions,
+                                           const Positions& velocities) const {
+  if (!is_free_[part]) return {};
+  return fit_rigid_motion(parts_.part(part), positions, masses_, velocities);
+}
+
+/// Σ m/2 ‖v − v_rigid‖² [J]
+Real EnergyProjection::vibration(std::size_t part, const RigidMotion& rigid, const Positions& positions,
+                                 const Positions& velocities) const {
+  Real energy = 0;
+  for (const Index v : parts_.part(part)) {
+    if (is_held_[at(v)]) continue;
+    energy += masses_[at(v)] / 2 * (row(velocities, v) - rigid.velocity_at(row(positions, v))).squaredNorm();
+  }
+  return energy;
+}
+
+void EnergyProjection::begin(const StepEnd& begin, std::span<const Real> masses, std::span<const Real> debts) {
+  masses_ = masses;
+  positions_ = begin.positions;
+  velocities_ = begin.velocities;
+  elastic_forces_ = begin.elastic_forces;
+  for (std::size_t p = 0; p < parts_.count(); ++p) {
+    const RigidMotion rigid = rigid_motion(p, positions_, velocities_);
+    Balance& balance = balances_[p];
+    balance.target = begin.elastic[p] + vibration(p, rigid, positions_, velocities_) +
+                     turning_energy(rigid.inertia, rigid.angular_momentum);
+    balance.center = rigid.center;
+    balance.velocity = rigid.velocity;
+    balance.angular_momentum = rigid.angular_momentum;
+    balance.debt = 0;
+    for (const Index v : parts_.part(p)) balance.debt += debts.empty() ? 0 : debts[at(v)];
+  }
+}
+
+void EnergyProjection::balance(const StepEnd& end, const OutsideForces& outside, Real h, Real share,
+                               Positions& forces) {
+  for (std::size_t p = 0; p < parts_.count(); ++p) {
+    balance_part(p, end, outside, h, share);
+    write_forces(p, end, outside, forces);
+  }
+}
+
+EnergyProjection::Work EnergyProjection::outside_work(std::size_t part, const RigidMotion& rigid, const StepEnd& end,
+                                                      const OutsideForces& outside, Real h) const {
+  const Balance& balance = balances_[part];
+  const Vec3 shift = rigid.center - balance.center;
+  Work work;
+  for (const Index v : parts_.part(part)) {
+    const Vec3 way = row(end.positions, v) - row(positions_, v);
+    if (is_held_[at(v)]) {
+      work.add(-(row(elastic_forces_, v) + row(end.elastic_forces, v)).dot(way) / 2);
+      continue;
+    }
+    const Vec3 force = row(outside.along_positions, v);
+    const Vec3 applied = row(outside.along_velocities, v);
+    const Vec3 speed = row(velocities_, v) + row(end.velocities, v) - balance.velocity - rigid.velocity;
+    work.add(force.dot(way - shift));
+    const Real along_velocity = h / 2 * applied.dot(speed);
+    work.add(along_velocity);
+    work.braked -= std::min(Real(0), along_velocity);
+    if (!is_free_[part]) continue;
+    const Vec3 arm = (row(positions_, v) + row(end.positions, v) - balance.center - rigid.center) / 2;
+    work.torque += arm.cross(force + applied);
+  }
+  return work;
+}
+
+void EnergyProjection::balance_part(std::size_t part, const StepEnd& end, const OutsideForces& outside, Real h,
+                                    Real share) {
+  const RigidMotion rigid = rigid_motion(part, end.positions, end.velocities);
+  const Work work = outside_work(part, rigid, end, outside, h);
+  const Real energy = end.elastic[part] + vibration(part, rigid, end.positions, end.velocities) +
+                      turning_energy(rigid.inertia, rigid.angular_momentum);
+  Balance& balance = balances_[part];
+  balance.noise = rounding * (balance.target + work.size + energy);
+  if (work.braked > 0) balance.debt *= std::max(Real(0), 1 - work.braked / balance.target);  // its share of it
+  const Real missing = balance.target + work.sum - energy;
+  const Real owed = missing > 0 ? std::min(missing, balance.debt) : 0;
+  balance.debt -= owed;
+  balance.elastic = end.elastic[part];
+  balance.work = work.sum;
+  balance.target = energy + share * (missing - owed);
+  balance.angular_momentum =
+      rigid.angular_momentum + share * (balance.angular_momentum + h * work.torque - rigid.angular_momentum);
+}
+
+/// Of a part that nothing holds, less what moves it as a whole.
+void EnergyProjection::write_forces(std::size_t part, const StepEnd& end, const OutsideForces& outside,
+                                    Positions& forces) const {
+  const auto force_on = [&](Index v) {
+    return Vec3(row(end.elastic_forces, v) + row(outside.along_positions, v) + row(outside.along_velocities, v));
+  };
+  Vec3 acceleration = Vec3::Zero();
+  if (is_free_[part]) {
+    Real mass = 0;
+    for (const Index v : parts_.part(part)) {
+      acceleration += force_on(v);
+      mass += masses_[at(v)];
+    }
+    acceleration /= mass;
+  }
+  for (const Index v : parts_.part(part)) {
+    const Vec3 force = force_on(v) - masses_[at(v)] * acceleration;
+    forces.row(v) = (is_held_[at(v)] ? Vec3(Vec3::Zero()) : force).transpose();
+  }
+}
+
+/// The angular momentum that a part should have, or as near to it as its energy allows.
+Vec3 EnergyProjection::allowed_momentum(std::size_t part, const RigidMotion& rigid, Real elastic, Real scaled) const {
+  const Balance& balance = balances_[part];
+  const Vec3 change = balance.angular_momentum - rigid.angular_momentum;
+  const Real room = balance.target - elastic - least_factor * least_factor * scaled -
+                    turning_energy(rigid.inertia, rigid.angular_momentum);
+  const Real square = turning_energy(rigid.inertia, change);
+  const Real linear = rigid.turning.dot(change);
+  if (square + linear <= room + balance.noise) return balance.angular_momentum;
+  if (!(room > 0)) return rigid.angular_momentum;
+  const Real way = 2 * room / (linear + std::sqrt(linear * linear + 4 * square * room));
+  return rigid.angular_momentum + std::min(Real(1), way) * change;
+}
+
+void EnergyProjection::move(const StepEnd& end, const OutsideForces& outside, const Positions& forces,
+                            const Positions& way, std::span<const Real> weights, Positions& positions) {
+  for (std::size_t p = 0; p < parts_.count(); ++p) {
+    Real slope = 0;
+    Real curvature = 0;
+    Real work = 0;
+    for (const Index v : parts_.part(p)) {
+      const Real along = row(forces, v).dot(row(way, v));
+      slope += along;
+      curvature += along - weights[at(v)] * way.row(v).squaredNorm();
+      if (!is_held_[at(v)]) work += row(outside.along_velocities, v).dot(row(way, v));
+    }
+    Balance& balance = balances_[p];
+    const RigidMotion rigid = rigid_motion(p, end.positions, end.velocities);
+    const Real scaled = vibration(p, rigid, end.positions, end.velocities);
+    const Vec3 angular_momentum = allowed_momentum(p, rigid, balance.elastic, scaled);
+    const Real missing = balance.target - balance.elastic - scaled - turning_energy(rigid.inertia, angular_momentum);
+    // The elastic energy is no steeper along the way than a parabola with Y − M/h² as its matrix.
+    curvature = std::clamp(curvature, Real(0), std::max(Real(0), slope));
+    const Real excess = factor_of(scaled + curvature / 2, slope - curvature, missing, balance.noise) - 1;
+    if (excess == 0) continue;
+    for (const Index v : parts_.part(p)) positions.row(v) -= excess * way.row(v);
+    balance.target -= excess * work;
+  }
+}
+
+void EnergyProjection::finish(const StepEnd& end, const OutsideForces& outside, Real h, Positions& velocities) {
+  for (std::size_t p = 0; p < parts_.count(); ++p) {
+    Balance& balance = balances_[p];
+    const RigidMotion rigid = rigid_motion(p, end.positions, end.velocities);
+    if (!rigid.turning.allFinite()) continue;
+    balance.target += outside_work(p, rigid, end, outside, h).sum - balance.work;
+    const Real scaled = vibration(p, rigid, end.positions, end.velocities);
+    const Vec3 angular_momentum = allowed_momentum(p, rigid, end.elastic[p], scaled);
+    const Vec3 turning = angular_velocity(rigid.inertia, angular_momentum);
+    const Real missing = balance.target - end.elastic[p] - scaled - turning.dot(angular_momentum) / 2;
+    const Real factor = factor_of(scaled, 0, missing, balance.noise);
+    const Real surplus = scaled * (factor * factor - 1) - missing;
+    if (surplus > balance.noise) balance.debt += surplus;
+    for (const Index v : parts_.part(p)) {
+      if (is_held_[at(v)]) continue;
+      const Vec3 x = row(end.positions, v);
+      const Vec3 vibration = row(end.velocities, v) - rigid.velocity_at(x);
+      velocities.row(v) = (rigid.velocity + turning.cross(x - rigid.center) + factor * vibration).transpose();
+    }
+  }
+}
+
+void EnergyProjection::write_debts(std::span<Real> debts) const {
+  std::ranges::fill(debts, Real(0));
+  for (std::size_t p = 0; p < parts_.count(); ++p) debts[at(parts_.part(p).front())] = balances_[p].debt;
+}
+
+}  // namespace pliant

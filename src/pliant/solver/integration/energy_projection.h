@@ -1,0 +1,104 @@
+#pragma once
+// Energy projection: after a step, positions and velocities go onto the energy that each connected part should have, so
+// that the integrator neither takes nor adds any (after Dinev et al. 2018, FEPR; here each part by itself, positions in
+// the metric of the system matrix, and with the work of forces and moved pins).
+//
+//     H* = T(vₙ) + V(qₙ) + W                     what the part had, and what was done on it from outside
+//     q ← q + λ Y⁻¹ ∇H,  v ← v_rigid + (1 + λ) (v − v_rigid)      with λ such that T + V = H*
+//
+// V is the elastic energy of all constraints but those with targets: these (soft pins, drags) count as forces from
+// outside, with the force at which the step leaves them, so their own springs stay damped by the step. A part that
+// nothing holds is seen from its centre, whose flight is left alone, and v_rigid is its turning with the angular
+// momentum that it should have; of a part that something holds v_rigid is 0.
+#include <cmath>
+
+#include "pliant/solver/global/connected_parts.h"
+#include "pliant/solver/integration/rigid_motion.h"
+
+namespace pliant {
+
+/// How the vertices stand at one end of a step, in the order of the local step.
+struct StepEnd {
+  const Positions& positions;       ///< m × 3 [m]
+  const Positions& velocities;      ///< m × 3 [m/s]
+  std::span<const Real> elastic;    ///< V of each part [J]
+  const Positions& elastic_forces;  ///< −∇V, held vertices among them, m × 3 [N]
+};
+
+/// What acts on the vertices from outside in a step, in the order of the local step; each m × 3 [N].
+struct OutsideForces {
+  const Positions& along_positions;   ///< whose work is that along the way of a vertex
+  const Positions& along_velocities;  ///< whose work is that along its mean velocity
+};
+
+class EnergyProjection {
+ public:
+  /// The parts, which of them nothing holds, and which vertices are held exactly.
+  void set_parts(ConnectedParts parts, const ConnectedParts& free_parts, std::span<const char> is_held);
+  std::size_t part_count() const { return parts_.count(); }
+  /// The part of each vertex.
+  std::span<const Index> part_of_vertex() const { return part_of_vertex_; }
+
+  /// Keeps what a step begins with. Masses [kg] are referred to until finish(). Debts [J]: what parts have had too much
+  /// and are not to be given back, at any vertex of each; or none.
+  void begin(const StepEnd& begin, std::span<const Real> masses, std::span<const Real> debts);
+
+  /// Balances a step of length h [s] that ends so. share: of what is missing, how much is to be given back. Writes the
+  /// force −∇H on each vertex, m × 3 [N], zero at held ones.
+  void balance(const StepEnd& end, const OutsideForces& outside, Real h, Real share, Positions& forces);
+
+  /// Moves the positions at that end along `way`, which is Y⁻¹ of those forces. weights: M/h² of each vertex.
+  /// `positions` may be those of the end.
+  void move(const StepEnd& end, const OutsideForces& outside, const Positions& forces, const Positions& way,
+            std::span<const Real> weights, Positions& positions);
+
+  /// Gives the velocities what is missing still where move() has left the positions; their V and the forces are now
+  /// those there. `velocities` may be those of the end.
+  void finish(const StepEnd& end, const OutsideForces& outside, Real h, Positions& velocities);
+
+  /// Debts for the next step, m numbers [J].
+  void write_debts(std::span<Real> debts) const;
+
+ private:
+  struct Balance {
+    Real target = 0;                       // T + V of the beginning, then what it should be at the end
+    Real elastic = 0;                      // at the end, before move()
+    Real work = 0;                         // from outside, up to there
+    Real debt = 0;                         // see begin()
+    Real noise = 0;                        // energies that are no larger are rounding
+    Vec3 center = Vec3::Zero();            // at the beginning, of a part that nothing holds
+    Vec3 velocity = Vec3::Zero();          // of it
+    Vec3 angular_momentum = Vec3::Zero();  // about it: of the beginning, then that of the end
+  };
+
+  /// What is done on a part from outside.
+  struct Work {
+    Real sum = 0;     // relative to the centre of a part that nothing holds [J]
+    Real size = 0;    // of its terms
+    Real braked = 0;  // taken by forces along velocities
+    Vec3 torque = Vec3::Zero();
+    void add(Real energy) {
+      sum += energy;
+      size += std::abs(energy);
+    }
+  };
+
+  RigidMotion rigid_motion(std::size_t part, const Positions& positions, const Positions& velocities) const;
+  Real vibration(std::size_t part, const RigidMotion& rigid, const Positions& positions,
+                 const Positions& velocities) const;
+  Work outside_work(std::size_t part, const RigidMotion& rigid, const StepEnd& end, const OutsideForces& outside,
+                    Real h) const;
+  Vec3 allowed_momentum(std::size_t part, const RigidMotion& rigid, Real elastic, Real scaled) const;
+  void balance_part(std::size_t part, const StepEnd& end, const OutsideForces& outside, Real h, Real share);
+  void write_forces(std::size_t part, const StepEnd& end, const OutsideForces& outside, Positions& forces) const;
+
+  ConnectedParts parts_;
+  std::vector<char> is_free_;  // of each part
+  std::vector<char> is_held_;  // of each vertex
+  std::vector<Index> part_of_vertex_;
+  std::vector<Balance> balances_;
+  std::span<const Real> masses_;
+  Positions positions_, velocities_, elastic_forces_;  // at the beginning
+};
+
+}  // namespace pliant

@@ -1,0 +1,28 @@
+#include "pliant/solver/integration/rigid_damping.h"
+
+#include "pliant/solver/integration/rigid_motion.h"
+
+namespace pliant {
+
+void RigidDamping::set_parts(ConnectedParts parts, std::vector<char> is_held) {
+  parts_ = std::move(parts);
+  is_held_ = std::move(is_held);
+}
+
+void RigidDamping::apply(const Positions& positions, std::span<const Real> masses, Real factor,
+                         Positions& velocities) const {
+  for (std::size_t i = 0; i < parts_.count(); ++i) apply_to(parts_.part(i), positions, masses, factor, velocities);
+}
+
+void RigidDamping::apply_to(std::span<const Index> part, const Positions& positions, std::span<const Real> masses,
+                            Real factor, Positions& velocities) const {
+  const RigidMotion motion = fit_rigid_motion(part, positions, masses, velocities);
+  if (!motion.turning.allFinite()) return;
+  for (const Index v : part) {
+    if (is_held_[static_cast<std::size_t>(v)]) continue;
+    const Vec3 rigid = motion.velocity_at(row(positions, v));
+    velocities.row(v) = (rigid + factor * (row(velocities, v) - rigid)).transpose();
+  }
+}
+
+}  // namespace pliant

@@ -1,0 +1,308 @@
+#include "pliant/solver/local/local_step.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "pliant/core/error.h"
+#include "pliant/core/stopwatch.h"
+
+namespace pliant {
+namespace {
+
+// Slots of a chunk: as many as there are for 64 chunks, but enough to hide the cost of handing out work, and few enough
+// to stay in the second-level cache (100 kB). The size of the problem alone decides, so that the bits do.
+constexpr std::size_t most_chunk_slots = max_reduction_rows;
+constexpr std::size_t fewest_chunk_slots = 1024;
+constexpr std::size_t chunks_wanted = 64;
+constexpr Index vertices_per_chunk = 1024;
+constexpr Index constraints_together = 64;  // that kernels take at once
+
+/// Of a constraint.
+std::size_t slots_of(const ConstraintGroup& group) {
+  return static_cast<std::size_t>(takes_forces(group) ? group.shape().vertices : group.shape().rows);
+}
+
+/// The larger one; NaN when one is NaN, so that no tolerance is ever reached with it.
+Real larger(Real a, Real b) {
+  return a > b || std::isnan(a) ? a : b;
+}
+
+}  // namespace
+
+/// Finds the partials of one chunk after the other.
+class LocalStep::Layout {
+ public:
+  Layout(LocalStep& step, Index vertex_count)
+      : step_(step),
+        entry_counts_(static_cast<std::size_t>(vertex_count), 0),
+        after_last_group_(entry_counts_.size(), 0) {}
+
+  void add(Chunk& chunk) {
+    chunk.first_partial = step_.partial_ends_.size();
+    chunk.first_entry = step_.entries_.size();
+    chunk.first_coefficient = step_.coefficients_.size();
+    chunk.has_units = true;
+    touched_.clear();
+    for_each_entry(chunk, [&](Index vertex, std::size_t, Real coefficient) {
+      if (entry_counts_[static_cast<std::size_t>(vertex)]++ == 0) touched_.push_back(vertex);
+      chunk.has_units &= std::abs(coefficient) == 1;
+    });
+    std::ranges::sort(touched_);
+    place_entries(chunk);
+    for (const Index vertex : touched_) {
+      entry_counts_[static_cast<std::size_t>(vertex)] = 0;
+      std::size_t& after = after_last_group_[static_cast<std::size_t>(vertex)];
+      vertices_met_ += after != chunk.group + 1;
+      after = chunk.group + 1;
+    }
+    partial_vertices_.insert(partial_vertices_.end(), touched_.begin(), touched_.end());
+    chunk.last_partial = step_.partial_ends_.size();
+  }
+  std::span<const Index> partial_vertices() const { return partial_vertices_; }
+  Real chunks_of_vertex() const {
+    return vertices_met_ == 0 ? 0 : static_cast<Real>(partial_vertices_.size()) / static_cast<Real>(vertices_met_);
+  }
+
+ private:
+  template <class Visit>
+  void for_each_entry(const Chunk& chunk, Visit&& visit) const {
+    const ConstraintGroup& group = *step_.groups_[chunk.group];
+    const auto n = static_cast<std::size_t>(group.shape().vertices);
+    const auto rows = static_cast<std::size_t>(group.shape().rows);
+    const auto first = static_cast<std::size_t>(chunk.begin);
+    const auto count = static_cast<std::size_t>(chunk.end - chunk.begin);
+    const std::span<const Index> stencil = group.stencil().subspan(first * n, count * n);
+    const std::span<const Real> reduction = group.reduction().subspan(first * n * rows, count * n * rows);
+    if (takes_forces(group)) {
+      for (std::size_t place = 0; place < stencil.size(); ++place) visit(stencil[place], place, 1);
+      return;
+    }
+    for (std::size_t place = 0; place < reduction.size(); ++place) {
+      const std::size_t slot = place / n;
+      if (reduction[place] != 0) visit(stencil[slot / rows * n + place % n], slot, reduction[place]);
+    }
+  }
+
+  void place_entries(const Chunk& chunk) {
+    std::uint32_t end = 0;
+    for (const Index vertex : touched_) {
+      std::uint32_t& count = entry_counts_[static_cast<std::size_t>(vertex)];
+      const std::uint32_t begin = end;
+      end += count;
+      count = begin;  // from now on the place of its next entry
+      step_.partial_ends_.push_back(end);
+    }
+    step_.entries_.resize(chunk.first_entry + end);
+    if (!chunk.has_units) step_.coefficients_.resize(chunk.first_coefficient + end);
+    for_each_entry(chunk, [&](Index vertex, std::size_t slot, Real coefficient) {
+      const std::size_t place = entry_counts_[static_cast<std::size_t>(vertex)]++;
+      const bool is_negative = chunk.has_units && coefficient < 0;
+      step_.entries_[chunk.first_entry + place] = static_cast<std::uint16_t>(2 * slot + is_negative);
+      if (!chunk.has_units) step_.coefficients_[chunk.first_coefficient + place] = coefficient;
+    });
+  }
+
+  LocalStep& step_;
+  std::vector<std::uint32_t> entry_counts_;  // of each vertex in the chunk at hand; then, where the next one goes
+  std::vector<Index> touched_;
+  std::vector<std::size_t> after_last_group_;  // that met each vertex; 0: none
+  std::size_t vertices_met_ = 0;               // by all groups together
+  std::vector<Index> partial_vertices_;
+};
+
+void LocalStep::set_groups(Index vertex_count, std::span<ConstraintGroup* const> groups) {
+  groups_.assign(groups.begin(), groups.end());
+  lay_out_chunks();
+  partial_ends_.clear();
+  entries_.clear();
+  coefficients_.clear();
+  Layout layout(*this, vertex_count);
+  for (Chunk& chunk : chunks_) layout.add(chunk);
+  chunks_of_vertex_ = layout.chunks_of_vertex();
+  lay_out_vertices(vertex_count, layout.partial_vertices());
+}
+
+void LocalStep::lay_out_chunks() {
+  slot_count_ = 0;
+  for (const ConstraintGroup* group : groups_) {
+    slot_count_ += static_cast<std::size_t>(group->shape().count) * slots_of(*group);
+  }
+  const std::size_t wanted = std::clamp(slot_count_ / chunks_wanted, fewest_chunk_slots, most_chunk_slots);
+  chunks_.clear();
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const GroupShape shape = groups_[g]->shape();
+    auto count = static_cast<Index>(std::max<std::size_t>(1, wanted / slots_of(*groups_[g])));
+    if (count > constraints_together) count -= count % constraints_together;
+    for (Index begin = 0; begin < shape.count; begin += count) {
+      chunks_.push_back({.group = g, .begin = begin, .end = std::min(shape.count, begin + count)});
+    }
+  }
+  chunk_energies_.assign(chunks_.size(), 0);
+}
+
+void LocalStep::lay_out_vertices(Index vertex_count, std::span<const Index> partial_vertices) {
+  if (partial_vertices.size() > std::numeric_limits<std::uint32_t>::max()) {
+    fail_input("the constraints touch more than 2^32 - 1 vertices; use a coarser mesh");
+  }
+  partials_.assign(3 * partial_vertices.size(), 0);
+  vertex_offsets_.assign(static_cast<std::size_t>(vertex_count) + 1, 0);
+  for (const Index vertex : partial_vertices) ++vertex_offsets_[static_cast<std::size_t>(vertex) + 1];
+  for (std::size_t i = 1; i < vertex_offsets_.size(); ++i) vertex_offsets_[i] += vertex_offsets_[i - 1];
+  vertex_partials_.resize(partial_vertices.size());
+  std::vector<std::size_t> next(vertex_offsets_.begin(), vertex_offsets_.end() - 1);
+  for (std::size_t i = 0; i < partial_vertices.size(); ++i) {
+    vertex_partials_[next[static_cast<std::size_t>(partial_vertices[i])]++] = static_cast<std::uint32_t>(i);
+  }
+  vertex_sums_.resize(static_cast<std::size_t>((vertex_count + vertices_per_chunk - 1) / vertices_per_chunk));
+}
+
+LocalResult LocalStep::run(const Positions& q, const Positions& s, std::span<const Real> inertia_weights,
+                           std::span<const char> is_held, Positions& r, ThreadPool& threads) {
+  LocalResult result;
+  const Stopwatch projections;
+  slots_.resize(static_cast<std::size_t>(threads.thread_count()));
+  for (std::vector<Real>& slots : slots_) slots.resize(3 * most_chunk_slots);
+  threads.parallel_for(static_cast<Index>(chunks_.size()), [&](Index i, int thread) {
+    const auto chunk = static_cast<std::size_t>(i);
+    chunk_energies_[chunk] = project(chunks_[chunk], q, slots_[static_cast<std::size_t>(thread)]);
+  });
+  result.seconds_projections = projections.seconds();
+  const auto vertex_count = static_cast<Index>(q.rows());
+  threads.parallel_for(static_cast<Index>(vertex_sums_.size()), [&](Index i) {
+    const Index begin = i * vertices_per_chunk;
+    const Index end = std::min(vertex_count, begin + vertices_per_chunk);
+    vertex_sums_[static_cast<std::size_t>(i)] = gather(begin, end, q, s, inertia_weights, is_held, r);
+  });
+  for (const Real energy : chunk_energies_) result.elastic += energy;
+  for (const VertexSums& sums : vertex_sums_) {
+    result.inertia += sums.inertia;
+    result.residual = larger(result.residual, sums.squared_residual);
+  }
+  result.residual = std::sqrt(result.residual);
+  return result;
+}
+
+Real LocalStep::project(const Chunk& chunk, const Positions& q, std::vector<Real>& slots) {
+  const ConstraintGroup& group = *groups_[chunk.group];
+  const Real energy = project_to_slots(group, q, slots, chunk.begin, chunk.end);
+  chunk.has_units ? collect<true>(chunk, slots.data()) : collect<false>(chunk, slots.data());
+  return energy;
+}
+
+template <bool units>
+void LocalStep::collect(const Chunk& chunk, const Real* slots) {
+  constexpr std::array<Real, 2> signs = {1, -1};
+  const std::uint16_t* const entries = entries_.data() + chunk.first_entry;
+  const Real* const coefficients = coefficients_.data() + chunk.first_coefficient;
+  std::uint32_t entry = 0;
+  for (std::size_t partial = chunk.first_partial; partial < chunk.last_partial; ++partial) {
+    Real x = 0, y = 0, z = 0;
+    for (; entry < partial_ends_[partial]; ++entry) {
+      const std::uint16_t code = entries[entry];
+      const Real* slot = slots + 3 * (code / 2);
+      const Real coefficient = units ? signs[code % 2] : coefficients[entry];
+      x += coefficient * slot[0];
+      y += coefficient * slot[1];
+      z += coefficient * slot[2];
+    }
+    Real* out = partials_.data() + 3 * partial;
+    out[0] = x, out[1] = y, out[2] = z;
+  }
+}
+
+LocalStep::VertexSums LocalStep::gather(Index begin, Index end, const Positions& q, const Positions& s,
+                                        std::span<const Real> inertia_weights, std::span<const char> is_held,
+                                        Positions& r) const {
+  VertexSums sums;
+  for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+    Real* out = r.data() + 3 * i;
+    if (is_held[i]) {
+      std::fill_n(out, 3, Real(0));
+      continue;
+    }
+    Real x = 0, y = 0, z = 0;
+    for (std::size_t place = vertex_offsets_[i]; place < vertex_offsets_[i + 1]; ++place) {
+      const Real* partial = partials_.data() + 3 * static_cast<std::size_t>(vertex_partials_[place]);
+      x += partial[0];
+      y += partial[1];
+      z += partial[2];
+    }
+    const Real* from = q.data() + 3 * i;
+    const Real* to = s.data() + 3 * i;
+    const Real weight = inertia_weights[i];
+    const Real dx = to[0] - from[0], dy = to[1] - from[1], dz = to[2] - from[2];
+    sums.inertia += weight / 2 * (dx * dx + dy * dy + dz * dz);
+    out[0] = x + weight * dx;
+    out[1] = y + weight * dy;
+    out[2] = z + weight * dz;
+    sums.squared_residual = larger(sums.squared_residual, out[0] * out[0] + out[1] * out[1] + out[2] * out[2]);
+  }
+  return sums;
+}
+
+Index LocalStep::part_of(const Chunk& chunk, Index constraint) const {
+  const ConstraintGroup& group = *groups_[chunk.group];
+  const auto first = static_cast<std::size_t>(constraint) * static_cast<std::size_t>(group.shape().vertices);
+  return part_of_vertex_[static_cast<std::size_t>(group.stencil()[first])];
+}
+
+void LocalStep::set_parts(std::span<const Index> part_of_vertex) {
+  part_of_vertex_ = part_of_vertex;
+  for (Chunk& chunk : chunks_) {
+    chunk.part = part_of(chunk, chunk.begin);
+    for (Index i = chunk.begin; i < chunk.end && chunk.part != mixed; ++i) {
+      if (part_of(chunk, i) != chunk.part) chunk.part = mixed;
+    }
+  }
+}
+
+void LocalStep::elastic_energies(const Positions& q, std::span<Real> of_parts) {
+  std::ranges::fill(of_parts, Real(0));
+  for (std::size_t c = 0; c < chunks_.size(); ++c) {
+    const Chunk& chunk = chunks_[c];
+    ConstraintGroup& group = *groups_[chunk.group];
+    if (!group.targets().empty()) continue;
+    if (chunk.part != mixed) {
+      of_parts[static_cast<std::size_t>(chunk.part)] += chunk_energies_[c];
+      continue;
+    }
+    for (Index begin = chunk.begin, end = begin; begin < chunk.end; begin = end) {
+      const Index part = part_of(chunk, begin);
+      while (end < chunk.end && part_of(chunk, end) == part) ++end;
+      of_parts[static_cast<std::size_t>(part)] += project_to_slots(group, q, slots_.front(), begin, end);
+    }
+  }
+}
+
+Real LocalStep::elastic_energy(std::size_t group) const {
+  Real energy = 0;
+  for (std::size_t i = 0; i < chunks_.size(); ++i) {
+    if (chunks_[i].group == group) energy += chunk_energies_[i];
+  }
+  return energy;
+}
+
+void LocalStep::describe(SystemInfo& info) const {
+  const auto bytes = [](const auto& list) { return static_cast<std::int64_t>(std::span(list).size_bytes()); };
+  info.local_list_bytes = bytes(entries_) + bytes(coefficients_) + bytes(partial_ends_);
+  info.partial_bytes = bytes(partials_);
+  info.partial_list_bytes = bytes(vertex_offsets_) + bytes(vertex_partials_);
+}
+
+Index LocalStep::first_not_finite(std::size_t group, const Positions& q) const {
+  const ConstraintGroup& constraints = *groups_[group];
+  const GroupShape shape = constraints.shape();
+  const auto n = static_cast<std::size_t>(shape.vertices);
+  std::vector<Real> slot(static_cast<std::size_t>(3 * shape.rows));
+  for (Index i = 0; i < shape.count; ++i) {
+    const std::span<const Index> stencil = constraints.stencil().subspan(static_cast<std::size_t>(i) * n, n);
+    if (!std::ranges::all_of(stencil, [&](Index vertex) { return q.row(vertex).allFinite(); })) continue;
+    constraints.project(q, slot, i, i + 1);
+    if (!std::ranges::all_of(slot, [](Real x) { return std::isfinite(x); })) return i;
+  }
+  return -1;
+}
+
+}  // namespace pliant

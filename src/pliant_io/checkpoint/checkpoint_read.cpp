@@ -1,0 +1,185 @@
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "pliant/core/printable.h"
+#include "pliant_io/checkpoint/checkpoint.h"
+#include "pliant_io/checkpoint/detail/checkpoint_file.h"
+#include "pliant_io/checkpoint/detail/checkpoint_values.h"
+#include "pliant_io/files/crc32.h"
+#include "pliant_io/files/read_file.h"
+#include "pliant_io/scene/detail/json_values.h"
+
+namespace pliant {
+namespace {
+
+std::string read_bytes(const Node& node) {
+  if (!node.is_bytes()) node.fail_type("a string of bytes");
+  return std::string(node.text());
+}
+
+/// Numbers written as bytes, into all of `numbers`.
+void read_numbers(const Node& node, std::span<Real> numbers) {
+  if (!node.is_bytes() || node.text().size() != numbers.size_bytes()) {
+    node.fail(fmt::format("the list has another length than the scene of this checkpoint makes; {} numbers belong here",
+                          numbers.size()));
+  }
+  if (!numbers.empty()) std::memcpy(numbers.data(), node.text().data(), numbers.size_bytes());
+  if (std::ranges::all_of(numbers, [](Real x) { return std::isfinite(x); })) return;
+  node.fail("a number is not finite; take another checkpoint");
+}
+
+Real read_real(const Node& node) {
+  Real number = 0;
+  read(node, number);
+  return number;
+}
+
+template <class Visitor>
+void for_each(const Node& list, Visitor&& visitor) {
+  list.require_list();
+  for (std::size_t i = 0; i < list.size(); ++i) visitor(list[i]);
+}
+
+SceneSource read_source(const Node& node) {
+  SceneSource source;
+  source.is_complete = true;
+  for_each(node.require("texts"), [&](const Node& text) {
+    source.texts.push_back({read_bytes(text.require("name")), read_bytes(text.require("folder")),
+                            read_bytes(text.require("text")), read_bytes(text.require("file"))});
+  });
+  const Node overrides = node.require("overrides");
+  visit_overrides(source.overrides, [&](std::string_view name, auto& value) {
+    if (const auto given = overrides.find(name)) read(*given, value.emplace());
+  });
+  for_each(node.require("set"), [&](const Node& one) { source.overrides.set.push_back(read_bytes(one)); });
+  source.overrides_folder = read_bytes(node.require("set_folder"));
+  return source;
+}
+
+/// Refuses a mesh or a map that is another than it was.
+void check_files(const Node& list) {
+  for_each(list, [&](const Node& node) {
+    const std::string path = read_bytes(node.require("path"));
+    std::int64_t size = 0;
+    std::int64_t sum = 0;
+    read(node.require("size"), size);
+    read(node.require("crc32"), sum);
+    const std::string bytes = node.locate([&] { return read_file(path); });
+    if (bytes.size() == static_cast<std::uint64_t>(size) && crc32(bytes) == sum) return;
+    node.fail(fmt::format(
+        "{} is not as it was when this checkpoint was made; put that file back, or run the scene from its start",
+        printable_place(path)));
+  });
+}
+
+TimelineState::Motion read_motion(const Node& node) {
+  TimelineState::Motion motion;
+  read(node.require("event"), motion.event);
+  read(node.require("order"), motion.order);
+  motion.numbers.begin = read_real(node.require("begin"));
+  read_numbers(node.require("center"), {motion.numbers.center.data(), 3});
+  for_each(node.require("points"), [&](const Node& entry) {
+    MotionPoint& point = motion.numbers.points.emplace_back();
+    read(entry.require("number"), point.number);
+    read(entry.require("place"), point.place);
+    read(entry.require("vertex"), point.vertex);
+    read_numbers(entry.require("from"), {point.from.data(), 3});
+  });
+  return motion;
+}
+
+TimelineState read_timeline(const Node& node) {
+  TimelineState timeline;
+  for_each(node.require("applied"), [&](const Node& event) { read(event, timeline.applied.emplace_back()); });
+  for_each(node.require("motions"), [&](const Node& motion) { timeline.motions.push_back(read_motion(motion)); });
+  for_each(node.require("ramps"), [&](const Node& entry) {
+    StiffnessRamp& ramp = timeline.ramps.emplace_back();
+    Index group = 0;
+    read(entry.require("group"), group);
+    ramp.group = GroupId(group);
+    ramp.from = read_real(entry.require("from"));
+    ramp.to = read_real(entry.require("to"));
+    ramp.begin = read_real(entry.require("begin"));
+    ramp.duration = read_real(entry.require("duration"));
+    read(entry.require("ease"), ramp.ease);
+  });
+  return timeline;
+}
+
+void restore_groups(const Node& list, const Simulation& simulation) {
+  list.require_list(simulation.groups().size(), "(one a group)");
+  std::size_t i = 0;
+  for (const auto& [id, group] : simulation.groups()) {
+    const Node node = list[i++];
+    if (read_bytes(node.require("name")) != group.name) {
+      node.fail(fmt::format("the scene has the group '{}' here; take another checkpoint", printable(group.name)));
+    }
+    const Node parts = node.require("parts");
+    parts.require_list(group.set.parts.size(), "(one a part)");
+    for (std::size_t p = 0; p < group.set.parts.size(); ++p) {
+      ConstraintGroup& part = *group.set.parts[p];
+      read_numbers(parts[p].require("numbers"), part.mutable_numbers());
+      const Node stiffness = parts[p].require("stiffness");
+      stiffness.locate([&] { part.set_stiffness(read_real(stiffness)); });
+    }
+  }
+}
+
+void read_rows(const Node& node, Positions& positions, Positions& velocities) {
+  for (const auto& [key, rows] : {std::pair{"positions", &positions}, {"velocities", &velocities}}) {
+    read_numbers(node.require(key), {rows->data(), static_cast<std::size_t>(rows->size())});
+  }
+}
+
+State read_state(const Node& node, const State& fresh) {
+  State state = fresh;
+  read(node.require("step"), state.step);
+  if (state.step < 0 || state.step > max_steps) {
+    node.require("step").fail(fmt::format("{} is out of range; take another checkpoint", state.step));
+  }
+  state.time = read_real(node.require("time"));
+  state.time_excess = read_real(node.require("time_excess"));
+  read_rows(node, state.positions, state.velocities);
+  if (const auto previous = node.find("previous")) {
+    state.previous_time_step = read_real(previous->require("time_step"));
+    for (Positions* rows : {&state.previous_positions, &state.previous_velocities}) rows->resizeLike(state.positions);
+    read_rows(*previous, state.previous_positions, state.previous_velocities);
+  }
+  if (const auto debts = node.find("energy_debts")) {
+    state.energy_debts.resize(state.masses.size());
+    read_numbers(*debts, state.energy_debts);
+  }
+  return state;
+}
+
+}  // namespace
+
+Scene parse_checkpoint(std::string_view bytes, std::string_view name, const ResumeOptions& options) {
+  const Document document = parse_cbor(unseal(bytes, name), name);
+  const Origin origin{std::string(name)};
+  const Node root(document, origin);
+  SceneSource source = read_source(root.require("source"));
+  if (options.steps) source.overrides.steps = options.steps;
+  if (options.threads) source.overrides.threads = options.threads;
+  check_files(root.require("files"));
+  Scene scene = root.require("source").locate([&] { return parse_scene(std::move(source)); });
+
+  Simulation& simulation = scene.simulation;
+  const Node timeline = root.require("timeline");
+  timeline.locate([&] { scene.timeline.replay(simulation, read_timeline(timeline)); });
+  restore_groups(root.require("groups"), simulation);
+  const Node state = root.require("state");
+  state.locate([&] { simulation.restore(read_state(state, simulation.state())); });
+  if (scene.steps < simulation.state().step) {
+    fail_input(fmt::format("{}: {} steps are asked for, and {} are taken; ask for more", name, scene.steps,
+                           simulation.state().step));
+  }
+  return scene;
+}
+
+Scene read_checkpoint(const std::filesystem::path& path, const ResumeOptions& options) {
+  return parse_checkpoint(read_file(path), path.string(), options);
+}
+
+}  // namespace pliant

@@ -1,0 +1,147 @@
+#include <cstring>
+
+#include <nlohmann/json.hpp>
+
+#include "pliant/core/version.h"
+#include "pliant_io/checkpoint/checkpoint.h"
+#include "pliant_io/checkpoint/detail/checkpoint_file.h"
+#include "pliant_io/checkpoint/detail/checkpoint_values.h"
+#include "pliant_io/files/atomic_file.h"
+#include "pliant_io/scene/detail/scene_files.h"
+
+namespace pliant {
+namespace {
+
+using Json = nlohmann::json;
+
+Json bytes_of(const void* data, std::size_t size) {
+  const auto* begin = static_cast<const std::uint8_t*>(data);
+  return Json::binary(std::vector<std::uint8_t>(begin, begin + size));
+}
+
+/// Texts may hold what is no UTF-8, a path for one; bytes may hold anything.
+Json bytes_of(std::string_view text) {
+  return bytes_of(text.data(), text.size());
+}
+
+Json bytes_of(std::span<const Real> numbers) {
+  return bytes_of(numbers.data(), numbers.size_bytes());
+}
+
+Json bytes_of(const Positions& rows) {
+  return bytes_of(std::span<const Real>(rows.data(), static_cast<std::size_t>(rows.size())));
+}
+
+Json bytes_of(const Vec3& vector) {
+  return bytes_of(std::span<const Real>(vector.data(), 3));
+}
+
+/// Paths that hold in whatever folder the run is taken up.
+Json absolute_bytes(const std::filesystem::path& path) {
+  return bytes_of(absolute_path(path).string());
+}
+
+Json write_source(const SceneSource& source) {
+  Json texts = Json::array();
+  for (const SceneText& text : source.texts) {
+    texts.push_back({{"name", bytes_of(text.name)},
+                     {"folder", absolute_bytes(text.folder)},
+                     {"file", bytes_of(text.file.string())},
+                     {"text", bytes_of(text.text)}});
+  }
+  Json overrides = Json::object();
+  visit_overrides(source.overrides, [&](const char* name, const auto& value) {
+    if (!value) return;
+    if constexpr (std::is_enum_v<std::remove_cvref_t<decltype(*value)>>) {
+      overrides[name] = choice_names(*value)[static_cast<std::size_t>(*value)];
+    } else {
+      overrides[name] = *value;
+    }
+  });
+  Json set = Json::array();
+  for (const std::string& one : source.overrides.set) set.push_back(bytes_of(one));
+  return {{"texts", std::move(texts)},
+          {"overrides", std::move(overrides)},
+          {"set", std::move(set)},
+          {"set_folder", absolute_bytes(source.overrides_folder)}};
+}
+
+Json write_files(const std::vector<SceneFile>& files) {
+  Json list = Json::array();
+  for (const SceneFile& file : files) {
+    list.push_back({{"path", absolute_bytes(file.path)}, {"size", file.size}, {"crc32", file.crc32}});
+  }
+  return list;
+}
+
+Json write_state(const State& state) {
+  Json json = {{"step", state.step},
+               {"time", state.time},
+               {"time_excess", state.time_excess},
+               {"positions", bytes_of(state.positions)},
+               {"velocities", bytes_of(state.velocities)}};
+  if (state.previous_time_step > 0) {
+    json["previous"] = {{"time_step", state.previous_time_step},
+                        {"positions", bytes_of(state.previous_positions)},
+                        {"velocities", bytes_of(state.previous_velocities)}};
+  }
+  if (!state.energy_debts.empty()) json["energy_debts"] = bytes_of(state.energy_debts);
+  return json;
+}
+
+Json write_groups(const Simulation& simulation) {
+  Json groups = Json::array();
+  for (const auto& [id, group] : simulation.groups()) {
+    Json parts = Json::array();
+    for (const auto& part : group.set.parts) {
+      parts.push_back({{"stiffness", part->stiffness()}, {"numbers", bytes_of(part->mutable_numbers())}});
+    }
+    groups.push_back({{"name", bytes_of(group.name)}, {"parts", std::move(parts)}});
+  }
+  return groups;
+}
+
+Json write_motion(const TimelineState::Motion& motion) {
+  Json points = Json::array();
+  for (const MotionPoint& point : motion.numbers.points) {
+    points.push_back(
+        {{"number", point.number}, {"place", point.place}, {"from", bytes_of(point.from)}, {"vertex", point.vertex}});
+  }
+  return {{"event", motion.event},
+          {"order", motion.order},
+          {"begin", motion.numbers.begin},
+          {"center", bytes_of(motion.numbers.center)},
+          {"points", std::move(points)}};
+}
+
+Json write_timeline(const TimelineState& timeline) {
+  Json motions = Json::array();
+  for (const TimelineState::Motion& motion : timeline.motions) motions.push_back(write_motion(motion));
+  Json ramps = Json::array();
+  for (const StiffnessRamp& ramp : timeline.ramps) {
+    ramps.push_back({{"group", static_cast<Index>(ramp.group)},
+                     {"from", ramp.from},
+                     {"to", ramp.to},
+                     {"begin", ramp.begin},
+                     {"duration", ramp.duration},
+                     {"ease", choice_names(ramp.ease)[static_cast<std::size_t>(ramp.ease)]}});
+  }
+  return {{"applied", timeline.applied}, {"motions", std::move(motions)}, {"ramps", std::move(ramps)}};
+}
+
+}  // namespace
+
+void write_checkpoint(const std::filesystem::path& path, const Scene& scene) {
+  const Json content = {{"pliant", version},
+                        {"compiler", compiler},
+                        {"source", write_source(scene.source)},
+                        {"files", write_files(scene.files)},
+                        {"state", write_state(scene.simulation.state())},
+                        {"groups", write_groups(scene.simulation)},
+                        {"timeline", write_timeline(scene.timeline.state())}};
+  std::string bytes;
+  Json::to_cbor(content, bytes);
+  write_file_atomically(path, seal(bytes));
+}
+
+}  // namespace pliant

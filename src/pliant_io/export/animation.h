@@ -1,0 +1,61 @@
+#pragma once
+// A moving mesh, to be exported: from the folder of a run, or a mesh and a point cache.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "pliant/simulation/simulation.h"
+#include "pliant_io/mesh/mesh_file.h"
+#include "pliant_io/mesh/point_cache.h"
+
+namespace pliant {
+
+struct Animation {
+  std::string name;
+  std::vector<Body> bodies;  ///< their vertices follow each other from 0; none when only the points are known
+  PointCache cache;          ///< positions [m], +z up, with their times [s]
+  std::vector<Real> times;   ///< of the frames to export [s], rising, at least one; the cache is sampled at them
+};
+
+/// What a run left in its folder, also one that was cut off: mesh.obj, cut into its bodies, the frames in any format
+/// and their times.
+/// @throws Error (input) with the file, the place and the remedy: no such folder or not that of a run, a run without
+///   frames, files that do not belong together.
+Animation read_run(const std::filesystem::path& folder);
+
+/// A mesh, as one body of that name, that a cache moves. @throws Error (input): another count of vertices.
+Animation animate(Mesh mesh, std::string name, PointCache cache);
+
+/// Points without a mesh.
+Animation animate(std::string name, PointCache cache);
+
+/// The same cache with its positions in metres and +z up, as read_mesh places a mesh.
+/// @throws Error (input): a scale that is not a positive number, positions that are not finite with it.
+PointCache place(PointCache cache, const ImportOptions& options);
+
+/// A mesh that stands still: one frame.
+Animation still(Mesh mesh, std::string name);
+
+/// Keeps one body. @throws Error (input), with the names there are: none of that name.
+void keep_body(Animation& animation, std::string_view name);
+
+/// Frames `first` to `last`, both included, every `step`-th; negative ones count back from the last, which is -1.
+struct FrameRange {
+  std::int64_t first = 0;
+  std::int64_t last = -1;
+  std::int64_t step = 1;
+};
+/// Keeps a part of the frames. @throws Error (input): a frame that there is not, a range of none.
+void keep_frames(Animation& animation, const FrameRange& range);
+
+/// Keeps one moment [s], between frames or at one. @throws Error (input): before the first frame or after the last.
+void keep_time(Animation& animation, Real time);
+
+/// Takes the moments first, first + 1/rate, ... instead, up to the last frame. @throws Error (input): a rate that is
+/// not a positive number, more than a million frames.
+void resample(Animation& animation, Real frames_per_second);
+
+/// Frames per second of evenly spaced times, 0 for others; those of a single frame are 24.
+Real frame_rate(const std::vector<Real>& times);
+
+}  // namespace pliant

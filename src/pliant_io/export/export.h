@@ -1,0 +1,66 @@
+#pragma once
+// Animations to files that other programs read. docs/exports.md says what each format holds.
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+
+#include "pliant/core/options.h"
+#include "pliant_io/export/animation.h"
+
+namespace pliant {
+
+/// glTF as text or binary: triangles with morph targets; USD as text; point caches; NumPy's array.
+enum class AnimationFormat { gltf, glb, usda, pc2, mdd, npy };
+constexpr std::array<std::string_view, 6> choice_names(AnimationFormat) {
+  return {"gltf", "glb", "usda", "pc2", "mdd", "npy"};
+}
+
+/// The format that the extension stands for, in capitals or not; none when it stands for no known one.
+std::optional<AnimationFormat> animation_format(const std::filesystem::path& path);
+
+/// What surfaces of a glTF file are shaded by: normals of their own, the mean of the triangles around a vertex, or
+/// none, which shows every triangle flat.
+enum class Normals { smooth, flat };
+constexpr std::array<std::string_view, 2> choice_names(Normals) {
+  return {"smooth", "flat"};
+}
+
+inline constexpr Real default_gltf_tolerance = 1e-3;
+
+struct ExportOptions {
+  /// How far linear interpolation between keyframes may be off, in sizes of the body (keyframes.h). 0 keeps all frames
+  /// that are not exactly between others. Default: default_gltf_tolerance for glTF, all frames for USD; the other
+  /// formats take none.
+  std::optional<Real> tolerance = {};
+  /// Of glTF, ≥ 2: each but the first is a morph target, and all of them have a weight at each. 256 layers of a texture
+  /// are what every browser has for them.
+  std::int64_t max_keyframes = 256;
+  Normals normals = Normals::smooth;  ///< of glTF
+};
+
+/// What was written.
+struct ExportReport {
+  std::int64_t frames = 0;     ///< of the animation
+  std::int64_t keyframes = 0;  ///< of these, in the file
+  Real largest_error = 0;      ///< of the others, in sizes of their body
+};
+
+/// Writes all bodies and all frames, whole or not at all (atomic_file.h), in the format of the extension. The first
+/// frame is at 0 s.
+/// @throws Error (input): an extension that is not known, options out of range or not for this format, what the format
+///   cannot hold.
+/// @throws Error (output): the file cannot be written.
+ExportReport export_animation(const std::filesystem::path& path, const Animation& animation,
+                              const ExportOptions& options = {});
+
+/// Writes a mesh file for each frame. `pattern` is a path whose file name has one run of '#': these are the digits of
+/// the frame's number, from 0, with zeros in front. The files are whole, each by itself. Returns how many there are.
+/// @throws Error (input): no such pattern, and as write_mesh does.
+std::int64_t export_sequence(const std::filesystem::path& pattern, const Animation& animation);
+
+/// Writes a mesh file of the animation's only frame.
+/// @throws Error (input): more frames than one, and as write_mesh does.
+void export_frame(const std::filesystem::path& path, const Animation& animation);
+
+}  // namespace pliant

@@ -1,0 +1,319 @@
+// glTF 2.0 (Khronos Group, specification 2.0.1; section numbers are its own).
+#include <bit>
+#include <limits>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "pliant/core/error.h"
+#include "pliant/core/version.h"
+#include "pliant_io/export/detail/export_formats.h"
+#include "pliant_io/export/detail/gltf_surface.h"
+#include "pliant_io/files/atomic_file.h"
+#include "pliant_io/files/base64.h"
+#include "pliant_io/recorder/detail/array_format.h"
+
+namespace pliant {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "buffers are written as they lie in memory");
+
+using OrderedJson = nlohmann::ordered_json;
+using Vec3f = Eigen::Vector3f;
+
+/// Numbers that the specification gives to what they name (Sec. 5.1.3, 5.11.5, 5.24.4).
+enum class ComponentType { unsigned_int = 5125, single = 5126 };
+enum class Target { none = 0, vertices = 34962, indices = 34963 };
+enum class Mode { points = 0, lines = 1, triangles = 4 };
+
+/// Ours has +z up, glTF +y; a quarter turn about x (Sec. 3.4).
+Vec3f y_up(const Vec3f& v) {
+  return {v[0], v[2], -v[1]};
+}
+
+/// The JSON and the one buffer that its accessors refer to.
+class GltfDocument {
+ public:
+  GltfDocument() {
+    json_["asset"] = {{"version", "2.0"}, {"generator", fmt::format("pliant {}", version)}};
+    json_["scene"] = 0;
+    json_["scenes"] = {{{"nodes", OrderedJson::array()}}};
+  }
+
+  OrderedJson& operator[](const char* key) { return json_[key]; }
+  const OrderedJson& json() const { return json_; }
+  const std::string& buffer() const { return buffer_; }
+
+  /// Appends to a list of the document; returns the index there.
+  std::size_t add(const char* list, OrderedJson item) {
+    json_[list].push_back(std::move(item));
+    return json_[list].size() - 1;
+  }
+
+  std::size_t add_vectors(const std::vector<Vec3f>& vectors, bool has_bounds) {
+    OrderedJson accessor = add_view(vectors.data(), vectors.size() * sizeof(Vec3f), Target::vertices);
+    describe(accessor, ComponentType::single, vectors.size(), "VEC3");
+    if (has_bounds) {
+      Vec3f low = vectors.front();
+      Vec3f high = vectors.front();
+      for (const Vec3f& v : vectors) {
+        low = low.cwiseMin(v);
+        high = high.cwiseMax(v);
+      }
+      accessor["min"] = {low[0], low[1], low[2]};
+      accessor["max"] = {high[0], high[1], high[2]};
+    }
+    return add("accessors", std::move(accessor));
+  }
+
+  std::size_t add_texture_coordinates(const std::vector<std::array<float, 2>>& pairs) {
+    OrderedJson accessor = add_view(pairs.data(), pairs.size() * sizeof(pairs[0]), Target::vertices);
+    describe(accessor, ComponentType::single, pairs.size(), "VEC2");
+    return add("accessors", std::move(accessor));
+  }
+
+  std::size_t add_indices(const std::vector<Index>& indices) {
+    OrderedJson accessor = add_view(indices.data(), indices.size() * sizeof(Index), Target::indices);
+    describe(accessor, ComponentType::unsigned_int, indices.size(), "SCALAR");
+    return add("accessors", std::move(accessor));
+  }
+
+  std::size_t add_times(const std::vector<float>& times) {
+    OrderedJson accessor = add_view(times.data(), times.size() * sizeof(float), Target::none);
+    describe(accessor, ComponentType::single, times.size(), "SCALAR");
+    accessor["min"] = {times.front()};
+    accessor["max"] = {times.back()};
+    return add("accessors", std::move(accessor));
+  }
+
+  std::size_t add_scalars(const std::vector<float>& numbers) {
+    OrderedJson accessor = add_view(numbers.data(), numbers.size() * sizeof(float), Target::none);
+    describe(accessor, ComponentType::single, numbers.size(), "SCALAR");
+    return add("accessors", std::move(accessor));
+  }
+
+ private:
+  /// An accessor of bytes that are appended to the buffer; all are of numbers of four bytes, so that they are aligned.
+  OrderedJson add_view(const void* data, std::size_t size, Target target) {
+    OrderedJson view = {{"buffer", 0}, {"byteOffset", buffer_.size()}, {"byteLength", size}};
+    if (target != Target::none) view["target"] = static_cast<int>(target);
+    buffer_.append(static_cast<const char*>(data), size);
+    return {{"bufferView", add("bufferViews", std::move(view))}};
+  }
+
+  static void describe(OrderedJson& accessor, ComponentType component, std::size_t count, const char* type) {
+    accessor["componentType"] = static_cast<int>(component);
+    accessor["count"] = count;
+    accessor["type"] = type;
+  }
+
+  OrderedJson json_;
+  std::string buffer_;
+};
+
+/// A muted color of its own for each of the first bodies.
+OrderedJson material(std::size_t body) {
+  constexpr std::array<std::array<double, 3>, 6> colors = {{{0.28, 0.45, 0.69},
+                                                            {0.77, 0.36, 0.22},
+                                                            {0.33, 0.56, 0.38},
+                                                            {0.80, 0.64, 0.26},
+                                                            {0.52, 0.40, 0.62},
+                                                            {0.45, 0.45, 0.45}}};
+  const auto& [red, green, blue] = colors[body % colors.size()];
+  return {{"pbrMetallicRoughness",
+           {{"baseColorFactor", {red, green, blue, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 0.8}}},
+          {"doubleSided", true}};
+}
+
+class GltfExport {
+ public:
+  GltfExport(const Animation& animation, const std::vector<std::size_t>& frames, Normals normals)
+      : animation_(animation), frames_(frames), normals_(normals) {
+    for (std::size_t body = 0; body < animation.bodies.size(); ++body) add_body(body);
+    if (moving_nodes_.empty()) return;
+    add_animation();
+  }
+
+  GltfDocument& document() { return document_; }
+
+ private:
+  /// Positions of a surface's vertices in a frame, and their normals.
+  struct Shape {
+    std::vector<Eigen::Vector3d> positions;
+    std::vector<Eigen::Vector3d> normals;
+  };
+
+  void add_body(std::size_t number) {
+    const Body& body = animation_.bodies[number];
+    if (body.mesh.vertex_count() == 0) return;
+    const GltfSurface surface(body.mesh);
+    const bool has_normals = normals_ == Normals::smooth && !surface.triangles.empty();
+    const Shape rest = shape(body, surface, frames_.front());
+    OrderedJson attributes = {{"POSITION", document_.add_vectors(y_up_floats(rest.positions), true)}};
+    if (has_normals) attributes["NORMAL"] = document_.add_vectors(y_up_floats(rest.normals), false);
+    if (!surface.texture.empty()) {
+      attributes["TEXCOORD_0"] = document_.add_texture_coordinates(surface.texture);
+    }
+    const OrderedJson targets = moves(body) ? add_targets(body, surface, rest, has_normals) : OrderedJson();
+    const std::size_t material_index = document_.add("materials", material(number));
+    OrderedJson primitives = OrderedJson::array();
+    const auto add_primitive = [&](Mode mode, const std::vector<Index>& indices) {
+      OrderedJson primitive = {
+          {"attributes", attributes}, {"material", material_index}, {"mode", static_cast<int>(mode)}};
+      if (!indices.empty()) primitive["indices"] = document_.add_indices(indices);
+      if (!targets.empty()) primitive["targets"] = targets;
+      primitives.push_back(std::move(primitive));
+    };
+    if (!surface.triangles.empty()) add_primitive(Mode::triangles, surface.triangles);
+    attributes.erase("TEXCOORD_0");
+    if (!surface.lines.empty()) add_primitive(Mode::lines, surface.lines);
+    if (primitives.empty()) add_primitive(Mode::points, {});
+    add_node(body.name, std::move(primitives), !targets.empty());
+  }
+
+  void add_node(const std::string& name, OrderedJson primitives, bool is_moving) {
+    OrderedJson mesh = {{"name", name}, {"primitives", std::move(primitives)}};
+    if (is_moving) {
+      mesh["weights"] = std::vector<int>(frames_.size() - 1, 0);
+      OrderedJson names = OrderedJson::array();
+      for (std::size_t key = 1; key < frames_.size(); ++key) names.push_back(fmt::format("frame {}", frames_[key]));
+      mesh["extras"] = {{"targetNames", std::move(names)}};  // as Blender and three.js read them
+    }
+    const std::size_t node =
+        document_.add("nodes", {{"name", name}, {"mesh", document_.add("meshes", std::move(mesh))}});
+    document_["scenes"][0]["nodes"].push_back(node);
+    if (is_moving) moving_nodes_.push_back(node);
+  }
+
+  bool moves(const Body& body) {
+    const auto part = [&](std::size_t frame) {
+      Positions all;
+      animation_.cache.sample(animation_.times[frame], all);
+      return Positions(all.middleRows(body.first_vertex, body.mesh.vertex_count()));
+    };
+    const Positions rest = part(frames_.front());
+    return std::any_of(frames_.begin() + 1, frames_.end(), [&](std::size_t frame) { return part(frame) != rest; });
+  }
+
+  OrderedJson add_targets(const Body& body, const GltfSurface& surface, const Shape& rest, bool has_normals) {
+    OrderedJson targets = OrderedJson::array();
+    for (std::size_t key = 1; key < frames_.size(); ++key) {
+      const Shape moved = shape(body, surface, frames_[key]);
+      OrderedJson target = {{"POSITION", document_.add_vectors(differences(moved.positions, rest.positions), true)}};
+      if (has_normals) target["NORMAL"] = document_.add_vectors(differences(moved.normals, rest.normals), false);
+      targets.push_back(std::move(target));
+    }
+    return targets;
+  }
+
+  Shape shape(const Body& body, const GltfSurface& surface, std::size_t frame) {
+    animation_.cache.sample(animation_.times[frame], positions_);
+    const Positions own = positions_.middleRows(body.first_vertex, body.mesh.vertex_count());
+    const Positions normals = vertex_normals(body.mesh, own);
+    Shape result;
+    for (const Index vertex : surface.vertices) {
+      single_precision(own, vertex);  // must be in its range
+      result.positions.push_back(row(own, vertex));
+      result.normals.push_back(row(normals, vertex));
+    }
+    return result;
+  }
+
+  static std::vector<Vec3f> y_up_floats(const std::vector<Eigen::Vector3d>& vectors) {
+    std::vector<Vec3f> result;
+    for (const Eigen::Vector3d& v : vectors) result.push_back(y_up(v.cast<float>()));
+    return result;
+  }
+
+  /// From what the reader has of the rest shape in single precision, so that rounding does not add up.
+  static std::vector<Vec3f> differences(const std::vector<Eigen::Vector3d>& moved,
+                                        const std::vector<Eigen::Vector3d>& rest) {
+    std::vector<Vec3f> result;
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+      const Eigen::Vector3d base = rest[i].cast<float>().cast<double>();
+      result.push_back(y_up((moved[i] - base).cast<float>()));
+    }
+    return result;
+  }
+
+  /// At each keyframe the weight of its own target is 1, and linear between them; all bodies share the numbers.
+  void add_animation() {
+    const std::size_t target_count = frames_.size() - 1;
+    std::vector<float> weights(frames_.size() * target_count, 0);
+    for (std::size_t key = 1; key < frames_.size(); ++key) weights[key * target_count + key - 1] = 1;
+    const OrderedJson sampler = {{"input", document_.add_times(single_precision_times(animation_, frames_))},
+                                 {"output", document_.add_scalars(weights)},
+                                 {"interpolation", "LINEAR"}};
+    OrderedJson channels = OrderedJson::array();
+    for (const std::size_t node : moving_nodes_) {
+      channels.push_back({{"sampler", 0}, {"target", {{"node", node}, {"path", "weights"}}}});
+    }
+    document_.add("animations",
+                  {{"name", animation_.name}, {"samplers", {sampler}}, {"channels", std::move(channels)}});
+  }
+
+  const Animation& animation_;
+  const std::vector<std::size_t>& frames_;
+  Normals normals_;
+  GltfDocument document_;
+  std::vector<std::size_t> moving_nodes_;
+  Positions positions_;  ///< scratch
+};
+
+std::string dump(const OrderedJson& json) {
+  // Names may hold bytes that are not UTF-8; they must not cost the file.
+  return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
+}
+
+void append_word(std::string& bytes, std::uint32_t word) {
+  bytes.append(reinterpret_cast<const char*>(&word), sizeof word);
+}
+
+/// A chunk of a binary file (Sec. 4.4.3); `filler` makes its size a multiple of 4.
+void write_chunk(AtomicFile& file, std::string_view type, std::string_view data, char filler) {
+  const std::size_t padding = (4 - data.size() % 4) % 4;
+  std::string head;
+  append_word(head, static_cast<std::uint32_t>(data.size() + padding));
+  head += type;
+  file.write(head);
+  file.write(data);
+  file.write(std::string(padding, filler));
+}
+
+void write_binary(AtomicFile& file, const std::string& json, const std::string& buffer,
+                  const std::filesystem::path& path) {
+  constexpr std::size_t heads = 12 + 8 + 8;
+  const std::size_t size = heads + (json.size() + 3) / 4 * 4 + (buffer.size() + 3) / 4 * 4;
+  if (size > std::numeric_limits<std::uint32_t>::max()) {
+    fail_input(fmt::format("{}: {} bytes are past the 4 GiB of a GLB file; lessen --max-keyframes, or write USD",
+                           path.string(), size));
+  }
+  std::string head = "glTF";
+  append_word(head, 2);
+  append_word(head, static_cast<std::uint32_t>(size));
+  file.write(head);
+  write_chunk(file, "JSON", json, ' ');
+  write_chunk(file, std::string_view("BIN\0", 4), buffer, '\0');
+}
+
+}  // namespace
+
+void write_gltf(const std::filesystem::path& path, const Animation& animation, const std::vector<std::size_t>& frames,
+                GltfContainer container, Normals normals) {
+  GltfExport result(animation, frames, normals);
+  GltfDocument& document = result.document();
+  OrderedJson buffer = {{"byteLength", document.buffer().size()}};
+  if (container == GltfContainer::text) {
+    buffer["uri"] = "data:application/octet-stream;base64," + base64(document.buffer());
+  }
+  document.add("buffers", std::move(buffer));
+  AtomicFile file(path);
+  if (container == GltfContainer::text) {
+    file.write(dump(document.json()) + '\n');
+  } else {
+    write_binary(file, dump(document.json()), document.buffer(), path);
+  }
+  file.commit();
+}
+
+}  // namespace pliant

@@ -1,0 +1,278 @@
+// USD as text (OpenUSD, usda 1.0) with the schemas of UsdGeom.
+#include <cmath>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "pliant/core/version.h"
+#include "pliant_io/export/detail/export_formats.h"
+#include "pliant_io/files/atomic_file.h"
+#include "pliant_io/recorder/detail/array_format.h"
+#include "pliant_io/recorder/detail/one_mesh.h"
+
+namespace pliant {
+namespace {
+
+/// How wide curves are drawn, in sizes of their body.
+constexpr Real curve_width = 0.005;
+/// Times that are as close to a whole frame are at it.
+constexpr Real code_rounding = 1e-6;
+
+/// Text with an indentation, handed to the file in blocks.
+class UsdText {
+ public:
+  explicit UsdText(AtomicFile& file) : file_(file) {}
+
+  void line(std::string_view text) {
+    constexpr std::size_t block = 1 << 20;
+    buffer_.append(4 * depth_, ' ');
+    buffer_ += text;
+    buffer_ += '\n';
+    if (buffer_.size() >= block) flush();
+  }
+  void open(std::string_view head, std::string_view bracket = "{") {
+    line(head);
+    line(bracket);
+    ++depth_;
+  }
+  void close(std::string_view bracket = "}") {
+    --depth_;
+    line(bracket);
+  }
+  void flush() {
+    file_.write(buffer_);
+    buffer_.clear();
+  }
+
+ private:
+  AtomicFile& file_;
+  std::string buffer_;
+  std::size_t depth_ = 0;
+};
+
+/// In quotes, on one line, as valid UTF-8; JSON and USD quote alike but for control characters.
+std::string string_text(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = ' ';
+  }
+  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+/// Names of prims: a letter or _, then letters, digits and _, each once among its siblings.
+class PrimNames {
+ public:
+  std::string name(std::string_view text) {
+    std::string name;
+    for (const char c : text) {
+      const bool is_letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+      const bool is_digit = c >= '0' && c <= '9';
+      if (is_digit && name.empty()) name += '_';
+      name += is_letter || is_digit ? c : '_';
+    }
+    if (name.empty()) name = "_";
+    std::string result = name;
+    for (int i = 1; !used_.insert(result).second; ++i) result = fmt::format("{}_{}", name, i);
+    return result;
+  }
+
+ private:
+  std::set<std::string> used_;
+};
+
+template <typename Items, typename Write>
+std::string list(const Items& items, const Write& write) {
+  std::string text = "[";
+  for (const auto& item : items) {
+    if (text.size() > 1) text += ", ";
+    write(text, item);
+  }
+  return text + ']';
+}
+
+std::string indices_text(const std::vector<Index>& indices) {
+  return list(indices, [](std::string& text, Index index) { text += fmt::format("{}", index); });
+}
+
+void append_point(std::string& text, const Eigen::Vector3f& p) {
+  fmt::format_to(std::back_inserter(text), "({}, {}, {})", p[0], p[1], p[2]);
+}
+
+/// Edges as polylines: each goes on while the next edge begins where the last one ended.
+struct Curves {
+  explicit Curves(const std::vector<Edge>& edges) {
+    for (const auto& [from, to] : edges) {
+      if (vertices.empty() || vertices.back() != from) {
+        counts.push_back(1);
+        vertices.push_back(from);
+      }
+      vertices.push_back(to);
+      ++counts.back();
+    }
+  }
+  std::vector<Index> counts;
+  std::vector<Index> vertices;
+};
+
+class UsdExport {
+ public:
+  UsdExport(UsdText& text, const Animation& animation, const std::vector<std::size_t>& frames)
+      : text_(text), animation_(animation), frames_(frames), rate_(frame_rate(animation.times)) {
+    constexpr Real rate_of_uneven_frames = 24;
+    if (rate_ == 0) rate_ = rate_of_uneven_frames;
+  }
+
+  void write() {
+    PrimNames names;
+    const std::string root = names.name(animation_.name);
+    text_.line("#usda 1.0");
+    text_.line("(");
+    text_.line(fmt::format("    defaultPrim = \"{}\"", root));
+    text_.line(fmt::format("    doc = {}", string_text(fmt::format("pliant {}", version))));
+    text_.line(fmt::format("    endTimeCode = {}", time_code(frames_.back())));
+    text_.line(fmt::format("    framesPerSecond = {}", rate_));
+    text_.line("    metersPerUnit = 1");
+    text_.line("    startTimeCode = 0");
+    text_.line(fmt::format("    timeCodesPerSecond = {}", rate_));
+    text_.line("    upAxis = \"Z\"");
+    text_.line(")");
+    text_.line("");
+    text_.open(fmt::format("def Xform \"{}\"", root));
+    const std::vector<Real> sizes = body_sizes(animation_);
+    PrimNames bodies;
+    for (std::size_t i = 0; i < animation_.bodies.size(); ++i) write_body(animation_.bodies[i], bodies, sizes[i]);
+    text_.close();
+  }
+
+ private:
+  Real time_code(std::size_t frame) const {
+    const Real code = time_from_start(animation_, frame) * rate_;
+    return std::abs(code - std::round(code)) <= code_rounding * std::max<Real>(1, code) ? std::round(code) : code;
+  }
+
+  void write_body(const Body& body, PrimNames& names, Real size) {
+    text_.line(fmt::format("def Xform \"{}\" (", names.name(body.name)));
+    text_.line(fmt::format("    customData = {{ string name = {} }}", string_text(body.name)));
+    text_.open(")");
+    const PolygonFaces faces = visible_faces(body.mesh);
+    if (faces.face_count() > 0) write_mesh(body, faces);
+    if (!body.mesh.edges.empty()) write_curves(body, size);
+    if (faces.face_count() == 0 && body.mesh.edges.empty() && body.mesh.vertex_count() > 0) write_points(body, size);
+    text_.close();
+  }
+
+  void write_mesh(const Body& body, const PolygonFaces& faces) {
+    text_.open("def Mesh \"mesh\"");
+    text_.line("uniform bool doubleSided = 1");
+    std::vector<Index> counts;
+    for (std::size_t f = 1; f < faces.offsets.size(); ++f) counts.push_back(faces.offsets[f] - faces.offsets[f - 1]);
+    text_.line("int[] faceVertexCounts = " + indices_text(counts));
+    text_.line("int[] faceVertexIndices = " + indices_text(faces.vertices));
+    write_points_over_time(body, all_vertices(body));
+    if (!faces.texture_coordinates.empty()) write_texture(body.mesh, faces);
+    text_.line("uniform token subdivisionScheme = \"none\"");
+    text_.close();
+  }
+
+  /// Corners without texture coordinates get (0, 0).
+  void write_texture(const Mesh& mesh, const PolygonFaces& faces) {
+    const std::string pairs = list(faces.texture_coordinates, [&](std::string& text, Index t) {
+      const bool has_pair = t >= 0;
+      const auto u = has_pair ? static_cast<float>(mesh.texture_coordinates(t, 0)) : 0;
+      const auto v = has_pair ? static_cast<float>(mesh.texture_coordinates(t, 1)) : 0;
+      fmt::format_to(std::back_inserter(text), "({}, {})", u, v);
+    });
+    text_.line("texCoord2f[] primvars:st = " + pairs + " (");
+    text_.line("    interpolation = \"faceVarying\"");
+    text_.line(")");
+  }
+
+  void write_curves(const Body& body, Real size) {
+    const Curves curves(body.mesh.edges);
+    text_.open("def BasisCurves \"edges\"");
+    text_.line("int[] curveVertexCounts = " + indices_text(curves.counts));
+    write_points_over_time(body, curves.vertices);
+    text_.line("uniform token type = \"linear\"");
+    write_width(size);
+    text_.line("uniform token wrap = \"nonperiodic\"");
+    text_.close();
+  }
+
+  void write_points(const Body& body, Real size) {
+    text_.open("def Points \"points\"");
+    write_points_over_time(body, all_vertices(body));
+    write_width(size);
+    text_.close();
+  }
+
+  void write_width(Real size) {
+    text_.line(fmt::format("float[] widths = [{}] (", static_cast<float>(curve_width * size)));
+    text_.line("    interpolation = \"constant\"");
+    text_.line(")");
+  }
+
+  static std::vector<Index> all_vertices(const Body& body) {
+    std::vector<Index> vertices;
+    for (Index v = 0; v < body.mesh.vertex_count(); ++v) vertices.push_back(v);
+    return vertices;
+  }
+
+  /// `vertices` are the body's.
+  void write_points_over_time(const Body& body, const std::vector<Index>& vertices) {
+    write_over_time("float3[] extent", [&] { return extent_text(body, vertices); });
+    write_over_time("point3f[] points", [&] {
+      return list(vertices, [&](std::string& text, Index v) { append_point(text, point(body, v)); });
+    });
+  }
+
+  Eigen::Vector3f point(const Body& body, Index vertex) const {
+    return single_precision(positions_, body.first_vertex + vertex);
+  }
+
+  std::string extent_text(const Body& body, const std::vector<Index>& vertices) const {
+    Eigen::Vector3f low = point(body, vertices.front());
+    Eigen::Vector3f high = low;
+    for (const Index vertex : vertices) {
+      low = low.cwiseMin(point(body, vertex));
+      high = high.cwiseMax(point(body, vertex));
+    }
+    return list(std::array{low, high}, append_point);
+  }
+
+  /// An attribute, `value` being made of positions_; of a single frame it needs no time.
+  template <typename Value>
+  void write_over_time(std::string_view attribute, const Value& value) {
+    if (frames_.size() == 1) {
+      sample(frames_.front());
+      text_.line(fmt::format("{} = {}", attribute, value()));
+      return;
+    }
+    text_.line(fmt::format("{}.timeSamples = {{", attribute));
+    for (const std::size_t frame : frames_) {
+      sample(frame);
+      text_.line(fmt::format("    {}: {},", time_code(frame), value()));
+    }
+    text_.line("}");
+  }
+
+  void sample(std::size_t frame) { animation_.cache.sample(animation_.times[frame], positions_); }
+
+  UsdText& text_;
+  const Animation& animation_;
+  const std::vector<std::size_t>& frames_;
+  Real rate_;
+  Positions positions_;  ///< of the frame that is being written
+};
+
+}  // namespace
+
+void write_usda(const std::filesystem::path& path, const Animation& animation, const std::vector<std::size_t>& frames) {
+  AtomicFile file(path);
+  UsdText text(file);
+  UsdExport(text, animation, frames).write();
+  text.flush();
+  file.commit();
+}
+
+}  // namespace pliant

@@ -1,0 +1,54 @@
+#pragma once
+// What a run is judged by: energies, momenta, residual and times, one row a recorded step.
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "pliant/simulation/simulation.h"
+#include "pliant_io/recorder/output_file.h"
+
+namespace pliant {
+
+/// The state after a step. Energies [J] are those of its positions and velocities; none of them is damped or shifted.
+struct Measurements {
+  std::int64_t step = 0;
+  Real time = 0;                         ///< [s]
+  Real kinetic = 0;                      ///< Σ m ‖v‖²/2
+  std::vector<std::string> groups;       ///< names, in the order of Simulation::groups()
+  std::vector<Real> elastic;             ///< of each of these groups
+  Real gravitational = 0;                ///< the potentials of all forces that have one
+  Real total = 0;                        ///< the sum of the energies
+  Real speed_sum = 0;                    ///< Σ ‖v‖ [m/s]
+  Vec3 momentum = Vec3::Zero();          ///< Σ m v [N·s]
+  Vec3 angular_momentum = Vec3::Zero();  ///< Σ m x × v about the origin [N·m·s]
+  Real residual = 0;                     ///< largest force left on a vertex by the step's last iterate [N]
+  Real objective = 0;                    ///< of that iterate [J]
+  StepReport report;                     ///< of the step; all zero for the start
+};
+
+/// Measures the state; costs one local step.
+Measurements measure(Simulation& simulation, const StepReport& report);
+
+/// Writes measurements.csv: a line of column names, then a row for each measurement. Numbers are the shortest that read
+/// back to the same bits.
+class MeasurementsWriter {
+ public:
+  /// Makes the file and writes the names of the columns; `groups` have columns: one that is not there has the energy 0,
+  /// one that is not among them counts in the total alone. Or goes on behind the first `kept_rows` rows of the file
+  /// that is there. @throws Error (output); Error (input): that file has other columns, or fewer rows
+  MeasurementsWriter(const std::filesystem::path& path, std::vector<std::string> groups, std::int64_t kept_rows = 0);
+
+  void add(const Measurements& row);
+
+ private:
+  std::vector<Real> elastic_columns(const Measurements& row) const;
+
+  using ColumnsOfNames = std::map<std::string, std::vector<std::size_t>, std::less<>>;
+
+  OutputFile file_;
+  std::size_t elastic_count_;
+  ColumnsOfNames elastic_of_;  // the columns of a name: several groups may have it
+};
+
+}  // namespace pliant

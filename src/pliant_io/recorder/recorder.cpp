@@ -1,0 +1,52 @@
+#include "pliant_io/recorder/recorder.h"
+
+#include <fmt/format.h>
+
+#include "pliant/core/error.h"
+#include "pliant_io/mesh/mesh_file.h"
+#include "pliant_io/recorder/detail/one_mesh.h"
+#include "pliant_io/recorder/run_files.h"
+
+namespace pliant {
+
+namespace fs = std::filesystem;
+
+void begin_run(const fs::path& folder, RunInfo info, const Simulation& simulation) {
+  prepare_run_folder(folder, info.frame_format);
+  info.outcome = Outcome::running;
+  write_run_info(folder / "run.json", info, simulation);
+  if (info.frame_format == "none") return;
+  write_mesh(folder / "mesh.obj", one_mesh(simulation.bodies()), simulation.state().positions);
+}
+
+void end_run(const fs::path& folder, const RunInfo& info, const Simulation& simulation) {
+  write_run_info(folder / "run.json", info, simulation);
+}
+
+void resume_run(const fs::path& folder, RunInfo info, const Simulation& simulation) {
+  info.outcome = Outcome::running;
+  write_run_info(folder / "run.json", info, simulation);
+}
+
+Recorder::Recorder(fs::path folder, std::unique_ptr<FrameWriter> frames, std::int64_t every,
+                   std::vector<std::string> groups, std::int64_t kept)
+    : folder_(std::move(folder)),
+      frames_(std::move(frames)),
+      measurements_(folder_ / "measurements.csv", std::move(groups), kept),
+      every_(every),
+      frame_count_(frames_ ? kept : 0) {
+  if (every < 1) fail_input(fmt::format("records every {} steps are not possible; give a number from 1 up", every));
+}
+
+void Recorder::record(Simulation& simulation, const StepReport& report) {
+  if (simulation.state().step % every_ != 0) return;
+  const Measurements row = measure(simulation, report);
+  if (frames_) {
+    frames_->add(simulation.state().positions);
+    ++frame_count_;
+  }
+  measurements_.add(row);
+  residual_ = row.residual;
+}
+
+}  // namespace pliant

@@ -1,0 +1,100 @@
+#include "pliant_io/recorder/run_info.h"
+
+#include <map>
+
+#include <nlohmann/json.hpp>
+
+#include "pliant/core/version.h"
+#include "pliant_io/files/atomic_file.h"
+#include "pliant_io/recorder/run_files.h"
+
+namespace pliant {
+namespace {
+
+using OrderedJson = nlohmann::ordered_json;
+
+/// A visitor that writes each option under its name, enumerations by their names.
+struct OptionWriter {
+  OrderedJson& json;
+
+  template <class Option>
+  void operator()(const OptionInfo& info, const Option& option) const {
+    if constexpr (std::is_enum_v<Option>) {
+      json[std::string(info.name)] = choice_names(option)[static_cast<std::size_t>(option)];
+    } else {
+      json[std::string(info.name)] = option;
+    }
+  }
+};
+
+OrderedJson describe_settings(const SolverSettings& settings) {
+  OrderedJson json = OrderedJson::object();
+  SolverSettings::visit(settings, OptionWriter{json});
+  return json;
+}
+
+OrderedJson describe_bodies(const Simulation& simulation) {
+  OrderedJson bodies = OrderedJson::array();
+  for (const Body& body : simulation.bodies()) {
+    bodies.push_back({{"name", body.name},
+                      {"first_vertex", body.first_vertex},
+                      {"vertices", body.mesh.vertex_count()},
+                      {"edges", body.mesh.edges.size()},
+                      {"triangles", body.mesh.triangles.size()},
+                      {"tetrahedra", body.mesh.tetrahedra.size()}});
+  }
+  return bodies;
+}
+
+OrderedJson describe_groups(const Simulation& simulation) {
+  OrderedJson groups = OrderedJson::array();
+  for (const auto& [id, group] : simulation.groups()) {
+    groups.push_back({{"name", group.name},
+                      {"type", group.type},
+                      {"body", simulation.body(group.body).name},
+                      {"constraints", group.set.count},
+                      {"skipped", group.set.skipped}});
+  }
+  return groups;
+}
+
+OrderedJson count_constraints(const Simulation& simulation) {
+  std::map<std::string, std::int64_t> counts;
+  for (const auto& [id, group] : simulation.groups()) counts[group.type] += group.set.count;
+  return counts;
+}
+
+}  // namespace
+
+void write_run_info(const std::filesystem::path& path, const RunInfo& info, const Simulation& simulation) {
+  OrderedJson json;
+  json["scene"] = info.scene;
+  json["source"] = info.source;
+  json["outcome"] = choice_names(info.outcome)[static_cast<std::size_t>(info.outcome)];
+  if (!info.error.empty()) json["error"] = info.error;
+  json["steps"] = info.wanted_steps;
+  if (info.resumed_from) json["resumed_from"] = *info.resumed_from;
+  json["settings"] = describe_settings(simulation.settings());
+  json["output"] = {{"format", info.frame_format}, {"every", info.every}, {"files", run_files(info.frame_format)}};
+  json["used"] = {{"pliant", version},
+                  {"compiler", compiler},
+                  {"backend", simulation.backend()},
+                  {"precision", choice_names(simulation.precision())[static_cast<std::size_t>(simulation.precision())]},
+                  {"contraction", simulation.contraction()},
+                  {"threads", simulation.thread_count()}};
+  json["counts"] = {{"vertices", simulation.state().vertex_count()}, {"constraints", count_constraints(simulation)}};
+  json["bodies"] = describe_bodies(simulation);
+  json["groups"] = describe_groups(simulation);
+  OrderedJson forces = OrderedJson::array();
+  for (const auto& [id, force] : simulation.forces()) forces.push_back(force->type());
+  json["forces"] = std::move(forces);
+  json["warnings"] = simulation.warnings();
+  json["totals"] = {{"steps", simulation.state().step},
+                    {"time", simulation.state().time},
+                    {"frames", info.frames},
+                    {"wall_seconds", info.wall_seconds}};
+  // Names may hold bytes that are not UTF-8, such as a path's; they must not cost the file.
+  write_file_atomically(path, json.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + '\n');
+}
+
+}  // namespace pliant

@@ -1,0 +1,144 @@
+#include "pliant/mesh/geometry.h"
+#include "pliant_io/scene/detail/option_reader.h"
+#include "pliant_io/scene/detail/read_mesh.h"
+#include "pliant_io/scene/detail/scene_reader.h"
+
+namespace pliant {
+namespace {
+
+Positions read_velocities(const Node& node, Index vertex_count) {
+  if (node.has("velocity") && node.has("velocities")) node.require_one_of({"velocity", "velocities"});
+  Positions velocities;
+  read_optional(node, "velocities", velocities);
+  if (const auto common = node.find("velocity")) {
+    Vec3 velocity;
+    read(*common, velocity);
+    velocities = velocity.transpose().replicate(vertex_count, 1);
+  }
+  return velocities;
+}
+
+/// Refuses a list of other than one row a vertex, which the simulation would take for "not given" when empty.
+void check_rows(const Node& node, std::string_view key, Index vertex_count) {
+  if (const auto rows = node.find(key)) rows->require_list(static_cast<std::size_t>(vertex_count), "(one a vertex)");
+}
+
+}  // namespace
+
+void SceneReader::read_body(const Node& node) {
+  node.check_keys({"name", "mesh", "transform", "mass", "start_positions", "velocity", "velocities", "constraints"});
+  BodyOptions options;
+  options.name = fmt::format("body {}", bodies.size());
+  read_optional(node, "name", options.name);
+  if (bodies.contains(options.name)) {
+    node.find("name").value_or(node).fail(
+        fmt::format("the name '{}' is another body's; choose another", printable(options.name)));
+  }
+
+  const Node mesh_node = node.require("mesh");
+  Mesh mesh = read_mesh(mesh_node);
+  mesh_node.locate([&] { check_mesh(mesh, printable(options.name)); });
+  untransformed.emplace_back();
+  if (const auto transform = node.find("transform")) {
+    untransformed.back() = mesh.vertices;
+    apply_transform(*transform, mesh.vertices);
+    transform->locate([&] { check_mesh(mesh, printable(options.name)); });
+  }
+  const Node mass_node = node.require("mass");
+  const Mass mass = read_mass(mass_node, mesh);
+  mass_node.locate([&] { vertex_masses(mesh, mass, printable(options.name)); });
+  const Index vertex_count = mesh.vertex_count();
+  check_rows(node, "start_positions", vertex_count);
+  check_rows(node, "velocities", vertex_count);
+  read_optional(node, "start_positions", options.start);
+  options.velocities = read_velocities(node, vertex_count);
+
+  const std::string name = options.name;
+  const BodyId id = node.locate([&] { return simulation.add_body(std::move(mesh), mass, std::move(options)); });
+  bodies.emplace(name, id);
+  bodies_of[&node.origin()].push_back(id);
+  const auto constraints = node.find("constraints");
+  if (!constraints) return;
+  constraints->require_list();
+  for (std::size_t i = 0; i < constraints->size(); ++i) {
+    const Node entry = (*constraints)[i];
+    entry.require_object();
+    add_group(entry, id, read_constraint_options(entry, {"name"}, body(id)));
+  }
+}
+
+void SceneReader::add_group(const Node& node, BodyId id, ConstraintOptions options) {
+  const std::string name = group_name(node, id, type_of(options));
+  const GroupId group = node.locate([&] { return add(simulation, id, options, name); });
+  check_group(node, group);
+  groups.emplace(name, GroupEntry{id, std::move(options)});
+}
+
+void SceneReader::check_group(const Node& node, GroupId group) const {
+  const ConstraintSet& set = simulation.groups().at(group).set;
+  if (set.count == 0 && set.skipped == 0) {
+    node.fail(
+        "makes no constraint, since the mesh has none of its stencils in the selection; select more, or remove it");
+  }
+}
+
+std::string SceneReader::read_new_name(const Node& node) const {
+  std::string name;
+  read(node, name);
+  if (name.empty()) node.fail("an empty name cannot be referred to; give one, or leave out the key");
+  if (name == GravityEntry::type) node.fail("the name 'gravity' is that of the force at the top; choose another");
+  if (groups.contains(name) || forces.contains(name)) {
+    node.fail(fmt::format("the name '{}' is another {}'s; choose another", printable(name),
+                          groups.contains(name) ? "group" : "force"));
+  }
+  return name;
+}
+
+std::string SceneReader::free_name(const std::string& base) {
+  int& last_number = last_numbers_[base];  // thousands may have no name of their own
+  std::string name = base;
+  if (last_number == 0) last_number = 1;
+  while (is_taken(name)) name = fmt::format("{} {}", base, ++last_number);
+  return name;
+}
+
+std::string SceneReader::group_name(const Node& node, BodyId id, std::string_view type) {
+  const auto given = node.find("name");
+  return given ? read_new_name(*given) : free_name(fmt::format("{}.{}", simulation.body(id).name, type));
+}
+
+std::string SceneReader::force_name(const Node& node, std::string_view type) {
+  const auto given = node.find("name");
+  return given ? read_new_name(*given) : free_name(std::string(type));
+}
+
+GroupEntry& SceneReader::group(const Node& node) {
+  std::string name;
+  read(node, name);
+  const auto found = groups.find(name);
+  if (found != groups.end()) return found->second;
+  std::vector<std::string_view> names;
+  for (const auto& [known, entry] : groups) names.push_back(known);
+  node.fail(fmt::format("there is no group '{}'; known, the nearest first: {}", printable(name),
+                        nearest_names_text(name, names)));
+}
+
+BodyId SceneReader::read_body_name(const Node& node) const {
+  const auto given = node.find("body");
+  if (!given) {
+    if (bodies.size() == 1) return bodies.begin()->second;
+    const auto own = bodies_of.find(&node.origin());
+    if (own != bodies_of.end() && own->second.size() == 1) return own->second.front();
+  }
+  if (!given) node.fail("there are several bodies; name one with the key 'body'");
+  std::string name;
+  read(*given, name);
+  const auto found = bodies.find(name);
+  if (found != bodies.end()) return found->second;
+  std::vector<std::string_view> names;
+  for (const auto& [known, id] : bodies) names.push_back(known);
+  given->fail(fmt::format("there is no body '{}'; known, the nearest first: {}", printable(name),
+                          nearest_names_text(name, names)));
+}
+
+}  // namespace pliant

@@ -1,0 +1,70 @@
+#pragma once
+// The parts of a scene file that add to a simulation: bodies with their constraints, forces, events.
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "pliant/timeline/timeline.h"
+#include "pliant_io/scene/detail/constraint_options.h"
+#include "pliant_io/scene/detail/force_options.h"
+
+namespace pliant {
+
+/// A group as it stands at the place that is being read: at the start or, when it comes to events, at the time of the
+/// event. Its name is that of the simulation's group.
+struct GroupEntry {
+  BodyId body{};
+  ConstraintOptions options;
+};
+
+/// What has been read so far, for what refers to it by name.
+struct SceneReader {
+  explicit SceneReader(Simulation& made) : simulation(made) {}
+
+  Simulation& simulation;
+  std::vector<Positions> untransformed = {};  ///< rest positions of each body before its transform; empty: it has none
+  std::map<std::string, BodyId, std::less<>> bodies = {};
+  std::map<const Origin*, std::vector<BodyId>> bodies_of = {};  ///< by the text that they stand in
+  std::map<std::string, GroupEntry, std::less<>> groups = {};
+  std::map<std::string, ForceOptions, std::less<>> forces = {};
+  std::vector<std::string> later_groups = {};  ///< names of groups that events add, each time
+
+  SceneBody body(BodyId id) const {
+    const Mesh& mesh = simulation.body(id).mesh;
+    const Positions& before = untransformed[static_cast<std::size_t>(id)];
+    return {mesh, before.size() == 0 ? mesh.vertices : before};
+  }
+
+  void read_body(const Node& node);
+  /// Its value; nothing: the default.
+  void read_gravity(const std::optional<Node>& node);
+  void read_force(const Node& node);
+  /// The lists "moves" and "events". They are read in the order in which they act, each as what its predecessors leave,
+  /// and tried out; the simulation is as before then. `roots`: the scenes that have such lists.
+  void read_events(std::span<const Node> roots, Timeline& timeline);
+
+  /// The body that the object's key "body" names; without the key, the only one that stands in the same text, or the
+  /// only one there is.
+  BodyId read_body_name(const Node& node) const;
+
+  /// The group of a name; refuses a name that there is not.
+  GroupEntry& group(const Node& name);
+
+  /// Makes a group of what has been read, with the name in the object's key or one of its own.
+  void add_group(const Node& node, BodyId body, ConstraintOptions options);
+  /// Refuses a group without constraints; `node` is where it was read.
+  void check_group(const Node& node, GroupId group) const;
+  /// The name given, which must be new; else the type, with the body in front, and a number behind where that is taken.
+  std::string group_name(const Node& node, BodyId body, std::string_view type);
+  std::string force_name(const Node& node, std::string_view type);
+
+ private:
+  bool is_taken(std::string_view name) const { return groups.contains(name) || forces.contains(name); }
+  std::string read_new_name(const Node& node) const;
+  std::string free_name(const std::string& base);
+
+  std::map<std::string, int, std::less<>> last_numbers_ = {};  ///< behind a base, of those given so far
+};
+
+}  // namespace pliant

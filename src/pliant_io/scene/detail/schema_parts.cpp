@@ -1,0 +1,221 @@
+#include "pliant_io/scene/detail/schema_parts.h"
+
+#include <set>
+
+#include "pliant/constraints/builtin.h"
+#include "pliant/forces/mouse_spring.h"
+#include "pliant/forces/pressure.h"
+#include "pliant/forces/wind.h"
+#include "pliant_io/mesh/mesh_file.h"
+#include "pliant_io/scene/detail/shape_options.h"
+#include "pliant_io/scene/event_options.h"
+
+namespace pliant {
+namespace {
+
+SchemaJson vertex_schema() {
+  return {{"type", "integer"}, {"minimum", 0}};
+}
+
+SchemaJson joined(SchemaJson properties, const SchemaJson& more) {
+  properties.update(more);
+  return properties;
+}
+
+template <class Options>
+SchemaJson shape_schema(const SchemaJson& more) {
+  SchemaJson properties = {{"shape", {{"const", Options::shape}}}};
+  properties.update(options_properties<Options>());
+  return object_schema(joined(std::move(properties), more), {"shape"});
+}
+
+template <class... Options>
+void add_shapes(SchemaJson& choices, const SchemaJson& more, std::tuple<Options...>*) {
+  (choices.push_back(shape_schema<Options>(more)), ...);
+}
+
+/// A mesh of any kind, with more properties.
+SchemaJson mesh_choices(const SchemaJson& more) {
+  SchemaJson file = {{"file", text_schema("path of a mesh file, from the folder of the scene")},
+                     {"source", text_schema("how to get the file, for the message when it is missing")}};
+  file.update(options_properties<ImportOptions>());
+  const SchemaJson lists = {{"vertices", list_schema(schema_reference("vector"))},
+                            {"edges", list_schema(list_schema(vertex_schema(), 2))},
+                            {"triangles", list_schema(list_schema(vertex_schema(), 3))},
+                            {"tetrahedra", list_schema(list_schema(vertex_schema(), 4))}};
+  const SchemaJson weld = {{"type", "number"}, {"minimum", 0}, {"description", "vertices so near become one [m]"}};
+  const SchemaJson parts = {{"parts", list_schema(schema_reference("mesh_part"))}, {"weld", weld}};
+  SchemaJson choices = {object_schema(joined(std::move(file), more), {"file"}),
+                        object_schema(joined(lists, more), {"vertices"}),
+                        object_schema(joined(parts, more), {"parts"})};
+  add_shapes(choices, more, static_cast<Shapes*>(nullptr));
+  return {{"oneOf", std::move(choices)}};
+}
+
+template <class Constraint>
+SchemaJson constraint_type_schema(const SchemaJson& more) {
+  SchemaJson properties = {{"type", {{"const", Constraint::info.name}}},
+                           {"name", text_schema("what others refer to it by")}};
+  properties.update(more);
+  properties.update(options_properties<Constraint>());
+  SchemaJson schema = object_schema(std::move(properties), {"type"});
+  schema["description"] = std::string(Constraint::info.energy);
+  return schema;
+}
+
+template <class... Constraint>
+void add_constraints(SchemaJson& choices, const SchemaJson& more, std::tuple<Constraint...>*) {
+  (choices.push_back(constraint_type_schema<Constraint>(more)), ...);
+}
+
+SchemaJson force_type_schema(std::string_view type, const SchemaJson& properties,
+                             std::vector<std::string_view> required) {
+  const SchemaJson all = {{"type", {{"const", type}}},
+                          {"name", text_schema("what events refer to it by")},
+                          {"body", text_schema("name of the body; default: the only one")}};
+  required.push_back("type");
+  return object_schema(joined(all, properties), std::move(required));
+}
+
+SchemaJson force_choices() {
+  SchemaJson mouse = options_properties<MouseSpringOptions>();
+  mouse["vertex"] = vertex_schema();
+  const SchemaJson test = {{"vertex", vertex_schema()},
+                           {"vertices", schema_reference("selection")},
+                           {"force", schema_reference("points")},
+                           {"frames", list_schema({{"type", "integer"}}, 2)}};
+  SchemaJson test_force = force_type_schema("test_force", test, {"force"});
+  test_force["oneOf"] = {{{"required", {"vertex"}}}, {{"required", {"vertices"}}}};
+  return {force_type_schema("wind", options_properties<WindOptions>(), {}), std::move(test_force),
+          force_type_schema("mouse_spring", mouse, {"anchor", "vertex"}),
+          force_type_schema("pressure", options_properties<PressureOptions>(), {})};
+}
+
+/// An object of which one of the keys must be there, and no two.
+SchemaJson one_of_keys(std::initializer_list<const char*> keys) {
+  SchemaJson choices = SchemaJson::array();
+  for (const char* key : keys) choices.push_back({{"required", SchemaJson::array({key})}});
+  return {{"oneOf", std::move(choices)}};
+}
+
+/// What happens at a step or a time: `key` with what it means, and more properties.
+SchemaJson timed_schema(std::string_view key, SchemaJson value, const SchemaJson& more) {
+  SchemaJson properties = {{std::string(key), std::move(value)}};
+  properties.update(options_properties<EventTime>());
+  for (const char* name : {"step", "time"}) properties[name].erase("default");
+  SchemaJson schema = object_schema(joined(std::move(properties), more), {key});
+  schema["allOf"] = SchemaJson::array({one_of_keys({"step", "time"})});
+  return schema;
+}
+
+SchemaJson timed_move_schema(std::string_view key) {
+  SchemaJson schema =
+      timed_schema(key, text_schema("name of a group of positions or drags"), options_properties<MoveOptions>());
+  schema["allOf"].push_back(one_of_keys({"target", "offset", "rotate", "keyframes"}));
+  return schema;
+}
+
+/// Every option of a constraint or a force may be changed; which ones there are depends on what the name stands for.
+SchemaJson change_schema() {
+  SchemaJson names = {"change", "step", "time"};
+  const auto add = [&](const SchemaJson& properties) {
+    for (const auto& [name, schema] : properties.items()) {
+      if (name != "type" && name != "name") names.push_back(name);
+    }
+  };
+  add(options_properties<RampOptions>());
+  const SchemaJson constraints = constraint_schema()["oneOf"];
+  for (const SchemaJson& type : constraints) add(type["properties"]);
+  for (const SchemaJson& type : force_choices()) add(type["properties"]);
+  SchemaJson schema = timed_schema("change", text_schema("name of a group or a force"), SchemaJson::object());
+  schema.erase("additionalProperties");
+  std::set<std::string> sorted(names.begin(), names.end());
+  schema["propertyNames"] = {{"enum", sorted}};
+  return schema;
+}
+
+SchemaJson add_schema() {
+  SchemaJson choices = SchemaJson::array();
+  const SchemaJson body = {{"body", text_schema("name of the body; default: the only one")}};
+  add_constraints(choices, body, static_cast<BuiltinConstraints*>(nullptr));
+  for (const SchemaJson& force : force_choices()) choices.push_back(force);
+  return {{"oneOf", std::move(choices)}};
+}
+
+SchemaJson follow_schema() {
+  SchemaJson properties = options_properties<FollowOptions>();
+  properties.update(options_properties<FileOptions>());
+  properties["body"] = text_schema("whose vertices are followed");
+  properties["file"] = text_schema("of frames whose vertices are followed: PC2, MDD or NPY");
+  SchemaJson schema = timed_schema("follow", text_schema("name of a group of positions or drags"), properties);
+  schema["allOf"].push_back(one_of_keys({"body", "file"}));
+  return schema;
+}
+
+}  // namespace
+
+SchemaJson text_schema(std::string_view description) {
+  return {{"type", "string"}, {"description", description}};
+}
+
+SchemaJson mesh_schema() {
+  return mesh_choices(SchemaJson::object());
+}
+
+SchemaJson mesh_part_schema() {
+  const SchemaJson count = {{"type", "integer"}, {"minimum", 1}, {"maximum", 10000}};
+  return mesh_choices({{"name", text_schema("of the group of its vertices")},
+                       {"transform", schema_reference("transform")},
+                       {"copies", object_schema({{"count", count}, {"offset", schema_reference("vector")}})}});
+}
+
+SchemaJson mass_schema() {
+  SchemaJson properties = SchemaJson::object();
+  const auto add = [&](const char* key, std::string_view unit) {
+    properties[key] = {{"type", "number"}, {"exclusiveMinimum", 0}, {"description", "[" + std::string(unit) + "]"}};
+  };
+  add("per_vertex", "kg");
+  add("total", "kg");
+  add("area_density", "kg/m²");
+  add("density", "kg/m³");
+  add("line_density", "kg/m");
+  SchemaJson list = list_schema(number_schema("number", positive));
+  properties["each"] = {{"anyOf", {std::move(list), schema_reference("mapped_values")}},
+                        {"description", "one for each vertex [kg]"}};
+  SchemaJson schema = object_schema(std::move(properties));
+  schema["minProperties"] = 1;
+  const SchemaJson densities = {"area_density", "density", "line_density"};
+  schema["anyOf"] = {{{"maxProperties", 1}}, {{"propertyNames", {{"enum", densities}}}}};  // densities add up
+  return schema;
+}
+
+SchemaJson constraint_schema() {
+  SchemaJson choices = SchemaJson::array();
+  add_constraints(choices, SchemaJson::object(), static_cast<BuiltinConstraints*>(nullptr));
+  return {{"oneOf", std::move(choices)}};
+}
+
+SchemaJson force_schema() {
+  return {{"oneOf", force_choices()}};
+}
+
+SchemaJson move_schema() {
+  return timed_move_schema("group");
+}
+
+SchemaJson event_schema() {
+  const SchemaJson name = text_schema("name of a group or a force");
+  const SchemaJson group = text_schema("name of a group of positions or drags");
+  const SchemaJson index = {{"index", value_schema(OptionInfo{}, ConstraintNumbers{})}};
+  const SchemaJson gravity = {{"anyOf", {schema_reference("vector"), {{"type", "null"}}}}};
+  const SchemaJson none = SchemaJson::object();
+  SchemaJson release = timed_schema("release", group, joined(index, {{"vertices", schema_reference("selection")}}));
+  release["allOf"].push_back(one_of_keys({"vertices", "index"}));
+  return {{"oneOf",
+           {change_schema(), timed_schema("settings", object_schema(options_properties<SolverSettings>()), none),
+            timed_schema("gravity", gravity, none), timed_schema("add", add_schema(), none),
+            timed_schema("remove", name, none), std::move(release), timed_move_schema("move"), follow_schema(),
+            timed_schema("stop", group, index)}}};
+}
+
+}  // namespace pliant

@@ -1,0 +1,90 @@
+#pragma once
+// The options of events in scene files; docs/scenes.md says what each event does.
+#include <string>
+
+#include "pliant/timeline/path.h"
+
+namespace pliant {
+
+/// When an event acts: one of the two.
+struct EventTime {
+  std::int64_t step = 0;
+  Real time = 0;
+
+  template <class Self, class Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field(OptionInfo{"step", "", "n: acts before the step n → n + 1", not_negative}, self.step);
+    field(OptionInfo{"time", "s", "t: acts before the first step n with t ≤ tₙ + 1e-9 h", not_negative}, self.time);
+  }
+};
+
+/// Constraints of a group by number: one, several or (empty) all.
+using ConstraintNumbers = std::vector<Index>;
+
+/// Of `move`, which has one of target, offset, rotate and keyframes.
+struct MoveOptions {
+  ConstraintNumbers index{};
+  Points target{};
+  Points offset{};
+  std::optional<Rotation> rotate{};
+  std::vector<Keyframe> keyframes{};
+  std::optional<Vec3> center{};
+  Real over = 0;
+  Ease ease = Ease::linear;
+
+  template <class Self, class Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field(OptionInfo{"index", "", "constraints of the group: a number, or a list; default: all"}, self.index);
+    field(OptionInfo{"target", "m", "where to: a point for all, or a list with one for each"}, self.target);
+    field(OptionInfo{"offset", "m", "how far from where the targets are: for all, or one for each"}, self.offset);
+    field(OptionInfo{"rotate", "", "a turn of all together about the centre: `{\"axis\", \"degrees\"}`"}, self.rotate);
+    field(OptionInfo{"keyframes", "", "a rigid motion of all together: a list of keys"}, self.keyframes);
+    field(OptionInfo{"center", "m", "of turns; default: the mean of the targets as the move begins"}, self.center);
+    field(OptionInfo{"over", "s", "duration of the move, which keyframes tell themselves; 0: a jump", not_negative},
+          self.over);
+    field(OptionInfo{"ease", "", "`linear`: at constant speed; `smooth`: from rest to rest"}, self.ease);
+  }
+};
+
+/// Of `follow`, which has a body or a file besides.
+struct FollowOptions {
+  ConstraintNumbers index{};
+  std::vector<Index> vertices{};
+  Attach attach = Attach::offset;
+
+  template <class Self, class Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field(OptionInfo{"index", "", "constraints of the group: a number, or a list; default: all"}, self.index);
+    field(OptionInfo{"vertices", "", "followed ones, one for each constraint or one for all; default: the nearest"},
+          self.vertices);
+    field(OptionInfo{"attach", "", "`offset`: in the distance in which it begins; `exact`: where the vertex is"},
+          self.attach);
+  }
+};
+
+/// What a file of frames adds to `follow`.
+struct FileOptions {
+  Real frames_per_second = 24;
+
+  template <class Self, class Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field(OptionInfo{"frames_per_second", "1/s", "of a PC2 or NPY file; an MDD file has its own times", positive},
+          self.frames_per_second);
+  }
+};
+
+/// What `change` of a group adds to the options of its type.
+struct RampOptions {
+  Real over = 0;
+  Ease ease = Ease::linear;
+
+  template <class Self, class Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field(OptionInfo{"over", "s", "in which the stiffness goes to its new value, by equal ratios in equal times",
+                     not_negative},
+          self.over);
+    field(OptionInfo{"ease", "", "`linear`: at constant speed; `smooth`: from rest to rest"}, self.ease);
+  }
+};
+
+}  // namespace pliant

@@ -1,0 +1,66 @@
+#pragma once
+// Scene files: JSON that says what to simulate. docs/scenes.md describes the format.
+//
+//     Scene scene = load_scene("curtain.json");
+//     for (std::int64_t i = 0; i < scene.steps; ++i) scene.step();
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "pliant/simulation/simulation.h"
+#include "pliant/timeline/timeline.h"
+#include "pliant_io/scene/scene_source.h"
+#include "pliant_io/scene/view_settings.h"
+
+namespace pliant {
+
+struct OutputSettings {
+  FrameFormat format = FrameFormat::npy;
+  std::int64_t every = 1;  ///< record the start and every n-th step, ≥ 1
+
+  template <class Self, class Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field(OptionInfo{"format", "", "of the frames: `npy`, `pc2`, `obj`, `ply` or `none`"}, self.format);
+    field(OptionInfo{"every", "", "record the start and every n-th step", Range{1, 1e15}}, self.every);
+  }
+};
+
+/// More steps than anyone takes; what counts them, and their frames, does not overflow.
+inline constexpr std::int64_t max_steps = std::int64_t{1} << 53;
+
+/// A simulation made ready to run, with what the scene says about the run.
+struct Scene {
+  std::string name;  ///< default: the file's, without its extension
+  std::string description;
+  std::int64_t steps = 300;  ///< ≥ 0
+  OutputSettings output;
+  ViewSettings view;
+  Simulation simulation;
+  Timeline timeline;
+  SceneSource source;                    ///< what it was read from, for parse_scene
+  std::vector<SceneFile> files;          ///< of its meshes and maps, each once
+  std::vector<std::string> group_names;  ///< of the groups there are, and behind them those that events add
+
+  /// What messages call it: its file.
+  std::string place() const;
+  /// Lets the events act that are due and takes one step. When this throws, nothing has changed.
+  StepReport step();
+};
+
+/// Reads a scene file; paths in it start at its folder.
+/// @throws Error (input), one line: `file:line:column: what` for a slip of syntax, else `file: path.to.key[3]: what;
+///   remedy` with the place in the JSON.
+Scene load_scene(const std::filesystem::path& file, const SceneOverrides& overrides = {});
+
+/// The same for a text. `name` is what messages call it, and the scene's name unless it has one; paths in the text
+/// start at `folder`.
+Scene parse_scene(std::string_view text, const std::filesystem::path& folder, std::string_view name,
+                  const SceneOverrides& overrides = {});
+
+/// The same once more, of a source that is complete: no file of a text is read then, only those of meshes and maps.
+Scene parse_scene(SceneSource source);
+
+/// The "description" of a scene, "" when it has none, without making its simulation. Throws as parse_scene does.
+std::string scene_description(std::string_view text, std::string_view name);
+
+}  // namespace pliant
