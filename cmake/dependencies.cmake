@@ -6,7 +6,7 @@ set(pliant_library_packages "Eigen3 3.4" "fmt 9" "Threads" "ZLIB")
 
 # CHOLMOD and OpenBLAS. CHOLMOD's Supernodal, Modify and MatrixOps modules are under the GPL (the others under the
 # LGPL), so a program that is linked with this back end and given to others falls under the GPL. Without it Pliant
-# factorizes with Eigen, which is slower, and all of it is under permissive or file-wise (MPL) licences.
+# factorizes with Eigen, which is slower, and all of it is under permissive or file-wise (MPL) licenses.
 list(APPEND CMAKE_MODULE_PATH "${CMAKE_CURRENT_LIST_DIR}")
 find_package(CHOLMOD QUIET)
 option(PLIANT_CHOLMOD "Factorize with SuiteSparse's CHOLMOD as well as with Eigen; has GPL modules" ${CHOLMOD_FOUND})

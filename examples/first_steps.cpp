@@ -1,4 +1,4 @@
-// A curtain of a square metre, pinned at two corners, falls for a second.
+// A curtain of a square meter, pinned at two corners, falls for a second.
 #include <cstdio>
 
 #include <pliant/pliant.h>

@@ -13,7 +13,7 @@ struct OutsideSphere {
   static constexpr std::string_view name = "outside_sphere";
   static constexpr int vertices = 1;
   static constexpr int rows = 1;
-  static constexpr int fields = 4;  // centre, radius
+  static constexpr int fields = 4;  // center, radius
   static constexpr bool translation_invariant = false;
   static void project(const double* field, const double* z, double* p) {
     const double d[3] = {z[0] - field[0], z[1] - field[1], z[2] - field[2]};
@@ -50,6 +50,6 @@ int main() {
   const auto& x = simulation.state().positions;
   const double nearest = (x.rowwise() - center.transpose()).rowwise().norm().minCoeff();
   pliant::write_obj("draped.obj", simulation.body(cloth).mesh, x);
-  std::printf("draped.obj: a cloth on a sphere of .3 m; its nearest vertex is %.3f m from the centre\n", nearest);
+  std::printf("draped.obj: a cloth on a sphere of .3 m; its nearest vertex is %.3f m from the center\n", nearest);
   return nearest > 0.29 && nearest < 0.31 ? 0 : 1;
 }

@@ -50,12 +50,12 @@ bool Lab::try_steps(pliant::Scene& scene, std::int64_t count) const {
 Image Lab::picture(const pliant::Scene& scene) const {
   if (!options_.draws) return {};
   pliant_render::Take take{pliant_render::make_scenery(scene.simulation.bodies()), scene.view, {}};
-  take.frames.push_back(pliant_render::take_frame(scene.simulation, take.scenery, scene.view.colour));
+  take.frames.push_back(pliant_render::take_frame(scene.simulation, take.scenery, scene.view.color));
   pliant_render::PictureOptions options;
   options.look = scene.view;
   options.bounds = bounds_of(take);
   options.ground_height = ground_height(take);
-  options.range = colour_range(take);
+  options.range = color_range(take);
   pliant_render::PictureMaker maker(take.scenery, options);
   return maker.draw(take.frames[0].content, take.frames[0].wind);
 }

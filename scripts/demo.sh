@@ -19,7 +19,7 @@ fi
 cat <<EOF
 
 What lies in $out:
-  frames.npy        the curtain's vertices, frames x vertices x 3 in metres: numpy.load("$out/frames.npy")
+  frames.npy        the curtain's vertices, frames x vertices x 3 in meters: numpy.load("$out/frames.npy")
   measurements.csv  time, energies, momentum, residual and milliseconds of every step
   run.json          every setting, the versions, the totals
   film.mp4          what it looks like, and sheet.png, twelve frames of that (without ffmpeg: numbered pictures)

@@ -8,7 +8,7 @@ mkdir -p "$out"
 
 # The window, pulled at by a real mouse: what this script does with --window, on a display of its own.
 draw_window() { # PROGRAM
-  "$1" view trampoline --colour energy --size 1200x700 &
+  "$1" view trampoline --color energy --size 1200x700 &
   local program=$!
   xdotool search --sync --onlyvisible --name 'trampoline - Pliant' windowfocus
   sleep 3
@@ -29,7 +29,7 @@ picture() { # NAME SCENE OPTION...
 }
 picture curtain curtain_wind --steps 100
 picture bridge rope_bridge --steps 170
-picture pillow pillow --steps 150 --colour energy
+picture pillow pillow --steps 150 --color energy
 picture net net --steps 200
 "$pliant" render torus --out "$out/torus.png" --size 960x540 --steps 140 --frames 6 --sheet --wireframe --quiet
 

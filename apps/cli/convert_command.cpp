@@ -107,7 +107,7 @@ Animation read_animation(const ConvertOptions& options) {
     const bool is_placed = options.import.scale != 1 || options.import.up != pliant::UpAxis::z;
     if (options.mesh || is_placed) {
       pliant::fail_input(
-          fmt::format("{}: a run has its own mesh, in metres and with z up; leave out --mesh, --scale "
+          fmt::format("{}: a run has its own mesh, in meters and with z up; leave out --mesh, --scale "
                       "and --up",
                       options.in.string()));
     }
@@ -194,7 +194,7 @@ Examples:
   pliant convert out/flag frames/flag_####.ply           one file a frame
   pliant convert out/flag flag.obj --time 2.5            a single moment
   pliant convert walk.mdd walk.glb --mesh walk.obj       a point cache and its mesh
-  pliant convert part.stl part.obj --scale 0.001 --up y  a mesh in millimetres with y up)";
+  pliant convert part.stl part.obj --scale 0.001 --up y  a mesh in millimeters with y up)";
 
 }  // namespace
 
@@ -204,7 +204,7 @@ void add_convert_command(CLI::App& program) {
   command->add_option("in", options->in, "A mesh, the folder of a run, or a point cache (pc2, mdd, npy)")->required();
   command->add_option("out", options->out, "The file to write")->required();
   command->add_option("--mesh", options->mesh, "The mesh that the point cache IN moves");
-  add_number(*command, "--scale", options->import.scale, "Metres per unit of a mesh or point cache IN");
+  add_number(*command, "--scale", options->import.scale, "Meters per unit of a mesh or point cache IN");
   add_choice(*command, "--up", options->import.up, "Its axis that points up: z (default), y or x");
   add_number(*command, "--in-fps", options->cache.frames_per_second,
              "Frames per second of a point cache without times (pc2, npy), default 24");

@@ -10,7 +10,7 @@ namespace pliant_cli {
 
 /// The command must not outlive `options`.
 inline void add_import_options(CLI::App& command, pliant::ImportOptions& options) {
-  add_number(command, "--scale", options.scale, "Metres per unit of the file: 0.001 where it counts in millimetres");
+  add_number(command, "--scale", options.scale, "Meters per unit of the file: 0.001 where it counts in millimeters");
   add_choice(command, "--up", options.up, "The file's axis that points up, turned to +z: z, y or x");
 }
 

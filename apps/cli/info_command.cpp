@@ -246,7 +246,7 @@ void add_info_command(CLI::App& program) {
                    fmt::format("A mesh: {}", fmt::join(pliant::readable_mesh_extensions(), ", ")))
       ->required();
   add_import_options(*command, options->import);
-  command->add_flag("--json", options->json, "Print JSON, in metres and square metres");
+  command->add_flag("--json", options->json, "Print JSON, in meters and square meters");
   command->footer("Example:\n  pliant info shirt.obj --scale 0.01 --up y");
   command->callback([options] {
     const Info info = examine(*options);

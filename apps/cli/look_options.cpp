@@ -80,14 +80,14 @@ pliant::ViewSettings view_of_run(const LookArguments& arguments) {
 
 void add_look_options(CLI::App& command, LookArguments& arguments) {
   command.add_option("--size", arguments.size, "Width and height in pixels; default: the scene's, or 1280x720");
-  add_choice(command, "--colour", arguments.colour, "What colours tell: none, stretch, energy or speed");
+  add_choice(command, "--color,--colour", arguments.color, "What colors tell: none, stretch, energy or speed");
   add_choice(command, "--shading", arguments.shading, "smooth, or flat: each face by itself");
   command.add_flag("--wireframe", arguments.wireframe, "Draw the edges too");
 }
 
 void apply_look(const LookArguments& arguments, pliant::ViewSettings& look) {
   if (!arguments.size.empty()) look.size = parse_size(arguments.size);
-  if (arguments.colour) look.colour = *arguments.colour;
+  if (arguments.color) look.color = *arguments.color;
   if (arguments.shading) look.shading = *arguments.shading;
   if (arguments.wireframe) look.wireframe = true;
 }

@@ -7,7 +7,7 @@ namespace pliant_cli {
 /// `scene` may be the folder of a run as well.
 struct LookArguments : SceneArguments {
   std::string size;
-  std::optional<pliant::ColourBy> colour;
+  std::optional<pliant::ColorBy> color;
   std::optional<pliant::Shading> shading;
   bool wireframe = false;
 };

@@ -84,9 +84,9 @@ int columns_of(std::size_t frames) {
   return static_cast<int>(std::ceil(std::sqrt(static_cast<double>(frames))));
 }
 
-std::array<std::uint8_t, 3> bytes_of(const pliant::Colour& colour) {
+std::array<std::uint8_t, 3> bytes_of(const pliant::Color& color) {
   const auto byte = [](pliant::Real share) { return static_cast<std::uint8_t>(std::lround(255 * share)); };
-  return {byte(colour.red), byte(colour.green), byte(colour.blue)};
+  return {byte(color.red), byte(color.green), byte(color.blue)};
 }
 
 /// Draws the chosen frames of a take, one after the other.
@@ -109,7 +109,7 @@ class FrameDrawer {
  private:
   pliant_render::PictureOptions options(const std::array<pliant::Index, 2>& size) const {
     pliant_render::PictureOptions options{take_.look, static_cast<int>(arguments_.samples), bounds_of(take_),
-                                          ground_height(take_), colour_range(take_)};
+                                          ground_height(take_), color_range(take_)};
     options.look.size = size;
     return options;
   }
@@ -234,7 +234,7 @@ void add_render_command(CLI::App& program, int& exit_code) {
       "Examples:\n"
       "  pliant render curtain_wind --out curtain.mp4\n"
       "  pliant render torus --out torus.png --frames 9 --sheet\n"
-      "  pliant render out/flag --out flag.webm --colour stretch --size 1920x1080");
+      "  pliant render out/flag --out flag.webm --color stretch --size 1920x1080");
   command->callback([arguments, &exit_code] { exit_code = render(*arguments); });
 }
 

@@ -107,8 +107,8 @@ int show(pliant_viewer::Window& window, pliant_viewer::Stage& stage, const ViewA
 
 int view_run(const ViewArguments& arguments) {
   const pliant::ViewSettings look = look_of_run(arguments);
-  if (arguments.colour == pliant::ColourBy::energy) {
-    pliant::fail_input("--colour: a run does not say the energy of its vertices; give its scene, or another colour");
+  if (arguments.color == pliant::ColorBy::energy) {
+    pliant::fail_input("--color: a run does not say the energy of its vertices; give its scene, or another color");
   }
   pliant_viewer::Playback stage(pliant_render::RunFrames(pliant::read_run(arguments.scene)), look,
                                 !arguments.is_paused);
@@ -151,7 +151,7 @@ void add_view_command(CLI::App& program, int& exit_code) {
       "Examples:\n"
       "  pliant view curtain_wind\n"
       "  pliant view shirt.obj --up y\n"
-      "  pliant view out/flag --colour stretch");
+      "  pliant view out/flag --color stretch");
   command->callback([arguments, &exit_code] { exit_code = view(*arguments); });
 }
 

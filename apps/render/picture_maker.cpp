@@ -10,17 +10,17 @@ PictureMaker::PictureMaker(Scenery scenery, PictureOptions options)
 Image PictureMaker::draw(const FrameContent& frame, const std::optional<WindSign>& wind) {
   const float aspect = static_cast<float>(target_.width()) / static_cast<float>(target_.height());
   DrawOptions options;
-  const std::optional<Legend> colours = make_legend(options_.look, options_.range, target_.width(), target_.height());
+  const std::optional<Legend> colors = make_legend(options_.look, options_.range, target_.width(), target_.height());
   options.viewpoint = place_camera(options_.look.camera, options_.bounds, aspect,
-                                   colours ? legend_width(target_.height()) / static_cast<float>(target_.width()) : 0);
+                                   colors ? legend_width(target_.height()) / static_cast<float>(target_.width()) : 0);
   options.range = options_.range;
   options.ground_height = options_.ground_height;
   options.scale = static_cast<float>(target_.height()) / 720;
-  renderer_.set_frame(frame, options_.look.colour);
+  renderer_.set_frame(frame, options_.look.color);
   target_.begin();
   renderer_.draw(options_.look, options, target_.width(), target_.height());
   target_.resolve();
-  overlay_.draw(options_.look, options.viewpoint, colours, wind, target_.width(), target_.height());
+  overlay_.draw(options_.look, options.viewpoint, colors, wind, target_.width(), target_.height());
   return target_.read();
 }
 

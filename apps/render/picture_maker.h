@@ -15,7 +15,7 @@ struct PictureOptions {
   int samples = 4;                      ///< of a pixel; 1: hard edges, in less time
   Bounds bounds;                        ///< what an automatic camera has in the picture
   float ground_height = 0;              ///< [m]
-  std::array<float, 2> range = {0, 1};  ///< of the values, at the ends of the colour map
+  std::array<float, 2> range = {0, 1};  ///< of the values, at the ends of the color map
 };
 
 class PictureMaker {

@@ -8,13 +8,13 @@
 namespace pliant_render {
 namespace {
 
-using pliant::ColourBy;
+using pliant::ColorBy;
 using pliant::Real;
 using Rgb = std::array<std::uint8_t, 3>;
 
 constexpr std::size_t map_size = 256;
 
-/// Through these colours at even distances, in straight lines (sRGB).
+/// Through these colors at even distances, in straight lines (sRGB).
 std::vector<Rgb> through(std::span<const Rgb> stops) {
   std::vector<Rgb> map(map_size);
   for (std::size_t i = 0; i < map_size; ++i) {
@@ -74,36 +74,36 @@ std::vector<float> vertex_speed(const pliant::Positions& velocities) {
   return speeds;
 }
 
-std::string_view quantity_title(ColourBy colour) {
-  switch (colour) {
-    case ColourBy::stretch:
+std::string_view quantity_title(ColorBy color) {
+  switch (color) {
+    case ColorBy::stretch:
       return "stretch [%]";
-    case ColourBy::energy:
+    case ColorBy::energy:
       return "elastic energy [J]";
-    case ColourBy::speed:
+    case ColorBy::speed:
       return "speed [m/s]";
-    case ColourBy::none:
+    case ColorBy::none:
       break;
   }
   return "";
 }
 
-std::array<float, 2> quantity_range(ColourBy colour, std::span<const float> values) {
+std::array<float, 2> quantity_range(ColorBy color, std::span<const float> values) {
   float largest = 0;
   for (const float value : values) {
     if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
   }
   if (!(largest > 0)) largest = 1;
-  return {colour == ColourBy::stretch ? -largest : 0, largest};
+  return {color == ColorBy::stretch ? -largest : 0, largest};
 }
 
-std::vector<Rgb> colour_map(ColourBy colour) {
+std::vector<Rgb> color_map(ColorBy color) {
   // Lightness rises evenly in the first; the second is as dark at both ends.
   constexpr std::array<Rgb, 6> rising = {Rgb{58, 62, 128},  Rgb{55, 96, 150},  Rgb{38, 138, 148},
                                          Rgb{68, 178, 124}, Rgb{158, 215, 98}, Rgb{250, 238, 150}};
   constexpr std::array<Rgb, 5> both_ways = {Rgb{33, 86, 163}, Rgb{134, 178, 216}, Rgb{240, 238, 233},
                                             Rgb{231, 151, 119}, Rgb{176, 42, 48}};
-  return colour == ColourBy::stretch ? through(both_ways) : through(rising);
+  return color == ColorBy::stretch ? through(both_ways) : through(rising);
 }
 
 }  // namespace pliant_render

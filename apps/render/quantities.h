@@ -1,5 +1,5 @@
 #pragma once
-// What colours tell: a number for each vertex.
+// What colors tell: a number for each vertex.
 #include "pliant_io/scene/view_settings.h"
 #include "render/scenery.h"
 
@@ -15,15 +15,15 @@ std::vector<float> vertex_energy(const pliant::Simulation& simulation);
 /// ‖v‖ [m/s].
 std::vector<float> vertex_speed(const pliant::Positions& velocities);
 
-/// What stands beside the colour map.
-std::string_view quantity_title(pliant::ColourBy colour);
+/// What stands beside the color map.
+std::string_view quantity_title(pliant::ColorBy color);
 
-/// The ends of a colour map for these values: from zero for quantities that are never negative, and symmetric about it
+/// The ends of a color map for these values: from zero for quantities that are never negative, and symmetric about it
 /// for stretch.
-std::array<float, 2> quantity_range(pliant::ColourBy colour, std::span<const float> values);
+std::array<float, 2> quantity_range(pliant::ColorBy color, std::span<const float> values);
 
-/// Colours from the lowest value to the highest, RGB (sRGB): even steps of lightness for energy and speed, two hues
+/// Colors from the lowest value to the highest, RGB (sRGB): even steps of lightness for energy and speed, two hues
 /// away from a light middle for stretch.
-std::vector<std::array<std::uint8_t, 3>> colour_map(pliant::ColourBy colour);
+std::vector<std::array<std::uint8_t, 3>> color_map(pliant::ColorBy color);
 
 }  // namespace pliant_render

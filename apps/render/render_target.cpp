@@ -33,11 +33,11 @@ RenderTarget::RenderTarget(int width, int height, int samples) : width_(width), 
   }
   samples = std::clamp(samples, 1, std::max(1, most_samples));
   glBindFramebuffer(GL_FRAMEBUFFER, sampled_.id());
-  attach(sampled_colour_, GL_COLOR_ATTACHMENT0, GL_RGBA8, width, height, samples);
+  attach(sampled_color_, GL_COLOR_ATTACHMENT0, GL_RGBA8, width, height, samples);
   attach(sampled_depth_, GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT24, width, height, samples);
   check_complete(width, height);
   glBindFramebuffer(GL_FRAMEBUFFER, plain_.id());
-  attach(plain_colour_, GL_COLOR_ATTACHMENT0, GL_RGBA8, width, height, 1);
+  attach(plain_color_, GL_COLOR_ATTACHMENT0, GL_RGBA8, width, height, 1);
   check_complete(width, height);
 }
 

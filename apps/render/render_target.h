@@ -29,7 +29,7 @@ class RenderTarget {
   int width_;
   int height_;
   Framebuffer sampled_, plain_;
-  Renderbuffer sampled_colour_, sampled_depth_, plain_colour_;
+  Renderbuffer sampled_color_, sampled_depth_, plain_color_;
 };
 
 }  // namespace pliant_render

@@ -18,8 +18,8 @@ constexpr int ground_sectors = 48;
 constexpr float shadow_darkness = 0.34F;
 constexpr float lift = 1.5e-3F;  // towards the eye, of the radius of the scene, for lines on what they lie on
 
-Vec3f tone_of(const pliant::Colour& colour) {
-  return {static_cast<float>(colour.red), static_cast<float>(colour.green), static_cast<float>(colour.blue)};
+Vec3f tone_of(const pliant::Color& color) {
+  return {static_cast<float>(color.red), static_cast<float>(color.green), static_cast<float>(color.blue)};
 }
 
 /// What shifts a point at the middle of the scene that far towards the eye, in the depths of OpenGL.
@@ -94,9 +94,9 @@ void Renderer::set_vertex_layout() const {
   attribute(2, 1, offsetof(Vertex, value));
 }
 
-void Renderer::set_frame(const FrameContent& frame, pliant::ColourBy colour) {
+void Renderer::set_frame(const FrameContent& frame, pliant::ColorBy color) {
   bounds_ = bounds_of(frame.positions);
-  has_values_ = frame.values.size() == frame.positions.size() && colour != pliant::ColourBy::none;
+  has_values_ = frame.values.size() == frame.positions.size() && color != pliant::ColorBy::none;
   const std::vector<Vec3f> normals = vertex_normals(scenery_, frame.positions);
   vertices_.resize(frame.positions.size());
   for (std::size_t i = 0; i < vertices_.size(); ++i) {
@@ -107,9 +107,9 @@ void Renderer::set_frame(const FrameContent& frame, pliant::ColourBy colour) {
   upload(markers_, GL_ELEMENT_ARRAY_BUFFER, frame.markers, GL_STREAM_DRAW);
   glBindVertexArray(0);
   marker_count_ = count_of(frame.markers);
-  if (!has_values_ || map_of_ == colour) return;
-  map_of_ = colour;
-  const auto map = colour_map(colour);
+  if (!has_values_ || map_of_ == color) return;
+  map_of_ = color;
+  const auto map = color_map(color);
   set_up_texture(map_, GL_RGB8, static_cast<int>(map.size()), 1, map.data());
 }
 
@@ -226,10 +226,10 @@ void Renderer::draw_surface(const pliant::ViewSettings& look, const DrawOptions&
   program.set("light", light_of(look));
   program.set("front", tone_of(look.front));
   program.set("back", tone_of(look.back));
-  program.set("is_coloured", has_values_ ? 1 : 0);
+  program.set("is_colored", has_values_ ? 1 : 0);
   program.set("low", options.range[0]);
   program.set("high", options.range[1]);
-  program.set("colours", 0);
+  program.set("colors", 0);
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, map_.id());
   glBindVertexArray(triangles_array_.id());
@@ -244,7 +244,7 @@ void Renderer::draw_lines(const pliant::ViewSettings& look, const DrawOptions& o
   line_.set("lift", depth_shift(options.viewpoint, bounds_, lift * bounds_.radius()));
   line_.set("low", options.range[0]);
   line_.set("high", options.range[1]);
-  line_.set("colours", 0);
+  line_.set("colors", 0);
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, map_.id());
   const auto draw_list = [&](const VertexArray& array, GLsizei count, float width, float opacity, const Vec3f& tone,
@@ -254,7 +254,7 @@ void Renderer::draw_lines(const pliant::ViewSettings& look, const DrawOptions& o
     line_.set("opacity", opacity);
     line_.set("tone", tone);
     line_.set("is_round", is_rope ? 1 : 0);
-    line_.set("is_coloured", is_rope && has_values_ ? 1 : 0);
+    line_.set("is_colored", is_rope && has_values_ ? 1 : 0);
     glBindVertexArray(array.id());
     glDrawElements(GL_LINES, count, GL_UNSIGNED_INT, nullptr);
   };

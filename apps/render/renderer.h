@@ -8,7 +8,7 @@ namespace pliant_render {
 /// How a frame is drawn, besides the scene's settings.
 struct DrawOptions {
   Viewpoint viewpoint;
-  std::array<float, 2> range = {0, 1};  ///< of the values, at the ends of the colour map
+  std::array<float, 2> range = {0, 1};  ///< of the values, at the ends of the color map
   float ground_height = 0;              ///< [m]
   float scale = 1;                      ///< of widths and marks: pixels of the picture to one at 720 rows
 };
@@ -20,7 +20,7 @@ class Renderer {
 
   const Scenery& scenery() const { return scenery_; }
   /// Takes over the positions, values and markers of a frame.
-  void set_frame(const FrameContent& frame, pliant::ColourBy colour);
+  void set_frame(const FrameContent& frame, pliant::ColorBy color);
   /// Clears the framebuffer that is bound, of this size in pixels, and draws the frame.
   void draw(const pliant::ViewSettings& look, const DrawOptions& options, int width, int height);
 
@@ -47,7 +47,7 @@ class Renderer {
   Scenery scenery_;
   Bounds bounds_;
   bool has_values_ = false;
-  pliant::ColourBy map_of_ = pliant::ColourBy::none;
+  pliant::ColorBy map_of_ = pliant::ColorBy::none;
   GLsizei marker_count_ = 0;
   std::vector<Vertex> vertices_;
   Program surface_, flat_surface_, line_, marker_, flatten_, flatten_ropes_, blur_, ground_, shadow_;

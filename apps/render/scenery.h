@@ -24,7 +24,7 @@ Scenery make_scenery(const std::vector<pliant::Body>& bodies);
 /// What changes from frame to frame.
 struct FrameContent {
   std::vector<Vec3f> positions;        ///< one for each vertex [m]
-  std::vector<float> values;           ///< of the vertices, for their colours; or none
+  std::vector<float> values;           ///< of the vertices, for their colors; or none
   std::vector<std::uint32_t> markers;  ///< vertices with a red mark: those that are pinned, or under a test force
 };
 

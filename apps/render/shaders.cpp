@@ -22,23 +22,23 @@ const std::string_view surface_fragment = R"(#version 330 core
 in vec3 normal_here;
 in float value_here;
 uniform vec3 to_eye, light, front, back;
-uniform int is_coloured;
+uniform int is_colored;
 uniform float low, high;
-uniform sampler2D colours;
-out vec4 colour;
+uniform sampler2D colors;
+out vec4 color;
 void main() {
   vec3 n = normalize(normal_here + 1e-9 * to_eye);  // never of length zero
   if (!gl_FrontFacing) n = -n;
   vec3 tone = gl_FrontFacing ? front : back;
-  if (is_coloured != 0) {
+  if (is_colored != 0) {
     float place = clamp((value_here - low) / (high - low), 0.002, 0.998);
-    tone = textureLod(colours, vec2(place, 0.5), 0.0).rgb;
+    tone = textureLod(colors, vec2(place, 0.5), 0.0).rgb;
   }
   float towards = dot(n, light);
   float sky = 0.5 + 0.5 * n.z;
   float fill = max(dot(n, to_eye), 0.0);
   float lit = 0.26 + 0.18 * sky + 0.26 * fill + 0.38 * max(towards, 0.0) + 0.1 * max(towards + 0.4, 0.0);
-  colour = vec4(tone * pow(lit, 0.4545), 1);
+  color = vec4(tone * pow(lit, 0.4545), 1);
 })";
 
 // Each face by itself: its own normal at its three corners.
@@ -122,20 +122,20 @@ in float across, value_here;
 in vec2 sideways;
 uniform float width, opacity, low, high;
 uniform vec3 tone;
-uniform int is_round, is_coloured;
-uniform sampler2D colours;
-out vec4 colour;
+uniform int is_round, is_colored;
+uniform sampler2D colors;
+out vec4 color;
 void main() {
   float edge = clamp(width / 2.0 + 0.5 - abs(across), 0.0, 1.0);
   vec3 base = tone;
-  if (is_coloured != 0) base = texture(colours, vec2(clamp((value_here - low) / (high - low), 0.002, 0.998), 0.5)).rgb;
+  if (is_colored != 0) base = texture(colors, vec2(clamp((value_here - low) / (high - low), 0.002, 0.998), 0.5)).rgb;
   if (is_round != 0) {
     float t = clamp(across / (width / 2.0), -1.0, 1.0);
     vec3 n = vec3(sideways * t, sqrt(max(0.0, 1.0 - t * t)));  // of a tube that faces the eye
     base *= 0.62 + 0.40 * max(dot(n, normalize(vec3(-0.3, 0.7, 0.7))), 0.0);
   }
   if (edge * opacity < 0.01) discard;
-  colour = vec4(base, edge * opacity);
+  color = vec4(base, edge * opacity);
 })";
 
 const std::string_view marker_geometry = R"(#version 330 core
@@ -163,7 +163,7 @@ const std::string_view marker_fragment = R"(#version 330 core
 in vec2 at;
 uniform float radius;
 uniform vec3 tone;
-out vec4 colour;
+out vec4 color;
 void main() {
   float distance = length(at);
   float inside = clamp(radius + 0.5 - distance, 0.0, 1.0);
@@ -172,7 +172,7 @@ void main() {
   vec3 n = vec3(t, sqrt(max(0.0, 1.0 - dot(t, t))));
   float rim = clamp(radius - 0.5 - distance, 0.0, 1.0);
   float lit = 0.68 + 0.42 * max(dot(n, normalize(vec3(-0.35, 0.6, 0.72))), 0.0);
-  colour = vec4(tone * mix(0.45, lit, rim), inside);
+  color = vec4(tone * mix(0.45, lit, rim), inside);
 })";
 
 const std::string_view flatten_vertex = R"(#version 330 core
@@ -188,8 +188,8 @@ void main() {
 })";
 
 const std::string_view flatten_fragment = R"(#version 330 core
-out vec4 colour;
-void main() { colour = vec4(1); })";
+out vec4 color;
+void main() { color = vec4(1); })";
 
 const std::string_view screen_vertex = R"(#version 330 core
 out vec2 place;
@@ -203,7 +203,7 @@ const std::string_view blur_fragment = R"(#version 330 core
 in vec2 place;
 uniform sampler2D mask;
 uniform vec2 step_size;
-out vec4 colour;
+out vec4 color;
 void main() {
   // Seven of a bell's values, in pairs: a place between two texels has both.
   const float weights[3] = float[](0.2623, 0.1234, 0.0351);
@@ -213,10 +213,10 @@ void main() {
     vec2 aside = places[i] * step_size;
     sum += weights[i] * (textureLod(mask, place + aside, 0.0).r + textureLod(mask, place - aside, 0.0).r);
   }
-  colour = vec4(sum, 0, 0, 1);
+  color = vec4(sum, 0, 0, 1);
 })";
 
-// Rings about the centre, of which the outer ones are wider; their tones are found at the vertices, since most of a
+// Rings about the center, of which the outer ones are wider; their tones are found at the vertices, since most of a
 // picture is ground.
 const std::string_view ground_vertex = R"(#version 330 core
 uniform mat4 camera;
@@ -234,8 +234,8 @@ void main() {
 
 const std::string_view ground_fragment = R"(#version 330 core
 in vec3 tone_here;
-out vec4 colour;
-void main() { colour = vec4(tone_here, 1); })";
+out vec4 color;
+void main() { color = vec4(tone_here, 1); })";
 
 const std::string_view shadow_vertex = R"(#version 330 core
 uniform mat4 camera;
@@ -251,7 +251,7 @@ const std::string_view shadow_fragment = R"(#version 330 core
 in vec2 place;
 uniform float darkness;
 uniform sampler2D mask;
-out vec4 colour;
-void main() { colour = vec4(0, 0, 0, darkness * textureLod(mask, place, 0.0).r); })";
+out vec4 color;
+void main() { color = vec4(0, 0, 0, darkness * textureLod(mask, place, 0.0).r); })";
 
 }  // namespace pliant_render::shaders

@@ -4,7 +4,7 @@
 
 namespace pliant_render::shaders {
 
-// Surfaces in two tones, or coloured by a value.
+// Surfaces in two tones, or colored by a value.
 extern const std::string_view surface_vertex;
 extern const std::string_view surface_fragment;
 extern const std::string_view flat_vertex;

@@ -25,7 +25,7 @@ float unit_of(float height) {
 
 }  // namespace
 
-std::uint32_t ink_on(const pliant::Colour& background) {
+std::uint32_t ink_on(const pliant::Color& background) {
   const double light = 0.2126 * background.red + 0.7152 * background.green + 0.0722 * background.blue;
   return light > 0.5 ? IM_COL32(38, 42, 50, 255) : IM_COL32(232, 234, 238, 255);
 }
@@ -52,10 +52,10 @@ float legend_width(int height) {
 
 std::optional<Legend> make_legend(const pliant::ViewSettings& look, const std::array<float, 2>& range, int width,
                                   int height) {
-  if (!look.legend || look.colour == pliant::ColourBy::none) return {};
+  if (!look.legend || look.color == pliant::ColorBy::none) return {};
   if (legend_width(height) > 0.4F * static_cast<float>(width)) return {};
-  return Legend{std::string(quantity_title(look.colour)), range,
-                look.colour == pliant::ColourBy::stretch ? 100.0F : 1.0F, colour_map(look.colour)};
+  return Legend{std::string(quantity_title(look.color)), range, look.color == pliant::ColorBy::stretch ? 100.0F : 1.0F,
+                color_map(look.color)};
 }
 
 std::vector<float> round_ticks(float low, float high) {
@@ -98,9 +98,9 @@ void draw_legend(const Legend& legend, const SignSheet& sheet) {
   const float bar_width = 16 * unit, bar_height = 0.4F * sheet.height;
   const float right = sheet.width - 28 * unit, top = 0.30F * sheet.height;
   const float left = right - bar_width, bottom = top + bar_height;
-  const auto count = static_cast<float>(legend.colours.size());
-  for (std::size_t i = 0; i < legend.colours.size(); ++i) {
-    const auto& c = legend.colours[i];
+  const auto count = static_cast<float>(legend.colors.size());
+  for (std::size_t i = 0; i < legend.colors.size(); ++i) {
+    const auto& c = legend.colors[i];
     const float from = bottom - bar_height * static_cast<float>(i) / count;
     const float to = bottom - bar_height * static_cast<float>(i + 1) / count;
     sheet.list.AddRectFilled({left, to}, {right, from + 0.5F}, IM_COL32(c[0], c[1], c[2], 255));

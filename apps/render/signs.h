@@ -1,5 +1,5 @@
 #pragma once
-// What lies flat on a picture, to be drawn onto a list of ImGui: the legend of the colours, and the wind.
+// What lies flat on a picture, to be drawn onto a list of ImGui: the legend of the colors, and the wind.
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,7 +16,7 @@ struct Legend {
   std::string title;
   std::array<float, 2> range = {0, 1};
   float factor = 1;  ///< of the numbers that are shown: 100 for percent
-  std::vector<std::array<std::uint8_t, 3>> colours;
+  std::vector<std::array<std::uint8_t, 3>> colors;
 };
 
 struct WindSign {
@@ -27,7 +27,7 @@ struct WindSign {
 /// Pixels that a legend takes at the right edge of a picture.
 float legend_width(int height);
 
-/// The legend of what the colours of a picture of this size tell; none where they tell nothing, where none is wanted,
+/// The legend of what the colors of a picture of this size tell; none where they tell nothing, where none is wanted,
 /// and where it would leave no room for anything else.
 std::optional<Legend> make_legend(const pliant::ViewSettings& look, const std::array<float, 2>& range, int width,
                                   int height);
@@ -37,8 +37,8 @@ std::vector<float> round_ticks(float low, float high);
 /// A tick that is a multiple of `step`, with all digits of that and no more; with three where these would be many.
 std::string tick_text(float tick, float step);
 
-/// Dark on light backgrounds, light on dark ones, as ImGui has colours.
-std::uint32_t ink_on(const pliant::Colour& background);
+/// Dark on light backgrounds, light on dark ones, as ImGui has colors.
+std::uint32_t ink_on(const pliant::Color& background);
 
 enum class Letters { latin, with_symbols };
 /// Loads the font of everything that is written into the current context of ImGui, for letters of this height [pixels].

@@ -12,7 +12,7 @@
 namespace pliant_render {
 namespace {
 
-using pliant::ColourBy;
+using pliant::ColorBy;
 using pliant::Real;
 
 constexpr std::int64_t most_bytes = std::int64_t{4} << 30U;
@@ -67,15 +67,15 @@ std::optional<WindSign> find_wind(const pliant::Simulation& simulation) {
 }
 
 std::vector<float> find_values(const pliant::Simulation& simulation, const Scenery& scenery,
-                               std::span<const Vec3f> positions, ColourBy colour) {
-  switch (colour) {
-    case ColourBy::stretch:
+                               std::span<const Vec3f> positions, ColorBy color) {
+  switch (color) {
+    case ColorBy::stretch:
       return vertex_stretch(scenery, positions);
-    case ColourBy::energy:
+    case ColorBy::energy:
       return vertex_energy(simulation);
-    case ColourBy::speed:
+    case ColorBy::speed:
       return vertex_speed(simulation.state().velocities);
-    case ColourBy::none:
+    case ColorBy::none:
       break;
   }
   return {};
@@ -96,11 +96,11 @@ std::vector<std::uint32_t> pinned_vertices(const pliant::Simulation& simulation)
   return pinned;
 }
 
-TakeFrame take_frame(const pliant::Simulation& simulation, const Scenery& scenery, ColourBy colour) {
+TakeFrame take_frame(const pliant::Simulation& simulation, const Scenery& scenery, ColorBy color) {
   TakeFrame frame;
   frame.time = simulation.state().time;
   frame.content.positions = to_floats(simulation.state().positions);
-  frame.content.values = find_values(simulation, scenery, frame.content.positions, colour);
+  frame.content.values = find_values(simulation, scenery, frame.content.positions, color);
   frame.content.markers = find_markers(simulation);
   frame.wind = find_wind(simulation);
   return frame;
@@ -109,7 +109,7 @@ TakeFrame take_frame(const pliant::Simulation& simulation, const Scenery& scener
 Take take_scene(pliant::Scene& scene, std::int64_t every, const std::function<bool(std::int64_t)>& go_on) {
   Take take{make_scenery(scene.simulation.bodies()), scene.view, {}};
   check_size((scene.steps - scene.simulation.state().step) / every + 2, take.scenery.vertex_count);
-  const auto keep = [&] { take.frames.push_back(take_frame(scene.simulation, take.scenery, scene.view.colour)); };
+  const auto keep = [&] { take.frames.push_back(take_frame(scene.simulation, take.scenery, scene.view.color)); };
   keep();
   for (std::int64_t step = scene.simulation.state().step; step < scene.steps && go_on(step);) {
     scene.step();
@@ -131,15 +131,15 @@ RunFrames::RunFrames(pliant::Animation animation) : animation_(std::move(animati
   }
 }
 
-TakeFrame RunFrames::frame(std::size_t i, ColourBy colour) const {
-  if (colour == ColourBy::energy) {
-    pliant::fail_input("colour: a run does not say the energy of its vertices; give its scene, or another colour");
+TakeFrame RunFrames::frame(std::size_t i, ColorBy color) const {
+  if (color == ColorBy::energy) {
+    pliant::fail_input("color: a run does not say the energy of its vertices; give its scene, or another color");
   }
   pliant::Positions x;
   animation_.cache.sample(time(i), x);
   TakeFrame frame{time(i), {to_floats(x), {}, {}}, {}};
-  if (colour == ColourBy::stretch) frame.content.values = vertex_stretch(scenery_, frame.content.positions);
-  if (colour == ColourBy::speed) {
+  if (color == ColorBy::stretch) frame.content.values = vertex_stretch(scenery_, frame.content.positions);
+  if (color == ColorBy::speed) {
     pliant::Positions velocities = pliant::Positions::Zero(x.rows(), 3);
     if (i > 0 && time(i) > time(i - 1)) {
       pliant::Positions before;
@@ -155,7 +155,7 @@ Take take_animation(pliant::Animation animation, const pliant::ViewSettings& loo
   const RunFrames frames(std::move(animation));
   Take take{frames.scenery(), look, {}};
   check_size(static_cast<std::int64_t>(frames.count()), take.scenery.vertex_count);
-  for (std::size_t i = 0; i < frames.count(); ++i) take.frames.push_back(frames.frame(i, look.colour));
+  for (std::size_t i = 0; i < frames.count(); ++i) take.frames.push_back(frames.frame(i, look.color));
   return take;
 }
 
@@ -173,9 +173,9 @@ float ground_height(const Take& take) {
   return bounds.is_empty() ? 0 : bounds.low.z() - 0.03F * bounds.radius();
 }
 
-std::array<float, 2> colour_range(const Take& take) {
-  if (take.look.colour_range) {
-    const auto& given = *take.look.colour_range;
+std::array<float, 2> color_range(const Take& take) {
+  if (take.look.color_range) {
+    const auto& given = *take.look.color_range;
     return {static_cast<float>(given[0]), static_cast<float>(given[1])};
   }
   std::vector<float> extremes;
@@ -185,7 +185,7 @@ std::array<float, 2> colour_range(const Take& take) {
     extremes.push_back(*least);
     extremes.push_back(*most);
   }
-  return quantity_range(take.look.colour, extremes);
+  return quantity_range(take.look.color, extremes);
 }
 
 }  // namespace pliant_render

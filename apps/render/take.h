@@ -1,6 +1,6 @@
 #pragma once
 // What is filmed: the frames of a scene as it is simulated, or of a run that was recorded, before any of them is drawn.
-// All are kept, so that camera, ground and colours suit the whole film.
+// All are kept, so that camera, ground and colors suit the whole film.
 #include <functional>
 #include <optional>
 #include <vector>
@@ -28,7 +28,7 @@ struct Take {
 std::vector<std::uint32_t> pinned_vertices(const pliant::Simulation& simulation);
 
 /// A frame of the simulation as it is now.
-TakeFrame take_frame(const pliant::Simulation& simulation, const Scenery& scenery, pliant::ColourBy colour);
+TakeFrame take_frame(const pliant::Simulation& simulation, const Scenery& scenery, pliant::ColorBy color);
 
 /// Simulates the scene to its last step and keeps the start, every n-th step and the last; `go_on`, told the step, may
 /// end it.
@@ -45,8 +45,8 @@ class RunFrames {
   std::size_t count() const { return animation_.times.size(); }
   pliant::Real time(std::size_t i) const { return animation_.times[i]; }
   const std::string& name() const { return animation_.name; }
-  /// @throws Error (input): colours by energy, which needs the scene
-  TakeFrame frame(std::size_t i, pliant::ColourBy colour) const;
+  /// @throws Error (input): colors by energy, which needs the scene
+  TakeFrame frame(std::size_t i, pliant::ColorBy color) const;
 
  private:
   pliant::Animation animation_;
@@ -54,14 +54,14 @@ class RunFrames {
 };
 
 /// The frames of a run at the times that the animation has. Stretch is against the first frame, speed from frame to
-/// frame. @throws Error (input): colours by energy, which needs the scene; points without a mesh.
+/// frame. @throws Error (input): colors by energy, which needs the scene; points without a mesh.
 Take take_animation(pliant::Animation animation, const pliant::ViewSettings& look);
 
 /// The box around all frames.
 Bounds bounds_of(const Take& take);
 /// Of the ground: what the scene says, else a little below everything.
 float ground_height(const Take& take);
-/// Of the colours: what the scene says, else as the values of all frames have it. Fractions for stretch.
-std::array<float, 2> colour_range(const Take& take);
+/// Of the colors: what the scene says, else as the values of all frames have it. Fractions for stretch.
+std::array<float, 2> color_range(const Take& take);
 
 }  // namespace pliant_render

@@ -10,7 +10,7 @@
 namespace pliant_report {
 namespace {
 
-/// Relative paths about the centre: disc, square, triangle, rhomb, triangle that hangs, slanted cross, upright cross,
+/// Relative paths about the center: disc, square, triangle, rhomb, triangle that hangs, slanted cross, upright cross,
 /// hourglass. Of about the same area.
 constexpr std::array<std::string_view, 8> shapes = {
     "m-3.4 0a3.4 3.4 0 1 0 6.8 0a3.4 3.4 0 1 0-6.8 0z",
@@ -44,13 +44,13 @@ double travel(const Run& run, std::size_t i) {
 std::vector<Point> some_points(const std::vector<Run>& lines, double space, double start) {
   std::vector<Point> points;
   double next = start;
-  double travelled = 0;
+  double traveled = 0;
   for (const Run& run : lines) {
     for (std::size_t i = 0; i < run.size(); ++i) {
-      travelled += travel(run, i);
-      if (travelled < next) continue;
+      traveled += travel(run, i);
+      if (traveled < next) continue;
       points.push_back(run[i]);
-      next = travelled + space;
+      next = traveled + space;
     }
   }
   if (points.empty() && !lines.empty()) points.push_back(lines.front()[lines.front().size() / 2]);
@@ -60,11 +60,11 @@ std::vector<Point> some_points(const std::vector<Run>& lines, double space, doub
 /// Few of them, on curves that go to and fro too.
 void add_identifying_marks(const Plot& plot, std::size_t series, const PlotLayout& layout, Curve& curve) {
   constexpr double marks_per_line = 4;
-  double travelled = 0;
+  double traveled = 0;
   for (const Run& run : curve.lines) {
-    for (std::size_t i = 0; i < run.size(); ++i) travelled += travel(run, i);
+    for (std::size_t i = 0; i < run.size(); ++i) traveled += travel(run, i);
   }
-  const double space = std::max(layout.area.width(), travelled) / marks_per_line;
+  const double space = std::max(layout.area.width(), traveled) / marks_per_line;
   const double share = (static_cast<double>(series) + 0.5) / static_cast<double>(plot.series.size());
   const std::vector<Point> marks = some_points(curve.lines, space, space * share);
   curve.marks.insert(curve.marks.end(), marks.begin(), marks.end());
@@ -74,13 +74,13 @@ void add_identifying_marks(const Plot& plot, std::size_t series, const PlotLayou
 
 Look look_of(const Plot& plot, std::size_t series) {
   const Series& each = plot.series[series];
-  const int position = static_cast<int>(series % (2 * colour_count));
-  if (each.colour) {
-    const int colour = (*each.colour % colour_count + colour_count) % colour_count;
-    return {colour, colour, each.is_dashed, each.is_dashed};
+  const int position = static_cast<int>(series % (2 * color_count));
+  if (each.color) {
+    const int color = (*each.color % color_count + color_count) % color_count;
+    return {color, color, each.is_dashed, each.is_dashed};
   }
-  const bool is_again = position >= colour_count;
-  return {position % colour_count, position % colour_count, each.is_dashed != is_again, each.is_dashed != is_again};
+  const bool is_again = position >= color_count;
+  return {position % color_count, position % color_count, each.is_dashed != is_again, each.is_dashed != is_again};
 }
 
 Curve curve_of(const Plot& plot, std::size_t series, const PlotLayout& layout) {

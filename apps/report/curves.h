@@ -7,17 +7,17 @@
 
 namespace pliant_report {
 
-constexpr int colour_count = 8;
+constexpr int color_count = 8;
 
-/// What tells a series from the others, in print without colours too.
+/// What tells a series from the others, in print without colors too.
 struct Look {
-  int colour = 0;
+  int color = 0;
   int shape = 0;
   bool is_dashed = false;
   bool is_hollow = false;
 };
 
-/// By the series' own colour or its position; after eight, colours come again with hollow marks and the other kind of
+/// By the series' own color or its position; after eight, colors come again with hollow marks and the other kind of
 /// line.
 Look look_of(const Plot& plot, std::size_t series);
 
@@ -30,7 +30,7 @@ struct Curve {
 /// few marks, those of different lines at different places; a value between two gaps is a mark.
 Curve curve_of(const Plot& plot, std::size_t series, const PlotLayout& layout);
 
-/// The shape at every point: path data, where each shape begins with its centre, "M3 4".
+/// The shape at every point: path data, where each shape begins with its center, "M3 4".
 std::string marks_data(const std::vector<Point>& points, int shape);
 
 }  // namespace pliant_report

@@ -14,7 +14,7 @@ std::string element(std::string_view tag, std::string_view text);
 /// "holds", "does not hold", "reported"
 std::string_view word(Verdict verdict);
 
-/// The verdict as a shape, a colour and a word.
+/// The verdict as a shape, a color and a word.
 std::string badge(Verdict verdict);
 
 /// "41 claims: 36 hold, 3 do not, 2 only reported"

@@ -86,7 +86,7 @@ std::string drawn(const Look& look, const std::vector<Run>& lines, const std::ve
   const std::string content =
       path(look.is_dashed ? "plot-line plot-dashed" : "plot-line", path_data(lines)) +
       path(look.is_hollow ? "plot-marks plot-hollow" : "plot-marks", marks_data(marks, look.shape));
-  return content.empty() ? "" : fmt::format("<g class=\"plot-colour-{}\">\n{}</g>\n", look.colour, content);
+  return content.empty() ? "" : fmt::format("<g class=\"plot-color-{}\">\n{}</g>\n", look.color, content);
 }
 
 std::string legend(const Plot& plot, const PlotLayout& layout, const std::vector<Curve>& curves) {

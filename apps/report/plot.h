@@ -17,8 +17,8 @@ struct Series {
   std::vector<double> y{};
   Mark mark = Mark::line;
   bool is_dashed = false;
-  /// Which of the palette's eight colours, so that the same thing has the same one in all plots; default: by position.
-  std::optional<int> colour{};
+  /// Which of the palette's eight colors, so that the same thing has the same one in all plots; default: by position.
+  std::optional<int> color{};
 };
 
 struct Axis {
@@ -46,11 +46,11 @@ struct Plot {
 
 /// The plot without its caption, as an <svg> element that stands in a page with plot_style(), or, `is_alone`, as a file
 /// of its own that brings the style along. As wide as a column (640 units, text of 13), with a legend that covers no
-/// data, ticks at round numbers, a name for screen readers. Colours are those of the reader's light or dark scheme; on
+/// data, ticks at round numbers, a name for screen readers. Colors are those of the reader's light or dark scheme; on
 /// paper they are the light ones.
 std::string to_svg(const Plot& plot, bool is_alone);
 
-/// The style sheet of all plots, of classes that begin with "plot": shapes, and colours for light, dark and print.
+/// The style sheet of all plots, of classes that begin with "plot": shapes, and colors for light, dark and print.
 std::string plot_style();
 
 }  // namespace pliant_report

@@ -9,7 +9,7 @@
 namespace pliant_report {
 namespace {
 
-/// Colours are written out for every scheme instead of as variables, which programs that edit or convert SVG do not
+/// Colors are written out for every scheme instead of as variables, which programs that edit or convert SVG do not
 /// know.
 struct Scheme {
   std::string_view ground;
@@ -18,8 +18,8 @@ struct Scheme {
   std::string_view axis;
   std::string_view grid;
   /// Found by a search: at least 3:1 to the ground, and as far apart as may be in the eyes of readers with and without
-  /// each of the three kinds of colour blindness.
-  std::array<std::string_view, colour_count> series;
+  /// each of the three kinds of color blindness.
+  std::array<std::string_view, color_count> series;
 };
 
 constexpr Scheme light = {
@@ -45,7 +45,7 @@ constexpr std::string_view shape_rules =
 .plot .plot-hollow { stroke: currentColor; stroke-width: 1.5; paint-order: normal; }
 )";
 
-std::string colours(const Scheme& scheme) {
+std::string colors(const Scheme& scheme) {
   std::string style = fmt::format(
       ".plot text {{ fill: {text}; }}\n"
       ".plot .plot-number, .plot .plot-guide-label {{ fill: {number}; }}\n"
@@ -56,7 +56,7 @@ std::string colours(const Scheme& scheme) {
       fmt::arg("text", scheme.text), fmt::arg("number", scheme.number), fmt::arg("ground", scheme.ground),
       fmt::arg("axis", scheme.axis), fmt::arg("grid", scheme.grid));
   for (std::size_t i = 0; i < scheme.series.size(); ++i) {
-    style += fmt::format(".plot-colour-{} {{ color: {}; }}\n", i, scheme.series[i]);
+    style += fmt::format(".plot-color-{} {{ color: {}; }}\n", i, scheme.series[i]);
   }
   return style;
 }
@@ -67,7 +67,7 @@ std::string plot_style() {
   return fmt::format(
       "{}{}@media screen and (prefers-color-scheme: dark) {{\n{}}}\n"
       "@media print {{\n.plot {{ break-inside: avoid; print-color-adjust: exact; }}\n}}\n",
-      shape_rules, colours(light), colours(dark));
+      shape_rules, colors(light), colors(dark));
 }
 
 }  // namespace pliant_report

@@ -54,7 +54,7 @@ int common_power(double largest, const Step& step) {
 }
 
 /// The digits whose multiples of powers of ten are told by their labels, and whether those are plain numbers.
-struct Labelling {
+struct Labeling {
   std::vector<int> digits{};
   int stride = 1;  ///< of decades
   bool is_plain = false;
@@ -75,16 +75,16 @@ struct Decades {
   double width() const { return max - min; }
 };
 
-Ticks logarithmic_ticks(const Decades& decades, const Labelling& labelling, bool has_all_digits) {
+Ticks logarithmic_ticks(const Decades& decades, const Labeling& labeling, bool has_all_digits) {
   Ticks result;
   for (int exponent = decades.first(); exponent <= decades.last(); ++exponent) {
     for (int digit = 1; digit <= (has_all_digits ? 9 : 1); ++digit) {
       const double at = exponent + std::log10(digit);
       if (!decades.has(at)) continue;
-      const bool is_told = exponent % labelling.stride == 0 &&
-                           std::find(labelling.digits.begin(), labelling.digits.end(), digit) != labelling.digits.end();
-      if (!is_told && labelling.stride > 10) continue;
-      result.ticks.push_back({at, is_told ? logarithmic_label(digit, exponent, labelling.is_plain) : std::string()});
+      const bool is_told = exponent % labeling.stride == 0 &&
+                           std::find(labeling.digits.begin(), labeling.digits.end(), digit) != labeling.digits.end();
+      if (!is_told && labeling.stride > 10) continue;
+      result.ticks.push_back({at, is_told ? logarithmic_label(digit, exponent, labeling.is_plain) : std::string()});
     }
   }
   return result;

@@ -169,7 +169,7 @@ std::string difference(const EarlierPlan& earlier, const SweepSetup& now) {
 
 // ---- the plan
 
-/// Recognises a combination, in whatever order its paths come and however its values are written.
+/// Recognizes a combination, in whatever order its paths come and however its values are written.
 std::string key_of(const std::vector<Variation>& variations, const Combination& values) {
   nlohmann::json key = nlohmann::json::object();
   for (std::size_t i = 0; i < values.size(); ++i) key[variations[i].path] = canonical_value(values[i]);

@@ -217,7 +217,7 @@ std::vector<NamedPlot> time_plots(const std::filesystem::path& folder, const Swe
       auto series = time_series(run_folder(folder, run.name) / "measurements.csv", column, stride);
       if (!series) continue;
       series->name = series_name(plan.setup.variations, run.values, run.values.size());
-      series->colour = static_cast<int>(i);
+      series->color = static_cast<int>(i);
       result.plot.series.push_back(std::move(*series));
     }
     const std::string thinning = stride > 1 ? fmt::format(" Up to every {}th record is drawn.", stride) : "";

@@ -14,7 +14,7 @@ struct NamedPlot {
   pliant_report::Plot plot;
 };
 
-/// More lines cannot be told apart by their colours.
+/// More lines cannot be told apart by their colors.
 inline constexpr std::size_t max_series = 8;
 /// Of one figure, each with its share of the series.
 inline constexpr std::size_t max_parts = 4;

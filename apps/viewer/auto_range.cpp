@@ -20,17 +20,17 @@ float round_up(float number) {
 
 }  // namespace
 
-std::array<float, 2> AutoRange::update(pliant::ColourBy colour, float largest, Clock::time_point now) {
+std::array<float, 2> AutoRange::update(pliant::ColorBy color, float largest, Clock::time_point now) {
   if (!std::isfinite(largest)) largest = smallest_range;
   const float wanted = round_up(std::max(largest, smallest_range));
-  const bool is_another = colour != colour_;
-  colour_ = colour;
+  const bool is_another = color != color_;
+  color_ = color;
   if (is_another || wanted >= bound_) last_needed_ = now;
   if (is_another || wanted > bound_ || now - last_needed_ > needed_for) {
     bound_ = wanted;
     last_needed_ = now;
   }
-  return {colour == pliant::ColourBy::stretch ? -bound_ : 0, bound_};
+  return {color == pliant::ColorBy::stretch ? -bound_ : 0, bound_};
 }
 
 }  // namespace pliant_viewer

@@ -26,7 +26,7 @@ LiveScene::LiveScene(MakeScene make, Index threads, bool is_playing, std::functi
       look_(session_.scene().view),
       name_(session_.scene().name),
       suggested_pull_(suggest_pull_stiffness(session_.simulation())) {
-  workshop_.colour = look_.colour;
+  workshop_.color = look_.color;
   session_.set_stop([this] { return shall_give_up(); });
   set_thread_count();
   update_scenery();
@@ -198,8 +198,8 @@ void LiveScene::list_parameters() {
 void LiveScene::publish() {
   const pliant::Simulation& simulation = session_.simulation();
   back_.scenery = scenery_;
-  back_.frame = pliant_render::take_frame(simulation, *scenery_, workshop_.colour);
-  back_.colour = workshop_.colour;
+  back_.frame = pliant_render::take_frame(simulation, *scenery_, workshop_.color);
+  back_.color = workshop_.color;
   back_.pins = pliant_render::pinned_vertices(simulation);
   back_.pull = session_.pull();
   list_parameters();

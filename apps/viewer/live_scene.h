@@ -18,8 +18,8 @@ namespace pliant_viewer {
 struct Snapshot {
   std::shared_ptr<const pliant_render::Scenery> scenery;
   pliant_render::TakeFrame frame;
-  pliant::ColourBy colour = pliant::ColourBy::none;  ///< that the values of the frame are for
-  std::vector<std::uint32_t> pins;                   ///< vertices that can be taken hold of, ascending
+  pliant::ColorBy color = pliant::ColorBy::none;  ///< that the values of the frame are for
+  std::vector<std::uint32_t> pins;                ///< vertices that can be taken hold of, ascending
   std::optional<Pull> pull;
   std::shared_ptr<const std::vector<Parameter>> parameters;
   Pulse::Means pulse;
@@ -38,7 +38,7 @@ struct Workshop {
   Pacer& pacer;
   bool is_playing = false;
   std::int64_t single_steps = 0;  ///< to take although it is not playing
-  pliant::ColourBy colour = pliant::ColourBy::none;
+  pliant::ColorBy color = pliant::ColorBy::none;
   std::uint64_t restarts = 0;
 
   /// As Session::restart, and single steps that were asked for are forgotten.

@@ -18,8 +18,8 @@ Seconds LiveStage::time_to_news(Clock::time_point) const {
   return scene_.has_news() ? Seconds(0) : Seconds::max();
 }
 
-void LiveStage::show(pliant::ColourBy colour) {
-  scene_.post([colour](Workshop& workshop) { workshop.colour = colour; });
+void LiveStage::show(pliant::ColorBy color) {
+  scene_.post([color](Workshop& workshop) { workshop.color = color; });
 }
 
 void LiveStage::play(bool on) {

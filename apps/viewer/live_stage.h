@@ -17,9 +17,9 @@ class LiveStage final : public Stage {
   const pliant_render::TakeFrame& frame() const override { return snapshot_->frame; }
   std::shared_ptr<const pliant_render::Scenery> scenery() const override { return snapshot_->scenery; }
   std::uint64_t restarts() const override { return snapshot_->restarts; }
-  bool knows(pliant::ColourBy) const override { return true; }
-  void show(pliant::ColourBy colour) override;
-  pliant::ColourBy colour() const override { return snapshot_->colour; }
+  bool knows(pliant::ColorBy) const override { return true; }
+  void show(pliant::ColorBy color) override;
+  pliant::ColorBy color() const override { return snapshot_->color; }
   bool is_playing() const override { return is_playing_; }
   void play(bool on) override;
   void step(int direction) override;

@@ -21,7 +21,7 @@ using pliant::Real;
 
 enum class Kind { solid, skin, cloth, ropes };
 
-/// What a kind is made of, for a body of about a metre.
+/// What a kind is made of, for a body of about a meter.
 struct Material {
   std::string_view text;
   Real mass;       // [kg]
@@ -118,7 +118,7 @@ Mesh read_of_a_good_size(const std::filesystem::path& file, const pliant::Import
   const Real length = (box.max - box.min).maxCoeff();
   if (import.scale != 1 || !(length > 0) || (length >= shortest && length <= longest)) return mesh;
   mesh.vertices /= length;
-  remark = fmt::format("; it is {:.3g} units long and shown 1 m long, --scale takes other metres for a unit", length);
+  remark = fmt::format("; it is {:.3g} units long and shown 1 m long, --scale takes other meters for a unit", length);
   return mesh;
 }
 

@@ -15,15 +15,15 @@ Playback::Playback(pliant_render::RunFrames frames, pliant::ViewSettings look, b
     : frames_(std::move(frames)),
       look_(std::move(look)),
       scenery_(std::make_shared<const pliant_render::Scenery>(frames_.scenery())),
-      colour_(knows(look_.colour) ? look_.colour : pliant::ColourBy::none),
+      color_(knows(look_.color) ? look_.color : pliant::ColorBy::none),
       is_playing_(is_playing && frames_.count() > 1),
       began_(Clock::now()),
       began_at_(frames_.time(0)) {
   for (std::size_t i = 0; i < frames_.count(); ++i) {
-    const pliant_render::TakeFrame frame = frames_.frame(i, pliant::ColourBy::none);
+    const pliant_render::TakeFrame frame = frames_.frame(i, pliant::ColorBy::none);
     for (const pliant_render::Vec3f& p : frame.content.positions) bounds_.add(p);
   }
-  show(colour_);
+  show(color_);
   refresh(began_);
   has_begun_ = false;
 }
@@ -46,7 +46,7 @@ bool Playback::refresh(Clock::time_point now) {
     if (is_looping_ && time > end + speed_ * rest_at_end.count()) go_to(0);
   }
   if (!is_stale_) return false;
-  frame_ = frames_.frame(place_, colour_);
+  frame_ = frames_.frame(place_, color_);
   is_stale_ = false;
   return true;
 }
@@ -58,23 +58,23 @@ Seconds Playback::time_to_news(Clock::time_point now) const {
   return Seconds(std::max(0.0, (frames_.time(place_ + 1) - run_time(now)) / speed_));
 }
 
-void Playback::show(pliant::ColourBy colour) {
-  colour_ = colour;
+void Playback::show(pliant::ColorBy color) {
+  color_ = color;
   is_stale_ = true;
-  if (colour == pliant::ColourBy::none || ranges_.contains(colour)) return;
+  if (color == pliant::ColorBy::none || ranges_.contains(color)) return;
   std::vector<float> extremes;
   for (std::size_t i = 0; i < count(); ++i) {
-    const std::vector<float> values = frames_.frame(i, colour).content.values;
+    const std::vector<float> values = frames_.frame(i, color).content.values;
     const auto [least, most] = std::ranges::minmax_element(values);
     if (least == values.end()) continue;
     extremes.push_back(*least);
     extremes.push_back(*most);
   }
-  ranges_[colour] = pliant_render::quantity_range(colour, extremes);
+  ranges_[color] = pliant_render::quantity_range(color, extremes);
 }
 
 std::optional<std::array<float, 2>> Playback::range() const {
-  const auto found = ranges_.find(colour_);
+  const auto found = ranges_.find(color_);
   if (found == ranges_.end()) return {};
   return found->second;
 }

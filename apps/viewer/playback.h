@@ -17,9 +17,9 @@ class Playback final : public Stage {
   const pliant_render::TakeFrame& frame() const override { return frame_; }
   std::shared_ptr<const pliant_render::Scenery> scenery() const override { return scenery_; }
   std::uint64_t restarts() const override { return 0; }
-  bool knows(pliant::ColourBy colour) const override { return colour != pliant::ColourBy::energy; }
-  void show(pliant::ColourBy colour) override;
-  pliant::ColourBy colour() const override { return colour_; }
+  bool knows(pliant::ColorBy color) const override { return color != pliant::ColorBy::energy; }
+  void show(pliant::ColorBy color) override;
+  pliant::ColorBy color() const override { return color_; }
   std::optional<std::array<float, 2>> range() const override;
   std::optional<pliant_render::Bounds> known_bounds() const override { return bounds_; }
   bool is_playing() const override { return is_playing_; }
@@ -44,8 +44,8 @@ class Playback final : public Stage {
   std::shared_ptr<const pliant_render::Scenery> scenery_;
   pliant_render::Bounds bounds_;
   pliant_render::TakeFrame frame_;
-  std::map<pliant::ColourBy, std::array<float, 2>> ranges_;
-  pliant::ColourBy colour_;
+  std::map<pliant::ColorBy, std::array<float, 2>> ranges_;
+  pliant::ColorBy color_;
   bool is_playing_;
   bool is_looping_ = true;
   double speed_ = 1;

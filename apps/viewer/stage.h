@@ -26,11 +26,11 @@ class Stage {
   /// How often everything was begun anew.
   virtual std::uint64_t restarts() const = 0;
 
-  virtual bool knows(pliant::ColourBy colour) const = 0;
-  virtual void show(pliant::ColourBy colour) = 0;
+  virtual bool knows(pliant::ColorBy color) const = 0;
+  virtual void show(pliant::ColorBy color) = 0;
   /// What the values of the frame tell, which is a little later what was asked for.
-  virtual pliant::ColourBy colour() const = 0;
-  /// The ends of the colour map, where they are known for all frames.
+  virtual pliant::ColorBy color() const = 0;
+  /// The ends of the color map, where they are known for all frames.
   virtual std::optional<std::array<float, 2>> range() const { return {}; }
 
   /// The box around all frames, where they are known.

@@ -10,13 +10,13 @@ namespace {
 
 constexpr float letter_height = 15;  // units
 
-bool is_dark(const pliant::Colour& background) {
+bool is_dark(const pliant::Color& background) {
   return 0.2126 * background.red + 0.7152 * background.green + 0.0722 * background.blue < 0.5;
 }
 
 }  // namespace
 
-Ui::Ui(Window& window, const pliant::Colour& background)
+Ui::Ui(Window& window, const pliant::Color& background)
     : context_(ImGui::CreateContext()), ink_(pliant_render::ink_on(background)) {
   ImGui::SetCurrentContext(context_);
   ImGui::GetIO().IniFilename = nullptr;
@@ -80,9 +80,9 @@ pliant_render::SignSheet Ui::sheet(const Vec2f& picture) const {
   return {*ImGui::GetBackgroundDrawList(), *font_, ink_, picture.x(), picture.y()};
 }
 
-pliant_render::Vec3f Ui::panel_colour() const {
-  const ImVec4& colour = context_->Style.Colors[ImGuiCol_WindowBg];
-  return {colour.x, colour.y, colour.z};
+pliant_render::Vec3f Ui::panel_color() const {
+  const ImVec4& color = context_->Style.Colors[ImGuiCol_WindowBg];
+  return {color.x, color.y, color.z};
 }
 
 }  // namespace pliant_viewer

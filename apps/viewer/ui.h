@@ -11,7 +11,7 @@ namespace pliant_viewer {
 class Ui {
  public:
   /// For panels on a background like this one.
-  Ui(Window& window, const pliant::Colour& background);
+  Ui(Window& window, const pliant::Color& background);
   ~Ui();
   Ui(const Ui&) = delete;
   Ui& operator=(const Ui&) = delete;
@@ -33,7 +33,7 @@ class Ui {
   const PanelStyle& style() const { return style_; }
   /// What signs are drawn onto, behind the panels: a picture of this size at the left of the window.
   pliant_render::SignSheet sheet(const Vec2f& picture) const;
-  pliant_render::Vec3f panel_colour() const;
+  pliant_render::Vec3f panel_color() const;
 
  private:
   ImGuiContext* context_;

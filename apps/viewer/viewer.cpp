@@ -31,7 +31,7 @@ Viewpoint first_viewpoint(const Stage& stage, const pliant::ViewSettings& look, 
   return place_camera(look.camera, bounds, size.x() / size.y());
 }
 
-/// A magnitude that few are beyond: single vertices beside pins do not take the colours from all others.
+/// A magnitude that few are beyond: single vertices beside pins do not take the colors from all others.
 float large_value(std::vector<float> values) {
   constexpr std::size_t one_of = 50;
   if (values.empty()) return 0;
@@ -54,8 +54,8 @@ Viewer::Viewer(Window& window, Stage& stage, ViewerOptions options)
       first_camera_(camera_),
       hand_(stage.live() != nullptr ? stage.live()->suggested_pull() : 1),
       frame_interval_(1 / most_frames_a_second) {
-  if (!stage.knows(look_.colour)) look_.colour = pliant::ColourBy::none;
-  if (look_.colour != stage.look().colour) stage_.show(look_.colour);
+  if (!stage.knows(look_.color)) look_.color = pliant::ColorBy::none;
+  if (look_.color != stage.look().color) stage_.show(look_.color);
   update_bounds();
   place_screen();
 }
@@ -150,12 +150,12 @@ void Viewer::place_screen() {
   screen_.viewpoint = camera_.viewpoint(bounds_, right / screen_.size.x());
 }
 
-std::array<float, 2> Viewer::colour_range() {
-  if (look_.colour_range) {
-    return {static_cast<float>((*look_.colour_range)[0]), static_cast<float>((*look_.colour_range)[1])};
+std::array<float, 2> Viewer::color_range() {
+  if (look_.color_range) {
+    return {static_cast<float>((*look_.color_range)[0]), static_cast<float>((*look_.color_range)[1])};
   }
   if (const auto known = stage_.range()) return *known;
-  return auto_range_.update(stage_.colour(), large_value(stage_.frame().content.values), Clock::now());
+  return auto_range_.update(stage_.color(), large_value(stage_.frame().content.values), Clock::now());
 }
 
 void Viewer::draw() {
@@ -163,8 +163,8 @@ void Viewer::draw() {
   update_scenery();
   if (is_frame_new_) {
     update_bounds();
-    range_ = colour_range();
-    renderer_->set_frame(stage_.frame().content, stage_.colour());
+    range_ = color_range();
+    renderer_->set_frame(stage_.frame().content, stage_.color());
     is_frame_new_ = false;
   }
   place_screen();
@@ -215,10 +215,10 @@ void Viewer::draw_picture(const pliant_render::DrawOptions& options, int width, 
 /// Faster than by ImGui, whose every pixel is a texture's.
 void Viewer::fill_panel(int left, int width, int height) const {
   if (width <= 0) return;
-  const Vec3f colour = ui_.panel_colour();
+  const Vec3f color = ui_.panel_color();
   glEnable(GL_SCISSOR_TEST);
   glScissor(left, 0, width, height);
-  glClearColor(colour.x(), colour.y(), colour.z(), 1);
+  glClearColor(color.x(), color.y(), color.z(), 1);
   glClear(GL_COLOR_BUFFER_BIT);
   glDisable(GL_SCISSOR_TEST);
   glViewport(0, 0, left + width, height);

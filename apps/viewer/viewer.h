@@ -43,8 +43,8 @@ class Viewer {
   void take_input();
   void take_key(const KeyEvent& event);
   Hand::Place place_of_mouse();
-  void toggle_colour();
-  void change_colour();
+  void toggle_color();
+  void change_color();
   void frame_everything();
   void view_as_at_first();
 
@@ -55,7 +55,7 @@ class Viewer {
   float panel_width() const;
   Vec2f picture_size() const;
   void fill_panel(int left, int width, int height) const;
-  std::array<float, 2> colour_range();
+  std::array<float, 2> color_range();
   void draw_picture(const pliant_render::DrawOptions& options, int width, int height);
   void draw_signs();
   void draw_marks(const pliant_render::SignSheet& sheet);

@@ -58,7 +58,7 @@ void Viewer::take_key(const KeyEvent& event) {
     case GLFW_KEY_F:
       return event.shift ? view_as_at_first() : frame_everything();
     case GLFW_KEY_C:
-      return toggle_colour();
+      return toggle_color();
     case GLFW_KEY_W:
       look_.wireframe = !look_.wireframe;
       return;
@@ -95,16 +95,16 @@ void Viewer::frame_everything() {
   camera_.frame(bounds_, screen_.aspect(), screen_.viewpoint.inset);
 }
 
-void Viewer::toggle_colour() {
-  const auto count = static_cast<int>(choice_names(pliant::ColourBy{}).size());
+void Viewer::toggle_color() {
+  const auto count = static_cast<int>(choice_names(pliant::ColorBy{}).size());
   do {
-    look_.colour = static_cast<pliant::ColourBy>((static_cast<int>(look_.colour) + 1) % count);
-  } while (!stage_.knows(look_.colour));
-  change_colour();
+    look_.color = static_cast<pliant::ColorBy>((static_cast<int>(look_.color) + 1) % count);
+  } while (!stage_.knows(look_.color));
+  change_color();
 }
 
-void Viewer::change_colour() {
-  stage_.show(look_.colour);
+void Viewer::change_color() {
+  stage_.show(look_.color);
   is_frame_new_ = true;
 }
 

@@ -56,7 +56,7 @@ void Viewer::draw_main_panel() {
     }
   }
   stage_.draw_panel();
-  if (section_header("Picture") && draw_look_panel(look_, samples_, stage_)) change_colour();
+  if (section_header("Picture") && draw_look_panel(look_, samples_, stage_)) change_color();
   ImGui::Separator();
   ImGui::Spacing();
   if (ImGui::Button("Help", {third, 0})) is_help_open_ = !is_help_open_;

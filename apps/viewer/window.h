@@ -47,7 +47,7 @@ class Window {
   void close();
 
   Vec2f size() const;                           ///< in units of the mouse
-  std::array<int, 2> framebuffer_size() const;  ///< in pixels; 0 while it is minimised
+  std::array<int, 2> framebuffer_size() const;  ///< in pixels; 0 while it is minimized
   float content_scale() const;                  ///< of letters, as the desktop is set
   bool is_visible() const;
 

@@ -24,8 +24,8 @@ constexpr int repeats = 5;
 constexpr double reached_objective_error = 1e-10;
 constexpr double reached_position_error = 1e-5;  // its square is the share of a quadratic objective
 
-constexpr int projective_colour = 0;
-constexpr int newton_colour = 1;
+constexpr int projective_color = 0;
+constexpr int newton_color = 1;
 
 /// One step of one sheet, and how both methods fare in it.
 struct Case {
@@ -79,7 +79,7 @@ Case measure(const Lab& lab, int size, double stiffness, int most_iterations) {
   result.newton = descend_by_newton(result.problem, repeats);
   Newton newton(result.problem.model);
   Positions q = result.problem.step.predicted;
-  newton.minimise(result.problem.step, q, result.problem.newton_iterations);
+  newton.minimize(result.problem.step, q, result.problem.newton_iterations);
   result.newton_times = newton.times();
   result.newton_factor = newton.factor_entries();
   return result;
@@ -101,7 +101,7 @@ Series series(const Case& of, bool is_newton, std::vector<double> x, std::vector
           .y = std::move(y),
           .mark = is_newton ? Mark::line_and_points : Mark::line,
           .is_dashed = of.is_stiff(),
-          .colour = is_newton ? newton_colour : projective_colour};
+          .color = is_newton ? newton_color : projective_color};
 }
 
 Plot over_iterations(const std::vector<const Case*>& cases, std::vector<double> Descent::*errors, std::string label) {
@@ -314,7 +314,7 @@ Chapter run_convergence(const Lab& lab) {
 
   Chapter chapter;
   chapter.question =
-      "Projective Dynamics and Newton's method minimise the same objective, one step of implicit Euler of a sheet of "
+      "Projective Dynamics and Newton's method minimize the same objective, one step of implicit Euler of a sheet of "
       "springs that was pulled down and let go. Both begin at the prediction. What is left of the error after so many "
       "iterations, and after so much time? Errors are those of the objective, and of the positions, against a minimum "
       "at which Newton's method finds no force beyond rounding.";

@@ -4,7 +4,7 @@
 
 namespace pliant_experiments {
 
-/// One step of implicit Euler of a sheet of springs in motion, minimised by Projective Dynamics and by Newton's method:
+/// One step of implicit Euler of a sheet of springs in motion, minimized by Projective Dynamics and by Newton's method:
 /// what is left of the error after so many iterations, and after so much time. Two stiffnesses, two sizes.
 pliant_report::Chapter run_convergence(const Lab& lab);
 

@@ -48,7 +48,7 @@ Problem problem_after(const Lab& lab, Scene scene, int steps) {
   Problem problem{std::move(scene), std::move(start), std::move(model), std::move(step)};
   problem.minimum = problem.step.predicted;
   problem.first_objective = objective(problem.model, problem.step, problem.step.predicted);
-  problem.newton_iterations = Newton(problem.model).minimise(problem.step, problem.minimum, most_newton_iterations);
+  problem.newton_iterations = Newton(problem.model).minimize(problem.step, problem.minimum, most_newton_iterations);
   problem.least_objective = objective(problem.model, problem.step, problem.minimum);
   problem.first_distance = distance(problem.model, problem.step.predicted, problem.minimum);
   problem.largest_gradient = gradient(problem.model, problem.step, problem.minimum).rowwise().norm().maxCoeff();

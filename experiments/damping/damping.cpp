@@ -35,7 +35,7 @@ struct Swing {
     for (std::size_t i = release; i < trace.size(); ++i) last = trace.speed_sum[i] > at_release() / 10 ? i : last;
     return last - release;
   }
-  /// Root mean square of what three neighbouring frames have besides a straight line, over the mean.
+  /// Root mean square of what three neighboring frames have besides a straight line, over the mean.
   double irregularity() const {
     double sum = 0;
     std::size_t count = 0;
@@ -81,7 +81,7 @@ std::string label(int iterations) {
   return iterations == 1 ? "1 iteration" : fmt::format("{} iterations", iterations);
 }
 
-/// Mean Σ‖v‖ of the late frames with one iteration, in runs whose start is moved by a thousand millionth of a metre.
+/// Mean Σ‖v‖ of the late frames with one iteration, in runs whose start is moved by a thousand millionth of a meter.
 std::vector<double> late_of_others(const Lab& lab, const pliant::State& begin, double stiffness) {
   std::vector<double> values;
   for (int run = 1; run <= 8; ++run) {
@@ -115,10 +115,10 @@ Plot speed_plot(const Swings& swings, double stiffness) {
             .y = {.label = "Σ‖v‖ [m/s]", .min = 0},
             .series = {},
             .guides = {{release, "force ends", true}}};
-  int colour = 0;
+  int color = 0;
   for (const int iterations : {1, 5, 20}) {
     const Trace& trace = swings.at(iterations).trace;
-    plot.series.push_back({.name = label(iterations), .x = trace.frames, .y = trace.speed_sum, .colour = colour++});
+    plot.series.push_back({.name = label(iterations), .x = trace.frames, .y = trace.speed_sum, .color = color++});
   }
   return plot;
 }

@@ -26,9 +26,9 @@ def surface(cells):
     for cell in sorted(cells):
         for axis in range(3):
             for side in (0, 1):
-                neighbour = list(cell)
-                neighbour[axis] += 2 * side - 1
-                if tuple(neighbour) in cells:
+                neighbor = list(cell)
+                neighbor[axis] += 2 * side - 1
+                if tuple(neighbor) in cells:
                     continue
                 corners = []
                 for u, v in ((0, 0), (1, 0), (1, 1), (0, 1)):
@@ -45,14 +45,14 @@ def surface(cells):
 
 def smooth(vertices, triangles, rounds=12):
     """Taubin's filter: rounds off and does not shrink."""
-    neighbours = [set() for _ in vertices]
+    neighbors = [set() for _ in vertices]
     for a, b, c in triangles:
-        neighbours[a] |= {b, c}
-        neighbours[b] |= {a, c}
-        neighbours[c] |= {a, b}
+        neighbors[a] |= {b, c}
+        neighbors[b] |= {a, c}
+        neighbors[c] |= {a, b}
     for _ in range(rounds):
         for factor in (0.5, -0.52):
-            means = numpy.array([vertices[sorted(n)].mean(axis=0) for n in neighbours])
+            means = numpy.array([vertices[sorted(n)].mean(axis=0) for n in neighbors])
             vertices = vertices + factor * (means - vertices)
     return vertices
 

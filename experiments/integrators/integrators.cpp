@@ -39,7 +39,7 @@ void measure_losses(const Lab& lab, Chapter& chapter) {
                           fmt::format("{}{}", method.substeps, method.energy_projection > 0 ? " + 3" : "")});
   };
   for (const Method& method : methods()) {
-    Series series{.name = method.name, .mark = Mark::line_and_points, .colour = method.colour};
+    Series series{.name = method.name, .mark = Mark::line_and_points, .color = method.color};
     for (const double h_omega : {0.01, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 1.0}) {
       const double loss = loss_a_period(lab, method, h_omega);
       series.x.push_back(h_omega);
@@ -81,7 +81,7 @@ void measure_order(const Lab& lab, Chapter& chapter) {
   double least = 1e300;
   double most = 0;
   for (const Method& method : {methods().front(), methods().back()}) {
-    Series series{.name = method.name, .mark = Mark::line_and_points, .colour = method.colour};
+    Series series{.name = method.name, .mark = Mark::line_and_points, .color = method.color};
     double last = 0;
     for (const int steps : {100, 200, 400, 800, 1600}) {
       const double error = error_of(lab, method, steps);

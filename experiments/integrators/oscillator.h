@@ -12,7 +12,7 @@ struct Method {
   std::string name;
   pliant::Integrator integrator = pliant::Integrator::implicit_euler;
   pliant::Index substeps = 1;
-  int colour = 0;
+  int color = 0;
   double energy_projection = 0;
 };
 

@@ -205,10 +205,8 @@ void measure_curtain(const Lab& lab, Chapter& chapter) {
                           fmt::format("{:.0f}", 100 * loss.left(330)), fmt::format("{:.1f}", 100 * loss.left(900)),
                           fmt::format("{:.2f}", loss.milliseconds)});
     if (i >= 5 && i != 7) continue;
-    pliant_report::Series series{.name = loss.variant.name(),
-                                 .x = loss.trace.frames,
-                                 .y = loss.trace.total,
-                                 .colour = loss.variant.method.colour};
+    pliant_report::Series series{
+        .name = loss.variant.name(), .x = loss.trace.frames, .y = loss.trace.total, .color = loss.variant.method.color};
     for (double& energy : series.y) energy -= loss.trace.total[0];
     plot.series.push_back(std::move(series));
   }

@@ -17,7 +17,7 @@ void measure_builtin_scenes(const Lab& lab, pliant_report::Chapter& chapter);
 struct DampedFlight {
   double momentum = 0;          ///< largest of a step, against the same step without damping
   double angular_momentum = 0;  ///< the same
-  double fall = 0;              ///< of the centre's way in all steps
+  double fall = 0;              ///< of the center's way in all steps
 };
 DampedFlight measure_damped_flight(const Lab& lab);
 

@@ -26,7 +26,7 @@ constexpr int few = 10;  // iterations, as they are usual
 /// One method over all numbers of iterations, on one strip.
 struct Method {
   std::string name;
-  int colour = 0;
+  int color = 0;
   bool is_dashed = false;
   std::function<Mover(int iterations)> make{};
   std::vector<Fall> falls{};  ///< of each number of iterations
@@ -101,7 +101,7 @@ Plot rest_plot(const Strip& of) {
             .guides = {{100 * of.at_rest, "equilibrium"}}};
   for (const Method& method : of.methods) {
     Series series{
-        .name = method.name, .mark = Mark::line_and_points, .is_dashed = method.is_dashed, .colour = method.colour};
+        .name = method.name, .mark = Mark::line_and_points, .is_dashed = method.is_dashed, .color = method.color};
     for (std::size_t i = 0; i < iteration_counts.size(); ++i) {
       series.x.push_back(iteration_counts[i]);
       series.y.push_back(100 * method.at_rest(i));
@@ -123,7 +123,7 @@ Plot cost_plot(const Strip& of) {
             .series = {}};
   for (const Method& method : of.methods) {
     Series series{
-        .name = method.name, .mark = Mark::line_and_points, .is_dashed = method.is_dashed, .colour = method.colour};
+        .name = method.name, .mark = Mark::line_and_points, .is_dashed = method.is_dashed, .color = method.color};
     for (std::size_t i = 0; i < iteration_counts.size(); ++i) {
       series.x.push_back(1e3 * method.falls[i].seconds);
       series.y.push_back(of.error(method, i));
@@ -141,8 +141,8 @@ Plot way_plot(const Strip& of) {
             .x = {.label = "time [s]"},
             .y = {.label = "stretch of the strip [%]", .min = 0.},
             .series = {}};
-  const auto add = [&plot](std::string name, const Fall& fall, int colour, bool is_dashed) {
-    Series series{.name = std::move(name), .is_dashed = is_dashed, .colour = colour};
+  const auto add = [&plot](std::string name, const Fall& fall, int color, bool is_dashed) {
+    Series series{.name = std::move(name), .is_dashed = is_dashed, .color = color};
     for (std::size_t i = 0; i <= fall_steps; ++i) {
       series.x.push_back(static_cast<double>(i) / 60);
       series.y.push_back(100 * fall.stretch[i]);

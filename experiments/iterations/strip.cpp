@@ -68,7 +68,7 @@ Mover by_newton(const Lab& lab, double stiffness) {
     const EulerStep step = next_step(simulation, model);
     const Positions before = simulation.state().positions;
     Positions q = step.predicted;
-    newton->minimise(step, q, newton_limit);
+    newton->minimize(step, q, newton_limit);
     simulation.set_state(q, (q - before) / step.time_step);
     return simulation.state().positions;
   };
@@ -86,7 +86,7 @@ double stretch_at_rest(const Lab& lab, double stiffness) {
   for (int i = 0; i < most_long_steps; ++i) {
     const Positions before = simulation.state().positions;
     Positions q = before;
-    newton.minimise(next_step(simulation, model), q, newton_limit);
+    newton.minimize(next_step(simulation, model), q, newton_limit);
     simulation.set_state(q, still);
     if ((q - before).cwiseAbs().maxCoeff() < resting_move) return stretch(scene, q);
   }

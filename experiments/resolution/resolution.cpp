@@ -117,7 +117,7 @@ Plot sag_plot(const std::vector<Hanging>& all) {
       Series series{.name = fmt::format("{}, {}", hanging.material.name, diagonals[cut]),
                     .mark = Mark::line_and_points,
                     .is_dashed = cut != 0,
-                    .colour = hanging.material.colour};
+                    .color = hanging.material.color};
       for (std::size_t i = 0; i < sizes.size(); ++i) {
         series.x.push_back(sizes[i]);
         series.y.push_back(100 * hanging.drops[cut][i].down);
@@ -141,7 +141,7 @@ Plot pull_plot(const std::vector<Pulling>& all) {
     Series series{.name = fmt::format("{}, {}", pulling.material.name, pulling.tessellation.diagonals),
                   .x = pulling.degrees,
                   .is_dashed = pulling.tessellation.diagonals != diagonals.front(),
-                  .colour = pulling.material.colour};
+                  .color = pulling.material.color};
     for (const double value : pulling.elongations) series.y.push_back(100 * value);
     plot.series.push_back(std::move(series));
   }
@@ -201,7 +201,7 @@ Claim strain_is_one_cloth(const Hanging& hanging, const std::vector<Pulling>& pu
 Claim strain_is_continuum(const Hanging& hanging, double exact) {
   const Extent sag = sags(hanging);
   const double error = std::max(std::abs(sag.least - exact), std::abs(sag.most - exact)) / exact;
-  return {.text = "It is the behaviour of the continuum that they stand for",
+  return {.text = "It is the behavior of the continuum that they stand for",
           .by = "Bouaziz et al. 2014",
           .verdict = error <= 1e-3 ? Verdict::holds : Verdict::fails,
           .evidence = fmt::format("In closed form the sag is {:.3f} cm; no mesh is off by more than {:.3f} %.",

@@ -10,7 +10,7 @@ namespace pliant_experiments {
 struct Material {
   std::string scene;  ///< "springs"
   std::string name;   ///< "springs of constant k"
-  int colour = 0;     ///< in plots
+  int color = 0;      ///< in plots
 };
 
 /// How fine, and how the cells are cut: a value of the grid's `diagonals`.

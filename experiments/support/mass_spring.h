@@ -34,7 +34,7 @@ struct MassSpring {
 /// of other types than `edge_spring` and `position`.
 MassSpring mass_spring(const pliant::Simulation& simulation);
 
-/// One step of implicit Euler: q minimises E(q) = 1/(2h²) ‖M^½ (q − s)‖² + Σ w/2 ‖z − p(z)‖².
+/// One step of implicit Euler: q minimizes E(q) = 1/(2h²) ‖M^½ (q − s)‖² + Σ w/2 ‖z − p(z)‖².
 struct EulerStep {
   double time_step = 0;         ///< h [s]
   pliant::Positions predicted;  ///< s = qₙ + h vₙ + h² M⁻¹ f, m × 3 [m]; held vertices stand still

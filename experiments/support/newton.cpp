@@ -144,7 +144,7 @@ bool Newton::search(const EulerStep& step, const Eigen::VectorXd& direction, con
   return false;
 }
 
-int Newton::minimise(const EulerStep& step, Positions& q, int most) {
+int Newton::minimize(const EulerStep& step, Positions& q, int most) {
   int done = 0;
   while (done < most && iterate(step, q)) ++done;
   return done;

@@ -30,7 +30,7 @@ enum class Curvature { exact, positive };
 
 class Newton {
  public:
-  /// Analyses the pattern. Keeps a copy of the model.
+  /// Analyzes the pattern. Keeps a copy of the model.
   explicit Newton(MassSpring model);
 
   /// One iteration on q (m × 3) in place. Returns whether q moved: false where neither the objective nor, where that
@@ -39,7 +39,7 @@ class Newton {
   bool iterate(const EulerStep& step, pliant::Positions& q);
 
   /// Iterates until q moves no further, at most `most` times. Returns how often.
-  int minimise(const EulerStep& step, pliant::Positions& q, int most);
+  int minimize(const EulerStep& step, pliant::Positions& q, int most);
 
   /// The Hessian of E at q, 3m × 3m, lower triangle, as it is or without negative terms; rows and columns of held
   /// vertices are those of the identity.

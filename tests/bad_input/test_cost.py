@@ -90,7 +90,7 @@ SCENES = {
                     50000),
     "a constraint over many vertices": (lambda: scene_of({"shape": "grid", "columns": 400, "rows": 400}, bending(100000)), 160000),
     "a constraint over 2,000 vertices": (lambda: scene_of({"shape": "grid", "columns": 50, "rows": 50}, bending(2000)), 200000),
-    "a vertex with many neighbours": (lambda: scene_of(fan(2000), {"type": "bending"}), 200000),
+    "a vertex with many neighbors": (lambda: scene_of(fan(2000), {"type": "bending"}), 200000),
     "many vertices in the scene": (lambda: scene_of({"vertices": [[0, 0, 0]] * 400000}), 400000),
     "a triangle many times": (lambda: scene_of({"vertices": [[0, 0, 0], [1, 0, 0], [0, 1, 0]], "triangles": [[0, 1, 2]] * 300000},
                                                {"type": "triangle_strain"}), 300000),

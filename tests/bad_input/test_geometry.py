@@ -46,7 +46,7 @@ def moebius(n):
 
 
 def fan(n, hub=(0.0, 0.0, 0.3)):
-    """A vertex with n neighbours all round."""
+    """A vertex with n neighbors all round."""
     ring = [[math.cos(2 * math.pi * i / n), math.sin(2 * math.pi * i / n), 0] for i in range(n)]
     return mesh([list(hub), *ring], [[0, i + 1, (i + 1) % n + 1] for i in range(n)])
 

@@ -24,8 +24,8 @@ def read_png(path):
         length, kind = struct.unpack(">I4s", data[place:place + 8])
         chunk = data[place + 8:place + 8 + length]
         if kind == b"IHDR":
-            width, height, depth, colour = struct.unpack(">IIBB", chunk[:10])
-            assert (depth, colour) == (8, 2)
+            width, height, depth, color = struct.unpack(">IIBB", chunk[:10])
+            assert (depth, color) == (8, 2)
         if kind == b"IDAT":
             body += chunk
         place += 12 + length
@@ -43,7 +43,7 @@ def read_png(path):
     return width, height, rows
 
 
-def colours(rows):
+def colors(rows):
     return {bytes(row[i:i + 3]) for row in rows for i in range(0, len(row), 3)}
 
 
@@ -84,7 +84,7 @@ class Render(unittest.TestCase):
         self.assertIn("c.png: 160 x 90 pixels, drawn by ", done.stdout)
         width, height, rows = read_png(self.folder / "c.png")
         self.assertEqual((width, height), (160, 90))
-        self.assertGreater(len(colours(rows)), 100)
+        self.assertGreater(len(colors(rows)), 100)
         self.assertEqual(self.files(), ["c.png"])
         first = (self.folder / "c.png").read_bytes()
         self.render("curtain", "--steps", 4, "--out", "again.png", "--size", "160x90", "--set", "view.shadow=false")
@@ -98,9 +98,9 @@ class Render(unittest.TestCase):
         width, height, rows = read_png(self.folder / "c.png")
         self.assertEqual((width, height), (64, 48))
         self.assertEqual(bytes(rows[0][:3]), b"\0\0\xff")
-        for colour in ("stretch", "energy", "speed"):
-            self.render("chain", "--steps", 3, "--out", f"{colour}.png", "--size", "96x64", "--colour", colour)
-            self.assertGreater(len(colours(read_png(self.folder / f"{colour}.png")[2])), 50)
+        for color in ("stretch", "energy", "speed"):
+            self.render("chain", "--steps", 3, "--out", f"{color}.png", "--size", "96x64", "--color", color)
+            self.assertGreater(len(colors(read_png(self.folder / f"{color}.png")[2])), 50)
 
     def test_numbered_pictures_and_a_sheet(self):
         self.render("chain", "--steps", 8, "--out", "c.png", "--size", "64x48", "--frames", 3)
@@ -125,16 +125,16 @@ class Render(unittest.TestCase):
         self.pliant("run", "chain", "--steps", 10, "--out", "run", "--quiet")
         self.render("run", "--out", "run.png", "--size", "96x64")
         self.render("run", "--out", "run.png", "--size", "96x64")
-        self.assertGreater(len(colours(read_png(self.folder / "run.png")[2])), 20)
+        self.assertGreater(len(colors(read_png(self.folder / "run.png")[2])), 20)
         self.render("run", "--out", "blue.png", "--set", "view.background=[0, 0, 1]", "--set", "view.ground=false",
                     "--size", "96x64")
         self.assertEqual(bytes(read_png(self.folder / "blue.png")[2][0][:3]), b"\0\0\xff")
         for words in (["--steps", 3], ["--set", "gravity=[0, 0, 1]"]):
             error = self.render("run", "--out", "run.png", *words, expect=2).stderr
             self.assertIn("a run is shown as it was recorded", error)
-        error = self.render("run", "--out", "e.png", "--colour", "energy", expect=2).stderr
-        self.assertIn("colour: a run does not say the energy", error)
-        self.render("run", "--out", "s.png", "--colour", "speed", "--size", "96x64")
+        error = self.render("run", "--out", "e.png", "--color", "energy", expect=2).stderr
+        self.assertIn("color: a run does not say the energy", error)
+        self.render("run", "--out", "s.png", "--color", "speed", "--size", "96x64")
 
     def test_without_ffmpeg_there_are_pictures_and_a_hint(self):
         (self.folder / "empty").mkdir()
@@ -159,9 +159,9 @@ class Render(unittest.TestCase):
         self.render("run", "--out", "run.png", "--set", "view.ground=false", expect=2)
 
     def test_a_narrow_picture_has_no_legend(self):
-        self.render("curtain", "--steps", 5, "--out", "c.png", "--size", "60x400", "--colour", "speed", "--set",
+        self.render("curtain", "--steps", 5, "--out", "c.png", "--size", "60x400", "--color", "speed", "--set",
                     "view.ground=false")
-        self.assertGreater(len(colours(read_png(self.folder / "c.png")[2])), 30)
+        self.assertGreater(len(colors(read_png(self.folder / "c.png")[2])), 30)
 
     def test_slips_name_the_option(self):
         for words, message in ((["--out", "film.avi"], "--out: 'film.avi' has no known ending"),

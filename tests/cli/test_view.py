@@ -123,7 +123,7 @@ class WithDisplay(unittest.TestCase):
         self.assertIn("cloth of 4 vertices", output)
         run = self.folder / "run"
         subprocess.run([PLIANT, "run", "flag", "--steps", "5", "--out", run, "--quiet"], check=True)
-        process = self.start(run, "--colour", "speed")
+        process = self.start(run, "--color", "speed")
         self.wait_for_window(process, "Pliant")
         process.terminate()
         process.communicate()

@@ -99,7 +99,7 @@ TEST_CASE("bending given by arrays is the bending of the mesh") {
   }();
   Mesh flat = hexagon;
   flat.vertices.col(2).setZero();
-  // Equilateral: cot 60° twice for every neighbour, and a third of the six areas.
+  // Equilateral: cot 60° twice for every neighbor, and a third of the six areas.
   const Real cotangents = 2 / std::sqrt(3.0);
   Bending arrays{.stencils = {{0, 1, 2, 3, 4, 5, 6}}, .stiffness = 3, .areas = std::sqrt(3.0) / 2};
   arrays.cotangents.add(std::vector<Real>(6, cotangents));

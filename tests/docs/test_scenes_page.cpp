@@ -53,7 +53,7 @@ std::string default_text(const std::array<Number, n>& numbers) {
   for (const Number number : numbers) text += (text.empty() ? "[" : ", ") + number_text(static_cast<Real>(number));
   return text + "]";
 }
-std::string default_text(const Colour& c) {
+std::string default_text(const Color& c) {
   return "[" + number_text(c.red) + ", " + number_text(c.green) + ", " + number_text(c.blue) + "]";
 }
 std::string default_text(const bool& flag) {

@@ -115,7 +115,7 @@ TEST_CASE("Newton's method ends at the minimum, which the iterations of the solv
     const EulerStep step = next_step(simulation, model);
     Positions q = step.predicted;
     Newton newton(model);
-    CHECK(newton.minimise(step, q, 100) < 100);
+    CHECK(newton.minimize(step, q, 100) < 100);
     CHECK(gradient(model, step, q).rowwise().norm().maxCoeff() < 1e-14 * stiffness);
     CHECK(objective(model, step, q) < objective(model, step, step.predicted));
     CHECK(q.row(held_vertex) == step.predicted.row(held_vertex));

@@ -27,7 +27,7 @@ def repeated(head, unit, tail=b""):
 
 def obj_files():
     yield "vertices", repeated(b"", b"v 0 0 0\n")
-    yield "one_colour", repeated(b"v 0 0 0 1 1 1 1\n", b"v 0 0 0\n")
+    yield "one_color", repeated(b"v 0 0 0 1 1 1 1\n", b"v 0 0 0\n")
     yield "faces", repeated(OBJ_VERTICES, b"f 1 2 3\n")
     yield "faces_before_vertices", repeated(b"", b"f 1 2 3\n", OBJ_VERTICES)
     yield "polygons", repeated(OBJ_VERTICES, b"f 1 2 3 4 5 6 7 8 9\n")
@@ -80,7 +80,7 @@ def other_files():
     points = b"0 0 0\n" * 9
     yield "faces.off", b"OFF 9 %d 0\n" % (SIZE // 8) + points + b"3 0 1 2\n" * (SIZE // 8)
     yield "polygons.off", b"OFF 9 %d 0\n" % (SIZE // 20) + points + b"9 0 1 2 3 4 5 6 7 8\n" * (SIZE // 20)
-    yield "colours.off", b"COFF\n%d 0 0\n" % (SIZE // 14) + b"0 0 0 0 0 0 0\n" * (SIZE // 14)
+    yield "colors.off", b"COFF\n%d 0 0\n" % (SIZE // 14) + b"0 0 0 0 0 0 0\n" * (SIZE // 14)
     yield "promised.off", b"OFF 2000000000 2000000000 0\n0 0 0\n"
     count = SIZE // 50
     facets = b"".join(struct.pack("<12fH", 0, 0, 0, *[9 * i + k for k in range(9)], 0) for i in range(count))

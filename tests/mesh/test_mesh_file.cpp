@@ -44,10 +44,10 @@ TEST_CASE("the extension tells the format, in capitals or not") {
   CHECK(error_of([] { write_mesh("a.fbx", Mesh{}, Positions(0, 3)); }).starts_with(known));
 }
 
-TEST_CASE("import scales to metres and turns the file's up axis to +z, without mirroring") {
+TEST_CASE("import scales to meters and turns the file's up axis to +z, without mirroring") {
   const Mesh as_it_is = corner({});
-  const Mesh millimetres = corner({.scale = 0.001});
-  CHECK(millimetres.vertices == Positions(as_it_is.vertices * 0.001));
+  const Mesh millimeters = corner({.scale = 0.001});
+  CHECK(millimeters.vertices == Positions(as_it_is.vertices * 0.001));
   const Mesh y_up = corner({.scale = 2, .up = UpAxis::y});
   CHECK(y_up.vertices == mesh_of({{0, 0, 0}, {2, 0, 0}, {0, 0, 4}, {0, -6, 0}}).vertices);
   const Mesh x_up = corner({.up = UpAxis::x});

@@ -97,7 +97,7 @@ TEST_CASE("weights and a third texture coordinate are dropped") {
   CHECK(mesh.texture_coordinates(1, 1) == 0.2);
 }
 
-TEST_CASE("colours become maps, white where a vertex has none") {
+TEST_CASE("colors become maps, white where a vertex has none") {
   const Mesh mesh = parsed("v 1 2 3\nv 4 5 6 .1 .2 .3\nv 7 8 9 .4 .5 .6\n");
   CHECK(mesh.vertices == mesh_of({{1, 2, 3}, {4, 5, 6}, {7, 8, 9}}).vertices);
   REQUIRE(mesh.maps.size() == 3);

@@ -36,7 +36,7 @@ TEST_CASE("every form of the head of an OFF file") {
   }
 }
 
-TEST_CASE("colours of faces are dropped, two corners make an edge, one makes nothing") {
+TEST_CASE("colors of faces are dropped, two corners make an edge, one makes nothing") {
   const Mesh mesh =
       parsed("OFF\n4 6 0\n" + quad + "3 0 1 2 255 0 0\n3 0 2 3 0.1 0.2 0.3 1\n3 1 2 3 7\n2 0 2\n1 3\n2 3 1 0\n");
   CHECK(mesh.triangles == std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}, {1, 2, 3}});
@@ -44,19 +44,19 @@ TEST_CASE("colours of faces are dropped, two corners make an edge, one makes not
   check_same(written_and_read(mesh, "b.off"), mesh);
 }
 
-TEST_CASE("normals are dropped, colours and texture coordinates kept") {
+TEST_CASE("normals are dropped, colors and texture coordinates kept") {
   const Mesh normals = parsed("NOFF\n1 0 0\n1 2 3 0 0 1\n");
   CHECK(normals.vertices == mesh_of({{1, 2, 3}}).vertices);
   CHECK(normals.maps.empty());
 
-  const Mesh colours = parsed("COFF\n3 1 0\n1 2 3 255 7 0\n4 5 6 0 0 0\n0 0 0 1 1 1\n3 0 1 2\n");
-  REQUIRE(colours.maps.size() == 3);
-  CHECK(colours.maps[0].name == "red");
-  CHECK(colours.maps[0].values == std::vector<Real>{255, 0, 1});
-  CHECK(colours.maps[1].values == std::vector<Real>{7, 0, 1});
-  check_same(written_and_read(colours, "b.off"), colours);
+  const Mesh colors = parsed("COFF\n3 1 0\n1 2 3 255 7 0\n4 5 6 0 0 0\n0 0 0 1 1 1\n3 0 1 2\n");
+  REQUIRE(colors.maps.size() == 3);
+  CHECK(colors.maps[0].name == "red");
+  CHECK(colors.maps[0].values == std::vector<Real>{255, 0, 1});
+  CHECK(colors.maps[1].values == std::vector<Real>{7, 0, 1});
+  check_same(written_and_read(colors, "b.off"), colors);
   // Bytes in PLY as well; in OBJ from 0 to 1.
-  check_same(written_and_read(colours, "b.ply"), colours);
+  check_same(written_and_read(colors, "b.ply"), colors);
 
   const Mesh all = parsed(
       "STCNOFF\n3 1 0\n1 2 3 0 0 1 .1 .2 .3 .4 .5 .6\n4 5 6 0 0 1 1 1 1 1 1 1\n"

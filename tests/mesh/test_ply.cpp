@@ -201,16 +201,16 @@ TEST_CASE("what is written as PLY reads back, in binary and in text") {
       "vt .1 .7\nvt 0 1\nf -5/1 -4/2 3/1 4/2\nf 1/1 2/2 4/1\nl 1 3 5\n",
       "a", MeshFormat::obj);
   mesh.maps = {{"a b", {1, 2, 3, 4, 0.1}}, {"x", {1, 1, 1, 1, 1}}, {"a_b", {0, 0, 0, 0, 0}}, {"short", {1}}};
-  Mesh colours = torus({.major_segments = 3, .minor_segments = 3});
+  Mesh colors = torus({.major_segments = 3, .minor_segments = 3});
   for (const std::string name : {"red", "green", "blue"}) {
-    colours.maps.push_back({name, std::vector<Real>(9, name == "red" ? 255 : 3)});
+    colors.maps.push_back({name, std::vector<Real>(9, name == "red" ? 255 : 3)});
   }
   Mesh large = mesh_of(std::vector<std::array<Real, 3>>(300, {1, 2, 3}));
   for (Index v = 0; v < 300; ++v) large.faces.vertices.push_back(v);
   large.faces.offsets = {0, 300};
   const TemporaryFolder folder;
   for (const PlyNumbers numbers : {PlyNumbers::binary, PlyNumbers::ascii}) {
-    for (const Mesh& source : {mesh, colours, large}) {
+    for (const Mesh& source : {mesh, colors, large}) {
       write_ply(folder.path() / "a.ply", source, source.vertices, numbers);
       const Mesh once = read_mesh(folder.path() / "a.ply");
       CHECK(once.vertices == source.vertices);
@@ -227,7 +227,7 @@ TEST_CASE("what is written as PLY reads back, in binary and in text") {
   CHECK(once.maps[0].values == mesh.maps[0].values);
   CHECK(once.maps[1].name == "x_");
   CHECK(once.maps[2].name == "a_b_");
-  write_ply(folder.path() / "c.ply", colours, colours.vertices);
+  write_ply(folder.path() / "c.ply", colors, colors.vertices);
   CHECK(contains(TemporaryFolder::read(folder.path() / "c.ply"), "property uchar red\n"));
 }
 

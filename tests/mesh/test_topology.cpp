@@ -22,7 +22,7 @@ std::vector<Index> ring_of(const VertexRings& rings, Index center) {
   return {ring.begin(), ring.end()};
 }
 
-/// Every vertex in one class; consecutive neighbours span a triangle with the centre, each triangle once.
+/// Every vertex in one class; consecutive neighbors span a triangle with the center, each triangle once.
 void check_rings(const Mesh& mesh, const VertexRings& rings) {
   CHECK(rings.ring_count() + rings.boundary_vertex_count + rings.nonmanifold_vertex_count +
             rings.isolated_vertex_count ==

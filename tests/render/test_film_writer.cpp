@@ -81,9 +81,9 @@ std::string shape_of(const fs::path& film) {
   return probe.text.substr(0, probe.text.find('\n'));
 }
 
-Image plain(int width, int height, std::vector<std::uint8_t> colour) {
+Image plain(int width, int height, std::vector<std::uint8_t> color) {
   Image image{width, height, {}};
-  for (int i = 0; i < width * height; ++i) image.pixels.insert(image.pixels.end(), colour.begin(), colour.end());
+  for (int i = 0; i < width * height; ++i) image.pixels.insert(image.pixels.end(), color.begin(), color.end());
   return image;
 }
 
@@ -169,16 +169,16 @@ TEST_CASE("a film lasts as long as its frames, and GIF is shown at most at 50 a 
   CHECK(shape_of(folder.path() / "a.gif") == "32,32,50");
 }
 
-TEST_CASE("colours come back from films as they went in") {
+TEST_CASE("colors come back from films as they went in") {
   if (!has_ffmpeg()) return;
   const TemporaryFolder folder;
   // Orange differs by 15 between the matrices of standard and high definition.
-  const std::vector<std::uint8_t> colour = {230, 110, 40};
+  const std::vector<std::uint8_t> color = {230, 110, 40};
   for (const char* name : {"a.mp4", "a.webm", "a.gif"}) {
     CAPTURE(name);
     const fs::path path = folder.path() / name;
     FilmWriter writer(film(path, 64, 64, 2));
-    for (int i = 0; i < 2; ++i) writer.add(plain(64, 64, colour));
+    for (int i = 0; i < 2; ++i) writer.add(plain(64, 64, color));
     writer.close();
     const bool has_matrix = film_format_of(path) != FilmFormat::gif;
     const Output pixels =
@@ -187,7 +187,7 @@ TEST_CASE("colours come back from films as they went in") {
     CHECK(pixels.status == 0);
     REQUIRE(pixels.text.size() == 64 * 64 * 3);
     for (std::size_t c = 0; c < 3; ++c) {
-      CHECK(std::abs(static_cast<unsigned char>(pixels.text[3 * (32 * 64 + 32) + c]) - colour[c]) <= 3);
+      CHECK(std::abs(static_cast<unsigned char>(pixels.text[3 * (32 * 64 + 32) + c]) - color[c]) <= 3);
     }
     if (!has_matrix) continue;
     const Output tags =

@@ -19,26 +19,26 @@ using namespace pliant_tests;
 
 namespace {
 
-using Colour = std::array<std::uint8_t, 3>;
+using Color = std::array<std::uint8_t, 3>;
 
 /// Every pixel by its place.
 template <class F>
-Image image_of(int width, int height, F&& colour_at) {
+Image image_of(int width, int height, F&& color_at) {
   Image image{width, height, {}};
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      const Colour colour = colour_at(x, y);
-      for (const std::uint8_t byte : colour) image.pixels.push_back(byte);
+      const Color color = color_at(x, y);
+      for (const std::uint8_t byte : color) image.pixels.push_back(byte);
     }
   }
   return image;
 }
 
-Image plain(int width, int height, Colour colour) {
-  return image_of(width, height, [&](int, int) { return colour; });
+Image plain(int width, int height, Color color) {
+  return image_of(width, height, [&](int, int) { return color; });
 }
 
-Colour pixel(const Image& image, int x, int y) {
+Color pixel(const Image& image, int x, int y) {
   const std::size_t first =
       3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x));
   return {image.pixels[first], image.pixels[first + 1], image.pixels[first + 2]};
@@ -57,12 +57,12 @@ Image read_png(const fs::path& path) {
   return image;
 }
 
-Colour gradient(int x, int y) {
+Color gradient(int x, int y) {
   return {static_cast<std::uint8_t>(37 * x + y), static_cast<std::uint8_t>(x * y), static_cast<std::uint8_t>(255 - y)};
 }
 
-constexpr Colour black = {0, 0, 0};
-constexpr Colour white = {255, 255, 255};
+constexpr Color black = {0, 0, 0};
+constexpr Color white = {255, 255, 255};
 
 }  // namespace
 
@@ -90,7 +90,7 @@ TEST_CASE("a PNG file that cannot be written is an output error, and leaves noth
 }
 
 TEST_CASE("a contact sheet shows its frames row by row, with gaps around and between") {
-  constexpr Colour ground = {9, 8, 7};
+  constexpr Color ground = {9, 8, 7};
   std::vector<Image> frames;
   for (std::uint8_t i = 0; i < 5; ++i) frames.push_back(plain(4, 3, {static_cast<std::uint8_t>(100 + i), i, 0}));
   const Image sheet = contact_sheet(frames, 3, 2, ground);
@@ -101,7 +101,7 @@ TEST_CASE("a contact sheet shows its frames row by row, with gaps around and bet
     for (int x = 0; x < sheet.width; ++x) {
       const bool in_frame = x % 6 >= 2 && y % 5 >= 2;
       const int frame = x / 6 + y / 5 * 3;
-      const Colour expected = in_frame && frame < 5 ? pixel(frames[static_cast<std::size_t>(frame)], 0, 0) : ground;
+      const Color expected = in_frame && frame < 5 ? pixel(frames[static_cast<std::size_t>(frame)], 0, 0) : ground;
       CHECK(pixel(sheet, x, y) == expected);
     }
   }

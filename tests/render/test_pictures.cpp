@@ -67,9 +67,9 @@ int distance(const Rgb& a, const Rgb& b) {
   return std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]);
 }
 
-Rgb rgb(const pliant::Colour& colour) {
-  return {static_cast<int>(std::lround(255 * colour.red)), static_cast<int>(std::lround(255 * colour.green)),
-          static_cast<int>(std::lround(255 * colour.blue))};
+Rgb rgb(const pliant::Color& color) {
+  return {static_cast<int>(std::lround(255 * color.red)), static_cast<int>(std::lround(255 * color.green)),
+          static_cast<int>(std::lround(255 * color.blue))};
 }
 
 /// Share of pixels in which two pictures differ visibly.
@@ -139,12 +139,12 @@ TEST_CASE("markers are red, edges are drawn when asked for, and both have the si
   CHECK(difference(*plain, *wired) < 0.2);
 }
 
-TEST_CASE("values are told by the colours of the map, with a legend beside") {
+TEST_CASE("values are told by the colors of the map, with a legend beside") {
   Stage stage;
-  stage.options.look.colour = pliant::ColourBy::speed;
+  stage.options.look.color = pliant::ColorBy::speed;
   stage.options.look.legend = false;
   stage.options.range = {0, 2};
-  const auto map = colour_map(pliant::ColourBy::speed);
+  const auto map = color_map(pliant::ColorBy::speed);
   int last = -1;
   for (const float value : {0.0F, 1.0F, 2.0F}) {
     stage.frame.values.assign(stage.frame.positions.size(), value);
@@ -163,7 +163,7 @@ TEST_CASE("values are told by the colours of the map, with a legend beside") {
   stage.options.look.legend = true;
   const std::optional<Image> with = stage.draw();
   CHECK(difference(*without, *with) > 0.01);
-  // The upper end of the bar has the last colour of the map, unlit.
+  // The upper end of the bar has the last color of the map, unlit.
   const Rgb top = at(*with, 1 - 2.0 * 30 * 0.65 / 320, 1 - 2 * 0.32);
   CHECK(distance(top, {map[250][0], map[250][1], map[250][2]}) < 30);
 }
@@ -219,7 +219,7 @@ TEST_CASE("ropes are drawn, the wind has its arrow, and a frame of nothing is th
   const Rgb background = rgb(stage.options.look.background);
   CHECK(distance(at(*image, 0.1, 0), background) > 60);
   CHECK(distance(at(*image, 0.1, 0.05), background) < 4);
-  stage.options.look.colour = pliant::ColourBy::speed;
+  stage.options.look.color = pliant::ColorBy::speed;
   stage.options.look.legend = false;
   stage.options.look.ground = stage.options.look.shadow = true;  // whose shadow is a texture as well
   stage.options.ground_height = -2;
@@ -230,7 +230,7 @@ TEST_CASE("ropes are drawn, the wind has its arrow, and a frame of nothing is th
   const Rgb fast = at(*stage.draw(), 0.1, 0);
   CHECK(fast[0] > fast[2]);
   CHECK(fast[1] > fast[2]);
-  stage.options.look.colour = pliant::ColourBy::none;
+  stage.options.look.color = pliant::ColorBy::none;
   stage.options.look.ground = stage.options.look.shadow = false;
   stage.wind = WindSign{{1, 0, 0}, "wind 1 m/s"};
   CHECK(difference(*image, *stage.draw()) > 0.002);

@@ -8,7 +8,7 @@
 namespace test_quantities {
 
 using namespace pliant_render;
-using pliant::ColourBy;
+using pliant::ColorBy;
 
 namespace {
 
@@ -48,11 +48,11 @@ TEST_CASE("the energies of the vertices sum to that of the simulation") {
 
 TEST_CASE("ranges begin at zero, or have it in the middle, and are never empty") {
   const std::vector<float> values = {0.2F, -0.5F, 0.1F};
-  CHECK(quantity_range(ColourBy::stretch, values) == std::array<float, 2>{-0.5F, 0.5F});
-  CHECK(quantity_range(ColourBy::speed, values) == std::array<float, 2>{0, 0.5F});
-  CHECK(quantity_range(ColourBy::speed, {}) == std::array<float, 2>{0, 1});
+  CHECK(quantity_range(ColorBy::stretch, values) == std::array<float, 2>{-0.5F, 0.5F});
+  CHECK(quantity_range(ColorBy::speed, values) == std::array<float, 2>{0, 0.5F});
+  CHECK(quantity_range(ColorBy::speed, {}) == std::array<float, 2>{0, 1});
   const std::vector<float> broken = {std::numeric_limits<float>::quiet_NaN(), 2};
-  CHECK(quantity_range(ColourBy::energy, broken) == std::array<float, 2>{0, 2});
+  CHECK(quantity_range(ColorBy::energy, broken) == std::array<float, 2>{0, 2});
 }
 
 TEST_CASE("ticks are round, ascend, lie in the range, and are three to six") {
@@ -82,9 +82,9 @@ TEST_CASE("ticks are round, ascend, lie in the range, and are three to six") {
 
 TEST_CASE("lightness rises evenly along the map of speeds, and falls to both ends of that of stretch") {
   const auto lightness = [](const std::array<std::uint8_t, 3>& c) { return 0.3 * c[0] + 0.59 * c[1] + 0.11 * c[2]; };
-  const auto rising = colour_map(ColourBy::speed);
+  const auto rising = color_map(ColorBy::speed);
   for (std::size_t i = 16; i < rising.size(); i += 16) CHECK(lightness(rising[i]) > lightness(rising[i - 16]));
-  const auto both = colour_map(ColourBy::stretch);
+  const auto both = color_map(ColorBy::stretch);
   for (std::size_t i = 16; i < both.size() / 2; i += 16) {
     CHECK(lightness(both[i]) > lightness(both[i - 16]));
     CHECK(lightness(both[both.size() - 1 - i]) > lightness(both[both.size() - 1 - i + 16]));

@@ -37,7 +37,7 @@ Series noise(std::uint64_t seed, std::size_t count, double size = 1) {
   return series;
 }
 
-/// The points that path data moves and draws to in absolute coordinates: "M1 2L3 4", or centres of marks.
+/// The points that path data moves and draws to in absolute coordinates: "M1 2L3 4", or centers of marks.
 std::vector<Point> points_of(const std::string& data) {
   std::vector<Point> points;
   for (std::size_t at = data.find_first_of("ML"); at != std::string::npos; at = data.find_first_of("ML", at + 1)) {
@@ -133,7 +133,7 @@ double contrast(const std::string& a, const std::string& b) {
   return (high + 0.05) / (low + 0.05);
 }
 
-std::string colour_after(const std::string& style, const std::string& rule) {
+std::string color_after(const std::string& style, const std::string& rule) {
   const std::size_t at = style.find(rule);
   REQUIRE_MESSAGE(at != std::string::npos, rule);
   return style.substr(style.find('#', at), 7);
@@ -302,37 +302,37 @@ TEST_CASE("guides cross the plotting area; their labels lie in it, beside each o
   CHECK(place_guides(plot, plot_layout(plot), curves).size() == 2);
 }
 
-TEST_CASE("series differ in colour and in shape, beyond eight in their lines too") {
+TEST_CASE("series differ in color and in shape, beyond eight in their lines too") {
   Plot plot = plot_of({});
   for (std::uint64_t i = 0; i < 16; ++i) plot.series.push_back(noise(i + 1, 50));
   for (std::size_t i = 0; i < 16; ++i) {
     const Look look = look_of(plot, i);
     for (std::size_t j = 0; j < i; ++j) {
       const Look other = look_of(plot, j);
-      const bool is_other_kind = look.colour != other.colour && look.shape != other.shape;
+      const bool is_other_kind = look.color != other.color && look.shape != other.shape;
       CHECK((is_other_kind || look.is_dashed != other.is_dashed));
     }
     CHECK(!curve_of(plot, i, plot_layout(plot)).marks.empty());
   }
-  plot.series[3].colour = 6;
-  CHECK(look_of(plot, 3).colour == 6);
-  plot.series[3].colour = -1;
-  CHECK(look_of(plot, 3).colour == 7);
+  plot.series[3].color = 6;
+  CHECK(look_of(plot, 3).color == 6);
+  plot.series[3].color = -1;
+  CHECK(look_of(plot, 3).color == 7);
   CHECK(marks_data({{1, 2}}, 0) != marks_data({{1, 2}}, 1));
 }
 
-TEST_CASE("colours stand out from the ground in both schemes, and paper has the light ones") {
+TEST_CASE("colors stand out from the ground in both schemes, and paper has the light ones") {
   const std::string style = plot_style();
   const std::size_t dark = style.find("@media screen and (prefers-color-scheme: dark)");
   REQUIRE(dark != std::string::npos);
   REQUIRE(style.find("@media print") != std::string::npos);
   for (const std::string& scheme : {style.substr(0, dark), style.substr(dark)}) {
-    const std::string ground = colour_after(scheme, ".plot-ground");
-    CHECK(contrast(colour_after(scheme, ".plot text {"), ground) > 7);
-    CHECK(contrast(colour_after(scheme, ".plot .plot-number"), ground) > 4.5);
-    CHECK(contrast(colour_after(scheme, ".plot-axis, .plot-guide { stroke"), ground) > 3);
-    for (int i = 0; i < colour_count; ++i) {
-      CHECK(contrast(colour_after(scheme, ".plot-colour-" + std::to_string(i)), ground) >= 3);
+    const std::string ground = color_after(scheme, ".plot-ground");
+    CHECK(contrast(color_after(scheme, ".plot text {"), ground) > 7);
+    CHECK(contrast(color_after(scheme, ".plot .plot-number"), ground) > 4.5);
+    CHECK(contrast(color_after(scheme, ".plot-axis, .plot-guide { stroke"), ground) > 3);
+    for (int i = 0; i < color_count; ++i) {
+      CHECK(contrast(color_after(scheme, ".plot-color-" + std::to_string(i)), ground) >= 3);
     }
   }
 }

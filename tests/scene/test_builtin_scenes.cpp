@@ -188,17 +188,17 @@ TEST_CASE("torus: jerked about and let come home, it has its shape again" * doct
 
 TEST_CASE("net: it hangs between its posts, deepest under the load" * doctest::skip(!runs_whole_scenes)) {
   Scene scene = load("net");
-  const Index centre = 312;
+  const Index center = 312;
   run(scene, 150);
-  const Real idle = positions(scene)(centre, 2);
+  const Real idle = positions(scene)(center, 2);
   CHECK(idle < -0.5);
   CHECK(positions(scene).col(2).maxCoeff() == 0);
   run(scene, 110);
-  const Real loaded = positions(scene)(centre, 2);
+  const Real loaded = positions(scene)(center, 2);
   CHECK(loaded < idle - 0.1);
   CHECK(stretch(scene.simulation.body(BodyId{0}).mesh, positions(scene))[1] < 1.2);
   run(scene, 40);
-  CHECK(positions(scene)(centre, 2) > loaded + 0.1);
+  CHECK(positions(scene)(center, 2) > loaded + 0.1);
   run(scene, scene.steps - 300);
   check_sound(scene);
 }

@@ -62,7 +62,7 @@ TEST_CASE("a turn goes along the circle, over any angle") {
   }
 }
 
-TEST_CASE("without a centre, pins turn about their mean, as one rigid body") {
+TEST_CASE("without a center, pins turn about their mean, as one rigid body") {
   Rig rig;
   rig.timeline.start(rig.simulation, rig.pins, rigid_path({{.time = 0.5, .rotate = {{0, 0, 1}, 180}}}));
   rig.advance(2);

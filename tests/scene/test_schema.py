@@ -28,7 +28,7 @@ SOUND = {
     }],
     "forces": [{"type": "wind", "velocity": [1, 2, 3]},
                {"type": "test_force", "vertex": 1, "force": [0, 0, 1], "frames": [0, 3]}],
-    "view": {"colour": "stretch", "camera": {"position": [3, 3, 3]}, "background": "#ffffff"},
+    "view": {"color": "stretch", "camera": {"position": [3, 3, 3]}, "background": "#ffffff"},
 }
 
 # Paths with values that both the schema and the program refuse.
@@ -54,7 +54,7 @@ WRONG = [
     (["bodies", 0, "constraints", 0, "hold"], "firm"),
     (["forces", 0, "type"], "gravity"), (["forces", 0, "velocity"], [1, 2]), (["forces", 1, "vertices"], [1]),
     (["forces", 1, "frames"], [1]),
-    (["view", "color"], "stretch"), (["view", "colour"], "red"), (["view", "background"], "red"),
+    (["view", "color"], "stretch"), (["view", "color"], "red"), (["view", "background"], "red"),
     (["view", "background"], [0, 0, 2]), (["view", "wireframe"], 1), (["view", "size"], [1280]),
     (["view", "camera", "field_of_view"], 180),
     (["include"], 3), (["include"], {"set": {}}),

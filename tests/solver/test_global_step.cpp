@@ -24,9 +24,9 @@ LowerMatrix grid_matrix(Index side, Real mass, Real stiffness, Index copies = 1,
   for (Index v = 0; v < copies * size; ++v) {
     const Index i = v % side;
     const Index j = v % size / side;
-    const Index neighbours = (i > 0) + (i + 1 < side) + (j > 0) + (j + 1 < side);
+    const Index neighbors = (i > 0) + (i + 1 < side) + (j > 0) + (j + 1 < side);
     matrix.rows.push_back(v);
-    matrix.values.push_back(mass + stiffness * neighbours + (v == 0 ? pin : 0));
+    matrix.values.push_back(mass + stiffness * neighbors + (v == 0 ? pin : 0));
     for (const auto& [is_there, other] : {std::pair{i + 1 < side, v + 1}, {j + 1 < side, v + side}}) {
       if (!is_there) continue;
       matrix.rows.push_back(other);

@@ -23,7 +23,7 @@ namespace {
 
 constexpr pliant::Index side = 12;
 
-/// A sheet of a metre, hung by two corners; it comes to rest soon.
+/// A sheet of a meter, hung by two corners; it comes to rest soon.
 Scene make_sheet() {
   Scene scene;
   scene.name = "sheet";
@@ -184,7 +184,7 @@ TEST_CASE("a click pins, another lets go, and a pin is dragged to where the mous
   desk.turn_until([&] { return (desk.position(middle) - there).norm() > 0.02F; });
 }
 
-TEST_CASE("keys play, step, start over, colour and help") {
+TEST_CASE("keys play, step, start over, color and help") {
   Desk desk;
   desk.key("space");
   desk.turn_until([&] { return !desk.shown().is_playing; });
@@ -194,7 +194,7 @@ TEST_CASE("keys play, step, start over, colour and help") {
   desk.key("r");
   desk.turn_until([&] { return desk.shown().step == 0 && desk.shown().restarts == 1; });
   desk.key("c");
-  CHECK(desk.viewer.look().colour == pliant::ColourBy::stretch);
+  CHECK(desk.viewer.look().color == pliant::ColorBy::stretch);
   desk.turn_until([&] { return desk.shown().frame.content.values.size() == side * side; });
   desk.key("w");
   CHECK(desk.viewer.look().wireframe);
@@ -350,9 +350,9 @@ TEST_CASE("a run is played at its own times, frame by frame, and from where the 
   for (int i = 0; i < 3; ++i) viewer.turn(0.05);
   CHECK(stage.place() < 30);
   xdotool("key c");
-  turn_until([&] { return viewer.look().colour == pliant::ColourBy::stretch; });
+  turn_until([&] { return viewer.look().color == pliant::ColorBy::stretch; });
   xdotool("key c");
-  turn_until([&] { return viewer.look().colour == pliant::ColourBy::speed; });  // energy is not known of a run
+  turn_until([&] { return viewer.look().color == pliant::ColorBy::speed; });  // energy is not known of a run
   viewer.turn(0.05);
   CHECK(stage.frame().content.values.front() == doctest::Approx(2));
   CHECK(stage.range().value()[1] == doctest::Approx(2));

@@ -1,4 +1,4 @@
-// When steps are due, how fast they come, and the range of colours: all against a clock that the test sets.
+// When steps are due, how fast they come, and the range of colors: all against a clock that the test sets.
 #include <doctest/doctest.h>
 
 #include "viewer/auto_range.h"
@@ -83,14 +83,14 @@ TEST_CASE("the pulse is that of the last second, and fades when nothing happens"
 
 TEST_CASE("a range grows at once to a round number, and shrinks only after a while") {
   AutoRange range;
-  using pliant::ColourBy;
-  CHECK(range.update(ColourBy::speed, 0.7F, at(0))[1] == doctest::Approx(1));
-  CHECK(range.update(ColourBy::speed, 3, at(0.1))[1] == doctest::Approx(5));
-  CHECK(range.update(ColourBy::speed, 0.3F, at(1))[1] == doctest::Approx(5));
-  CHECK(range.update(ColourBy::speed, 0.3F, at(3))[1] == doctest::Approx(0.5));
-  CHECK(range.update(ColourBy::stretch, 0.04F, at(3.1))[0] == doctest::Approx(-0.05));
-  CHECK(range.update(ColourBy::speed, 0, at(4))[1] > 0);
-  CHECK(std::isfinite(range.update(ColourBy::speed, std::numeric_limits<float>::infinity(), at(5))[1]));
+  using pliant::ColorBy;
+  CHECK(range.update(ColorBy::speed, 0.7F, at(0))[1] == doctest::Approx(1));
+  CHECK(range.update(ColorBy::speed, 3, at(0.1))[1] == doctest::Approx(5));
+  CHECK(range.update(ColorBy::speed, 0.3F, at(1))[1] == doctest::Approx(5));
+  CHECK(range.update(ColorBy::speed, 0.3F, at(3))[1] == doctest::Approx(0.5));
+  CHECK(range.update(ColorBy::stretch, 0.04F, at(3.1))[0] == doctest::Approx(-0.05));
+  CHECK(range.update(ColorBy::speed, 0, at(4))[1] > 0);
+  CHECK(std::isfinite(range.update(ColorBy::speed, std::numeric_limits<float>::infinity(), at(5))[1]));
 }
 
 }  // namespace test_pace

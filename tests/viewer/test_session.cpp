@@ -44,7 +44,7 @@ void steps(Session& session, int count) {
   for (int i = 0; i < count; ++i) session.step();
 }
 
-/// Vertex 66 as a point of the triangle of it and its neighbours.
+/// Vertex 66 as a point of the triangle of it and its neighbors.
 Pull pull_at_middle(const Session& session, Real stiffness) {
   Pull pull{{{66, 67, 78}, {0.4F, 0.3F, 0.3F}}, {}, stiffness};
   std::vector<Vec3f> all;

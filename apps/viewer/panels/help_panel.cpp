@@ -25,7 +25,7 @@ constexpr std::array<Key, 5> live_keys = {Key{"Space", "play or pause"}, Key{"S 
                                           Key{"+ and −", "stiffer or softer pull"}};
 constexpr std::array<Key, 3> run_keys = {Key{"Space", "play or pause"}, Key{"→ and ←", "one frame on or back"},
                                          Key{"R", "to the first frame"}};
-constexpr std::array<Key, 6> look_keys = {Key{"C", "colour by the next quantity, or none"},
+constexpr std::array<Key, 6> look_keys = {Key{"C", "color by the next quantity, or none"},
                                           Key{"W", "wireframe"},
                                           Key{"L", "smooth or flat"},
                                           Key{"P", "save the picture as a PNG file"},

@@ -6,15 +6,15 @@ namespace pliant_viewer {
 
 bool draw_look_panel(pliant::ViewSettings& look, int& samples, const Stage& stage) {
   bool has_changed = false;
-  row_label("colour", "C: what the colours of the bodies tell");
-  constexpr auto names = choice_names(pliant::ColourBy{});
-  if (ImGui::BeginCombo("##colour", names[static_cast<std::size_t>(look.colour)].data())) {
+  row_label("color", "C: what the colors of the bodies tell");
+  constexpr auto names = choice_names(pliant::ColorBy{});
+  if (ImGui::BeginCombo("##color", names[static_cast<std::size_t>(look.color)].data())) {
     for (std::size_t i = 0; i < names.size(); ++i) {
-      const auto colour = static_cast<pliant::ColourBy>(i);
-      if (!stage.knows(colour)) continue;
-      if (ImGui::Selectable(names[i].data(), colour == look.colour)) {
-        has_changed = colour != look.colour;
-        look.colour = colour;
+      const auto color = static_cast<pliant::ColorBy>(i);
+      if (!stage.knows(color)) continue;
+      if (ImGui::Selectable(names[i].data(), color == look.color)) {
+        has_changed = color != look.color;
+        look.color = color;
       }
     }
     ImGui::EndCombo();

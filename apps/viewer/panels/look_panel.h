@@ -6,7 +6,7 @@
 
 namespace pliant_viewer {
 
-/// Draws a row for each setting of the look; `samples`: of a pixel, 1 or 4. Returns whether colours tell another
+/// Draws a row for each setting of the look; `samples`: of a pixel, 1 or 4. Returns whether colors tell another
 /// quantity now.
 bool draw_look_panel(pliant::ViewSettings& look, int& samples, const Stage& stage);
 

@@ -9,35 +9,35 @@ namespace {
 
 constexpr float label_share = 0.35F;  // of a row
 
-void set_colours(bool is_dark) {
-  ImVec4* colours = ImGui::GetStyle().Colors;
+void set_colors(bool is_dark) {
+  ImVec4* colors = ImGui::GetStyle().Colors;
   const ImVec4 accent = is_dark ? ImVec4(0.93F, 0.46F, 0.36F, 1) : ImVec4(0.78F, 0.30F, 0.21F, 1);
   const float tone = is_dark ? 1.0F : 0.0F;
   const auto shade = [tone](float opacity) { return ImVec4(tone, tone, tone, opacity); };
   const auto tint = [&accent](float opacity) { return ImVec4(accent.x, accent.y, accent.z, opacity); };
-  colours[ImGuiCol_Text] = is_dark ? ImVec4(0.93F, 0.94F, 0.95F, 1) : ImVec4(0.13F, 0.15F, 0.18F, 1);
-  colours[ImGuiCol_TextDisabled] = is_dark ? ImVec4(0.63F, 0.65F, 0.69F, 1) : ImVec4(0.40F, 0.42F, 0.46F, 1);
-  colours[ImGuiCol_WindowBg] = is_dark ? ImVec4(0.14F, 0.15F, 0.17F, 0.94F) : ImVec4(0.99F, 0.99F, 0.99F, 0.94F);
-  colours[ImGuiCol_PopupBg] = is_dark ? ImVec4(0.17F, 0.18F, 0.20F, 0.98F) : ImVec4(1, 1, 1, 0.98F);
-  colours[ImGuiCol_Border] = shade(0.10F);
-  colours[ImGuiCol_FrameBg] = shade(0.06F);
-  colours[ImGuiCol_FrameBgHovered] = shade(0.10F);
-  colours[ImGuiCol_FrameBgActive] = shade(0.14F);
-  colours[ImGuiCol_Button] = shade(0.07F);
-  colours[ImGuiCol_ButtonHovered] = shade(0.12F);
-  colours[ImGuiCol_ButtonActive] = shade(0.18F);
-  colours[ImGuiCol_Header] = shade(0.0F);
-  colours[ImGuiCol_HeaderHovered] = shade(0.06F);
-  colours[ImGuiCol_HeaderActive] = shade(0.10F);
-  colours[ImGuiCol_SliderGrab] = tint(0.42F);
-  colours[ImGuiCol_SliderGrabActive] = accent;
-  colours[ImGuiCol_CheckMark] = accent;
-  colours[ImGuiCol_TextSelectedBg] = tint(0.30F);
-  colours[ImGuiCol_Separator] = shade(0.10F);
-  colours[ImGuiCol_ScrollbarBg] = shade(0.0F);
-  colours[ImGuiCol_ScrollbarGrab] = shade(0.16F);
-  colours[ImGuiCol_ScrollbarGrabHovered] = shade(0.24F);
-  colours[ImGuiCol_ScrollbarGrabActive] = shade(0.32F);
+  colors[ImGuiCol_Text] = is_dark ? ImVec4(0.93F, 0.94F, 0.95F, 1) : ImVec4(0.13F, 0.15F, 0.18F, 1);
+  colors[ImGuiCol_TextDisabled] = is_dark ? ImVec4(0.63F, 0.65F, 0.69F, 1) : ImVec4(0.40F, 0.42F, 0.46F, 1);
+  colors[ImGuiCol_WindowBg] = is_dark ? ImVec4(0.14F, 0.15F, 0.17F, 0.94F) : ImVec4(0.99F, 0.99F, 0.99F, 0.94F);
+  colors[ImGuiCol_PopupBg] = is_dark ? ImVec4(0.17F, 0.18F, 0.20F, 0.98F) : ImVec4(1, 1, 1, 0.98F);
+  colors[ImGuiCol_Border] = shade(0.10F);
+  colors[ImGuiCol_FrameBg] = shade(0.06F);
+  colors[ImGuiCol_FrameBgHovered] = shade(0.10F);
+  colors[ImGuiCol_FrameBgActive] = shade(0.14F);
+  colors[ImGuiCol_Button] = shade(0.07F);
+  colors[ImGuiCol_ButtonHovered] = shade(0.12F);
+  colors[ImGuiCol_ButtonActive] = shade(0.18F);
+  colors[ImGuiCol_Header] = shade(0.0F);
+  colors[ImGuiCol_HeaderHovered] = shade(0.06F);
+  colors[ImGuiCol_HeaderActive] = shade(0.10F);
+  colors[ImGuiCol_SliderGrab] = tint(0.42F);
+  colors[ImGuiCol_SliderGrabActive] = accent;
+  colors[ImGuiCol_CheckMark] = accent;
+  colors[ImGuiCol_TextSelectedBg] = tint(0.30F);
+  colors[ImGuiCol_Separator] = shade(0.10F);
+  colors[ImGuiCol_ScrollbarBg] = shade(0.0F);
+  colors[ImGuiCol_ScrollbarGrab] = shade(0.16F);
+  colors[ImGuiCol_ScrollbarGrabHovered] = shade(0.24F);
+  colors[ImGuiCol_ScrollbarGrabActive] = shade(0.32F);
 }
 
 }  // namespace
@@ -62,7 +62,7 @@ void set_panel_style(bool is_dark, float unit) {
   now.ScrollbarSize = 10;
   now.WindowBorderSize = 1;
   now.ScaleAllSizes(unit);
-  set_colours(is_dark);
+  set_colors(is_dark);
 }
 
 std::string number_format(double number, const std::string& unit) {

@@ -8,7 +8,7 @@ struct PanelStyle {
   float unit = 1;  ///< pixels of a length that is given for letters of common size
 };
 
-/// Sets colours, roundings and distances of all panels, on a light background or a dark one.
+/// Sets colors, roundings and distances of all panels, on a light background or a dark one.
 void set_panel_style(bool is_dark, float unit);
 
 /// printf's format of a number of about this size with its unit, without an exponent where that can be.

@@ -9,11 +9,11 @@ namespace pliant {
 namespace {
 
 struct Fan {
-  std::vector<Real> cotangents;  // cot α + cot β of each neighbour
+  std::vector<Real> cotangents;  // cot α + cot β of each neighbor
   Real area = 0;                 // mixed Voronoi area
 };
 
-/// The part of the triangle (center, a, b) that belongs to its centre (Meyer et al. 2003, Fig. 4).
+/// The part of the triangle (center, a, b) that belongs to its center (Meyer et al. 2003, Fig. 4).
 Real mixed_area(const Vec3& a, const Vec3& b, Real cot_a, Real cot_b) {
   const Real area = a.cross(b).norm() / 2;
   if (a.dot(b) < 0) return area / 2;
@@ -39,7 +39,7 @@ Fan fan_of(const Positions& x, Index center, std::span<const Index> ring) {
   return fan;
 }
 
-/// Adds the stencil [centre, neighbours...] with v = 1/(2a) Σ cⱼ (xⱼ − x₀).
+/// Adds the stencil [center, neighbors...] with v = 1/(2a) Σ cⱼ (xⱼ − x₀).
 void add_fan(CurvatureBatches<SignedFanCurvature>& batches, std::span<const Index> stencil,
              std::span<const Real> cotangents, Real area, Real stiffness) {
   std::vector<Real> coefficients(stencil.size());
@@ -66,7 +66,7 @@ ConstraintSet from_arrays(const BodyView& body, const Bending& options) {
     if (stencil.size() < 2 || options.cotangents[i].size() + 1 != stencil.size()) {
       fail_input("bending: stencil " + std::to_string(i) + " has " + std::to_string(stencil.size()) + " vertices and " +
                  std::to_string(options.cotangents[i].size()) +
-                 " cotangents; give the centre, its neighbours, and one cotangent for each neighbour");
+                 " cotangents; give the center, its neighbors, and one cotangent for each neighbor");
     }
     add_fan(batches, stencil, options.cotangents[i], areas[i], stiffness.of(i));
   }

@@ -38,14 +38,14 @@ struct Bending {
 
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& field) {
-    field(OptionInfo{"on", "", "vertices that resist bending, where all their neighbours are selected too"}, self.on);
-    field(OptionInfo{"stencils", "", "centre and neighbours (for `signed` in cyclic order); with cotangents and areas"},
+    field(OptionInfo{"on", "", "vertices that resist bending, where all their neighbors are selected too"}, self.on);
+    field(OptionInfo{"stencils", "", "center and neighbors (for `signed` in cyclic order); with cotangents and areas"},
           self.stencils);
     field(OptionInfo{"stiffness", "N·m", "κ of the sheet; cotton about 1e-5, sheet metal 1 and more", positive},
           self.stiffness);
     field(OptionInfo{"orientation", "", "`absolute`: a dent costs as much as a bump; `signed`: it costs more"},
           self.orientation);
-    field(OptionInfo{"cotangents", "", "cot α + cot β of each neighbour of each stencil"}, self.cotangents);
+    field(OptionInfo{"cotangents", "", "cot α + cot β of each neighbor of each stencil"}, self.cotangents);
     field(OptionInfo{"areas", "m²", "of each stencil", positive}, self.areas);
   }
 };

@@ -46,7 +46,7 @@ struct SignedCurvature {
   }
 };
 
-/// Unit normal of a closed fan (centre, neighbours in cyclic order); zero where it has none.
+/// Unit normal of a closed fan (center, neighbors in cyclic order); zero where it has none.
 Vec3 fan_normal(const Positions& positions, std::span<const Index> stencil);
 /// Unit normal of the triangles x₀ x₁ x₂ and x₁ x₀ x₃ together; zero where they have none.
 Vec3 hinge_normal(const Positions& positions, std::span<const Index> stencil);

@@ -5,7 +5,7 @@
 //
 // Source: thesis Sec. 4.4.1 (Algorithm 3 is printed as a copy of Algorithm 4; A is the selection, and w enters once).
 // `hard` takes the vertex out of the system of equations: it stands at its target from the first iteration on, and its
-// neighbours feel it at once. `soft` is the thesis' form; started at the prediction, a soft pin hides gravity from the
+// neighbors feel it at once. `soft` is the thesis' form; started at the prediction, a soft pin hides gravity from the
 // body until the iterations have converged.
 #include "pliant/constraints/batch.h"
 #include "pliant/constraints/constraint_set.h"

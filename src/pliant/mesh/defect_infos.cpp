@@ -26,7 +26,7 @@ constexpr std::array<DefectInfo, 14> infos{{
      "their strain is not defined", "dissolve degenerate faces, or move a vertex off the line"},
     {DefectKind::duplicate_triangles, "duplicate_triangles", "triangles on the vertices of another", triangle, harmful,
      "they count twice, in stiffness and in mass, and get no bending", "remove them"},
-    {DefectKind::flipped_triangles, "flipped_triangles", "triangles turned against their neighbours", triangle, harmful,
+    {DefectKind::flipped_triangles, "flipped_triangles", "triangles turned against their neighbors", triangle, harmful,
      "their normals point to the other side, for wind, for shading and for volumes", "recalculate the normals"},
     {DefectKind::unorientable_sheets, "unorientable_sheets", "one-sided surfaces, like a Moebius strip", triangle,
      harmless, "they have no inside; all but volumes simulate", "none is needed, unless one glued edge is turned"},
@@ -38,7 +38,7 @@ constexpr std::array<DefectInfo, 14> infos{{
      "they are cut as a fan from their first corner, which may not be the cut that you see",
      "triangulate them yourself"},
     {DefectKind::collapsed_facets, "collapsed_facets", "facets left out, two corners being one point", facet, harmless,
-     "they had no area; where they were slivers, their neighbours still meet", "none is needed"},
+     "they had no area; where they were slivers, their neighbors still meet", "none is needed"},
 }};
 
 constexpr bool is_in_order() {

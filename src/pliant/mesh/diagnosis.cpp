@@ -270,7 +270,7 @@ class Examination {
       if (ends_nonmanifold_edge[at(v)] != 0) add(DefectKind::nonmanifold_vertices, v);
     }
     const auto is_open_question = [&](Index v) { return ends_nonmanifold_edge[at(v)] == 0; };
-    std::vector<std::pair<Index, Index>> ends;  // of sides: neighbour, side
+    std::vector<std::pair<Index, Index>> ends;  // of sides: neighbor, side
     visit_vertices(mesh_, is_open_question, [&](std::span<const SideUse> uses) {
       if (count_fans(uses, ends) > 1) add(DefectKind::nonmanifold_vertices, uses[0].vertex);
     });

@@ -45,7 +45,7 @@ void check_vertices(const Mesh& mesh, std::string_view name) {
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     const Vec3 x = row(mesh.vertices, v);
     if (!x.allFinite()) {
-      fail_input(fmt::format("{}: vertex {} is not finite: ({}, {}, {}); give three numbers in metres", name, v, x[0],
+      fail_input(fmt::format("{}: vertex {} is not finite: ({}, {}, {}); give three numbers in meters", name, v, x[0],
                              x[1], x[2]));
     }
     if (x.cwiseAbs().maxCoeff() > coordinate_limit) {

@@ -34,7 +34,7 @@ struct VertexGroup {
   std::vector<Index> vertices;
 };
 
-/// A named number for each vertex: a scalar vertex property of a PLY file, or `red`, `green`, `blue` of colours.
+/// A named number for each vertex: a scalar vertex property of a PLY file, or `red`, `green`, `blue` of colors.
 struct VertexMap {
   std::string name;
   std::vector<Real> values;  ///< one for each vertex, finite

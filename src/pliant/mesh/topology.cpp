@@ -83,7 +83,7 @@ std::vector<Index> chain_ends(const Mesh& mesh) {
   return ends;
 }
 
-/// The sides opposite one vertex in the triangles around it, as a graph on its neighbours. The vertex is interior when
+/// The sides opposite one vertex in the triangles around it, as a graph on its neighbors. The vertex is interior when
 /// the graph is one cycle, and lies on the boundary when it is one path. Storage is kept between vertices.
 class VertexLink {
  public:
@@ -99,11 +99,11 @@ class VertexLink {
     return shape;
   }
 
-  /// After a walk along a cycle: the neighbours in order.
+  /// After a walk along a cycle: the neighbors in order.
   std::span<const Index> walked() const { return walked_; }
 
  private:
-  /// Notes the one or two neighbours that each neighbour is joined to; false when there is a third.
+  /// Notes the one or two neighbors that each neighbor is joined to; false when there is a third.
   bool join(std::span<const Edge> sides) {
     const auto add = [&](Index from, Index to) {
       Edge& slots = joined_[at(from)];
@@ -129,7 +129,7 @@ class VertexLink {
       step = {step[1], next[0] == step[0] ? next[1] : next[0]};
     }
     if (walked_.size() != sides.size()) return Shape::other;
-    // Two triangles on the same three vertices close after two steps, which is no neighbourhood on a surface.
+    // Two triangles on the same three vertices close after two steps, which is no neighborhood on a surface.
     if (step[1] == start) return walked_.size() > 2 ? Shape::cycle : Shape::other;
     return is_end(step[1]) ? Shape::path : Shape::other;
   }

@@ -34,18 +34,18 @@ std::vector<Triangle> boundary_triangles(std::span<const Tetrahedron> tetrahedra
 /// the tetrahedra's surface; without those as well, the vertices with exactly one edge.
 std::vector<Index> boundary_vertices(const Mesh& mesh);
 
-/// The neighbours of each interior vertex in cyclic order:
+/// The neighbors of each interior vertex in cyclic order:
 ///
-///            n1 ---- n0           consecutive neighbours (cyclically) span a triangle with the centre;
-///           /  \    /  \          n0 → n1 is the direction in which the centre's first triangle (the one of the
-///         n2 -- centre - n5       smallest index) runs. Nothing asks the other triangles to agree, so a Moebius
+///            n1 ---- n0           consecutive neighbors (cyclically) span a triangle with the center;
+///           /  \    /  \          n0 → n1 is the direction in which the center's first triangle (the one of the
+///         n2 -- center - n5       smallest index) runs. Nothing asks the other triangles to agree, so a Moebius
 ///           \  /    \  /          strip has rings, too.
 ///            n3 ---- n4
 ///
 /// Every other vertex is counted under exactly one of the reasons.
 struct VertexRings {
   std::vector<Index> centers;          ///< the interior vertices, ascending
-  std::vector<Index> offsets;          ///< centers + 1 entries: ring r has neighbours [offsets[r], offsets[r + 1])
+  std::vector<Index> offsets;          ///< centers + 1 entries: ring r has neighbors [offsets[r], offsets[r + 1])
   std::vector<Index> neighbors;        ///< at least three for each ring
   Index boundary_vertex_count = 0;     ///< the triangles form one open fan
   Index nonmanifold_vertex_count = 0;  ///< they form neither one closed nor one open fan

@@ -80,13 +80,13 @@ struct Rotation {
 struct Keyframe {
   Real time = 0;                  ///< since the motion began [s]
   Vec3 translate = Vec3::Zero();  ///< from where it began [m]
-  Rotation rotate{};              ///< from how it was when it began, about the centre
+  Rotation rotate{};              ///< from how it was when it began, about the center
 
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& field) {
     field(OptionInfo{"time", "s", "since the move began; rising from key to key", not_negative}, self.time);
     field(OptionInfo{"translate", "m", "how far the points are then from where they began"}, self.translate);
-    field(OptionInfo{"rotate", "", "how they are turned then about the centre: `{\"axis\", \"degrees\"}`"},
+    field(OptionInfo{"rotate", "", "how they are turned then about the center: `{\"axis\", \"degrees\"}`"},
           self.rotate);
   }
 };
@@ -94,7 +94,7 @@ struct Keyframe {
 /// All points together, as one rigid body: x(t) = c + T(t) + R(t) (x₀ − c). T and the rotation vector (axis times
 /// angle) of R are interpolated between the keys, linearly or by a cubic spline with continuous velocity that begins
 /// and ends at rest; so turns about one axis go along circles, over any angle. Before a first key later than 0 the
-/// path begins where the points are. Without a centre it is the mean of the points as they begin.
+/// path begins where the points are. Without a center it is the mean of the points as they begin.
 std::shared_ptr<Path> rigid_path(std::vector<Keyframe> keys, std::optional<Vec3> center = {}, Ease ease = Ease::linear);
 
 /// How a target follows a vertex: in the distance in which it begins, or exactly where the vertex is.

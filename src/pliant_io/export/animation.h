@@ -29,7 +29,7 @@ Animation animate(Mesh mesh, std::string name, PointCache cache);
 /// Points without a mesh.
 Animation animate(std::string name, PointCache cache);
 
-/// The same cache with its positions in metres and +z up, as read_mesh places a mesh.
+/// The same cache with its positions in meters and +z up, as read_mesh places a mesh.
 /// @throws Error (input): a scale that is not a positive number, positions that are not finite with it.
 PointCache place(PointCache cache, const ImportOptions& options);
 

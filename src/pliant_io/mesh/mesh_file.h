@@ -32,14 +32,14 @@ constexpr std::array<std::string_view, 3> choice_names(UpAxis) {
   return {"z", "y", "x"};
 }
 
-/// How the coordinates of a file become metres with +z up.
+/// How the coordinates of a file become meters with +z up.
 struct ImportOptions {
   Real scale = 1;
   UpAxis up = UpAxis::z;
 
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& field) {
-    field(OptionInfo{"scale", "m", "metres per unit of the file: 0.001 where it counts in millimetres", positive},
+    field(OptionInfo{"scale", "m", "meters per unit of the file: 0.001 where it counts in millimeters", positive},
           self.scale);
     field(OptionInfo{"up", "", "the file's axis that points up, turned to +z: `z` (as it is), `y` or `x`"}, self.up);
   }
@@ -65,7 +65,7 @@ Mesh parse_mesh(std::string_view bytes, std::string_view name, MeshFormat format
 
 /// Writes the mesh with `positions` [m] (m × 3) in place of its rest positions, whole or not at all (atomic_file.h), in
 /// the format of the extension: polygons where the mesh came from polygons, else its triangles, else the surface of its
-/// tetrahedra (Gmsh: the tetrahedra themselves), and with them what the format holds. Coordinates stay in metres with
+/// tetrahedra (Gmsh: the tetrahedra themselves), and with them what the format holds. Coordinates stay in meters with
 /// +z up.
 /// @throws Error (input): an extension that is not known, or TetGen's, a count of positions other than the mesh's,
 ///   a position that is not finite or that the format cannot hold.

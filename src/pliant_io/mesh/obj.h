@@ -9,7 +9,7 @@ namespace pliant {
 
 /// Reads an OBJ file.
 ///
-/// Kept: `v` (x y z; a weight or a colour behind them is checked and dropped), `vt` (u v), `f` in all forms (v, v/vt,
+/// Kept: `v` (x y z; a weight or a color behind them is checked and dropped), `vt` (u v), `f` in all forms (v, v/vt,
 /// v//vn, v/vt/vn; negative indices count back from the last; polygons of any size, also cut into triangles as a fan
 /// from their first corner), `l` as edges, `g` and `o` as groups (those that have faces). Every other keyword is passed
 /// over. Line ends may be LF, CRLF or CR; a backslash at the end of a line continues it.

@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "pliant_io/files/detail/byte_source.h"
-#include "pliant_io/mesh/detail/colours.h"
+#include "pliant_io/mesh/detail/colors.h"
 #include "pliant_io/mesh/detail/face_groups.h"
 #include "pliant_io/mesh/detail/polygon_builder.h"
 #include "pliant_io/mesh/detail/readers.h"
@@ -105,7 +105,7 @@ class ObjReader {
     for (const Referred& list : {vertices_, textures_, normals_}) check_largest(list);
     if (vertices_.count == 0) source_.fail("no vertices; give at least one line \"v x y z\"");
     polygons_.finish();
-    colours_.finish(mesh_);
+    colors_.finish(mesh_);
     return std::move(mesh_);
   }
 
@@ -160,15 +160,15 @@ class ObjReader {
     return std::span(numbers_).first(count);
   }
 
-  /// x y z; or x y z and a weight, which only free-form surfaces use; or x y z, a colour and perhaps its opacity.
+  /// x y z; or x y z and a weight, which only free-form surfaces use; or x y z, a color and perhaps its opacity.
   void read_vertex() {
     const std::size_t v = count_one_more(vertices_, vertex_room_);
     const auto numbers = read_numbers(vertices_, 3, 7);
     if (numbers.size() == 5) {
-      lexer_.fail("5 coordinates for a vertex; give 3, or 4 with a weight, 6 with a colour, 7 with its opacity");
+      lexer_.fail("5 coordinates for a vertex; give 3, or 4 with a weight, 6 with a color, 7 with its opacity");
     }
     for (std::size_t k = 0; k < 3; ++k) mesh_.vertices.data()[3 * v + k] = numbers[k];
-    if (numbers.size() > 4) colours_.set(v, numbers.subspan(3), static_cast<std::size_t>(vertex_room_));
+    if (numbers.size() > 4) colors_.set(v, numbers.subspan(3), static_cast<std::size_t>(vertex_room_));
   }
 
   void read_texture() {
@@ -276,7 +276,7 @@ class ObjReader {
   Mesh mesh_;
   PolygonBuilder polygons_;
   FaceGroupsBuilder groups_;
-  ColourColumns colours_;
+  ColorColumns colors_;
   Referred vertices_{"vertex"};
   Referred textures_{"texture coordinate"};
   Referred normals_{"normal"};

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "pliant_io/files/atomic_file.h"
-#include "pliant_io/mesh/detail/colours.h"
+#include "pliant_io/mesh/detail/colors.h"
 #include "pliant_io/mesh/detail/mesh_output.h"
 #include "pliant_io/mesh/obj.h"
 
@@ -50,14 +50,14 @@ class ObjWriter {
   }
 
  private:
-  /// OBJ counts colours from 0 to 1.
+  /// OBJ counts colors from 0 to 1.
   void write_vertices(const Positions& positions) {
-    const ColourMaps colours(mesh_);
-    const Real full = colours.are_bytes ? 255 : 1;
+    const ColorMaps colors(mesh_);
+    const Real full = colors.are_bytes ? 255 : 1;
     for (Eigen::Index v = 0; v < positions.rows(); ++v) {
       text_ << "v " << positions(v, 0) << " " << positions(v, 1) << " " << positions(v, 2);
-      for (std::size_t k = 0; k < colours.count; ++k) {
-        text_ << " " << colours.channels[k]->values[static_cast<std::size_t>(v)] / full;
+      for (std::size_t k = 0; k < colors.count; ++k) {
+        text_ << " " << colors.channels[k]->values[static_cast<std::size_t>(v)] / full;
       }
       text_.end_line();
     }

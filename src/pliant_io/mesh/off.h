@@ -6,7 +6,7 @@
 
 namespace pliant {
 
-/// Writes the mesh as write_mesh does (mesh_file.h). Kept: polygons, edges (as faces of two corners), colours of
+/// Writes the mesh as write_mesh does (mesh_file.h). Kept: polygons, edges (as faces of two corners), colors of
 /// vertices (COFF), texture coordinates where every corner has those of its vertex (STOFF). Lost: groups, materials and
 /// other maps.
 void write_off(const std::filesystem::path& path, const Mesh& mesh, const Positions& positions);

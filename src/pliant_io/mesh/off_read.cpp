@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "pliant_io/mesh/detail/colours.h"
+#include "pliant_io/mesh/detail/colors.h"
 #include "pliant_io/mesh/detail/polygon_builder.h"
 #include "pliant_io/mesh/detail/readers.h"
 #include "pliant_io/mesh/detail/text_lexer.h"
@@ -25,7 +25,7 @@ class OffReader {
     for (std::uint64_t f = 0; f < face_count_; ++f) read_face(f);
     if (lexer_.next_line()) lexer_.fail("more lines than the counts at the top say; correct them");
     polygons_.finish();
-    colours_.finish(mesh_);
+    colors_.finish(mesh_);
     if (has_texture_) mesh_.faces.texture_coordinates = mesh_.faces.vertices;
     return std::move(mesh_);
   }
@@ -61,7 +61,7 @@ class OffReader {
       return is_there;
     };
     has_texture_ = take("ST");
-    has_colour_ = take("C");
+    has_color_ = take("C");
     has_normal_ = take("N");
     if (rest.empty()) return;
     lexer_.fail(fmt::format("{}: vertices of another dimension than 3; export the mesh as OFF, COFF, NOFF or STOFF",
@@ -104,26 +104,26 @@ class OffReader {
       lexer_.fail(fmt::format("{} numbers for a vertex, which has {} here; give them all", count, numbers_of_vertex_));
     }
     std::copy_n(numbers_.begin(), 3, mesh_.vertices.data() + 3 * v);
-    const std::size_t colour = has_normal_ ? 6 : 3;
-    if (has_colour_) {
-      colours_.set(static_cast<std::size_t>(v), std::span(numbers_).subspan(colour, colour_size_),
-                   static_cast<std::size_t>(vertex_count_));
+    const std::size_t color = has_normal_ ? 6 : 3;
+    if (has_color_) {
+      colors_.set(static_cast<std::size_t>(v), std::span(numbers_).subspan(color, color_size_),
+                  static_cast<std::size_t>(vertex_count_));
     }
     if (has_texture_)
       std::copy_n(numbers_.begin() + static_cast<std::ptrdiff_t>(count) - 2, 2,
                   mesh_.texture_coordinates.data() + 2 * v);
   }
 
-  /// Position, normal, colour with or without its opacity, texture coordinates, in this order.
+  /// Position, normal, color with or without its opacity, texture coordinates, in this order.
   void choose_layout(std::size_t count) {
     const std::size_t others = 3 + (has_normal_ ? 3u : 0u) + (has_texture_ ? 2u : 0u);
-    colour_size_ = !has_colour_ ? 0 : count == others + 4 ? 4 : 3;
-    numbers_of_vertex_ = others + colour_size_;
+    color_size_ = !has_color_ ? 0 : count == others + 4 ? 4 : 3;
+    numbers_of_vertex_ = others + color_size_;
     mesh_.vertices.resize(static_cast<Eigen::Index>(vertex_count_), 3);
     if (has_texture_) mesh_.texture_coordinates.resize(static_cast<Eigen::Index>(vertex_count_), 2);
   }
 
-  /// A count, so many vertices, and perhaps a colour, which is dropped. Two corners make an edge; one makes a point,
+  /// A count, so many vertices, and perhaps a color, which is dropped. Two corners make an edge; one makes a point,
   /// which is a vertex already.
   void read_face(std::uint64_t f) {
     next_line("its last face");
@@ -168,13 +168,13 @@ class OffReader {
   TextLexer lexer_;
   Mesh mesh_;
   PolygonBuilder polygons_;
-  ColourColumns colours_;
+  ColorColumns colors_;
   std::uint64_t vertex_count_ = 0;
   std::uint64_t face_count_ = 0;
   bool has_texture_ = false;
-  bool has_colour_ = false;
+  bool has_color_ = false;
   bool has_normal_ = false;
-  std::size_t colour_size_ = 0;
+  std::size_t color_size_ = 0;
   std::size_t numbers_of_vertex_ = 0;
   std::array<Real, 16> numbers_{};
 };

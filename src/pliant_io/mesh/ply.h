@@ -11,7 +11,7 @@ namespace pliant {
 enum class PlyNumbers { binary, ascii };
 
 /// Writes the mesh as write_mesh does (mesh_file.h). Kept: polygons, edges, per-vertex maps, texture coordinates (`s t`
-/// of vertices where every corner has those of its vertex, else `texcoord` of faces). Colours that are whole numbers up
+/// of vertices where every corner has those of its vertex, else `texcoord` of faces). Colors that are whole numbers up
 /// to 255 are written as bytes. Lost: groups and materials.
 void write_ply(const std::filesystem::path& path, const Mesh& mesh, const Positions& positions,
                PlyNumbers numbers = PlyNumbers::binary);

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "pliant_io/files/atomic_file.h"
-#include "pliant_io/mesh/detail/colours.h"
+#include "pliant_io/mesh/detail/colors.h"
 #include "pliant_io/mesh/detail/mesh_output.h"
 #include "pliant_io/mesh/ply.h"
 
@@ -40,7 +40,7 @@ std::vector<std::string> property_names(const std::vector<VertexMap>& maps) {
 class PlyWriter {
  public:
   PlyWriter(AtomicFile& file, const Mesh& mesh, PlyNumbers numbers)
-      : text_(file), mesh_(mesh), numbers_(numbers), faces_(mesh), colours_(mesh) {
+      : text_(file), mesh_(mesh), numbers_(numbers), faces_(mesh), colors_(mesh) {
     has_texture_by_vertex_ = faces_.has_texture_by_vertex(mesh);
     for (std::size_t f = 0; f < faces_.size(); ++f) {
       has_long_faces_ = has_long_faces_ || faces_[f].size() > 255 / (has_texture_by_corner() ? 2 : 1);
@@ -67,8 +67,8 @@ class PlyWriter {
   bool has_texture_by_corner() const { return faces_.has_texture() && !has_texture_by_vertex_; }
 
   bool is_byte(const VertexMap& map) const {
-    const auto channels = std::span(colours_.channels).first(colours_.count);
-    return colours_.are_bytes && std::ranges::find(channels, &map) != channels.end();
+    const auto channels = std::span(colors_.channels).first(colors_.count);
+    return colors_.are_bytes && std::ranges::find(channels, &map) != channels.end();
   }
 
   void write_header() {
@@ -151,7 +151,7 @@ class PlyWriter {
   const Mesh& mesh_;
   PlyNumbers numbers_;
   VisibleFaces faces_;
-  ColourMaps colours_;
+  ColorMaps colors_;
   std::vector<const VertexMap*> maps_;
   bool has_texture_by_vertex_ = false;
   bool has_long_faces_ = false;

@@ -63,7 +63,7 @@ class PointMerger {
       const auto bits = std::bit_cast<std::uint64_t>(point[k]);
       sum += keys_[2 * k] * (bits & 0xffffffffU) + keys_[2 * k + 1] * (bits >> 32U);
     }
-    const std::uint64_t mixed = (sum >> 32U) * 0x9e3779b97f4a7c15U;  // grids would give rows of neighbouring slots
+    const std::uint64_t mixed = (sum >> 32U) * 0x9e3779b97f4a7c15U;  // grids would give rows of neighboring slots
     return static_cast<std::size_t>(mixed >> 32U);
   }
 

@@ -37,7 +37,7 @@ struct MoveOptions {
     field(OptionInfo{"index", "", "constraints of the group: a number, or a list; default: all"}, self.index);
     field(OptionInfo{"target", "m", "where to: a point for all, or a list with one for each"}, self.target);
     field(OptionInfo{"offset", "m", "how far from where the targets are: for all, or one for each"}, self.offset);
-    field(OptionInfo{"rotate", "", "a turn of all together about the centre: `{\"axis\", \"degrees\"}`"}, self.rotate);
+    field(OptionInfo{"rotate", "", "a turn of all together about the center: `{\"axis\", \"degrees\"}`"}, self.rotate);
     field(OptionInfo{"keyframes", "", "a rigid motion of all together: a list of keys"}, self.keyframes);
     field(OptionInfo{"center", "m", "of turns; default: the mean of the targets as the move begins"}, self.center);
     field(OptionInfo{"over", "s", "duration of the move, which keyframes tell themselves; 0: a jump", not_negative},

@@ -66,8 +66,8 @@ void check_view(const Node& node, const ViewSettings& view) {
       camera_node.fail("the camera looks along its up direction; give another");
     }
   }
-  if (view.colour_range && !((*view.colour_range)[0] < (*view.colour_range)[1])) {
-    node.require("colour_range").fail("the first value is not below the second; give [low, high]");
+  if (view.color_range && !((*view.color_range)[0] < (*view.color_range)[1])) {
+    node.require("color_range").fail("the first value is not below the second; give [low, high]");
   }
 }
 

@@ -33,7 +33,7 @@ SchemaJson definitions() {
   return {
       {"vector", list_schema(coordinate, 3)},
       {"points", {{"anyOf", {vector, std::move(points)}}}},
-      {"colour", {{"anyOf", {{{"type", "string"}, {"pattern", "^#[0-9a-fA-F]{6}$"}}, list_schema(share, 3)}}}},
+      {"color", {{"anyOf", {{{"type", "string"}, {"pattern", "^#[0-9a-fA-F]{6}$"}}, list_schema(share, 3)}}}},
       {"stencils", std::move(stencils)},
       {"map",
        {{"oneOf",

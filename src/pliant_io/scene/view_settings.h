@@ -8,7 +8,7 @@
 namespace pliant {
 
 /// Shares of red, green and blue, each from 0 to 1 (sRGB).
-struct Colour {
+struct Color {
   Real red = 0;
   Real green = 0;
   Real blue = 0;
@@ -31,9 +31,9 @@ struct Camera {
   }
 };
 
-/// What the colour of a surface tells.
-enum class ColourBy { none, stretch, energy, speed };
-constexpr std::array<std::string_view, 4> choice_names(ColourBy) {
+/// What the color of a surface tells.
+enum class ColorBy { none, stretch, energy, speed };
+constexpr std::array<std::string_view, 4> choice_names(ColorBy) {
   return {"none", "stretch", "energy", "speed"};
 }
 
@@ -45,12 +45,12 @@ constexpr std::array<std::string_view, 2> choice_names(Shading) {
 
 struct ViewSettings {
   Camera camera{};
-  Colour background{0.93, 0.94, 0.95};
-  ColourBy colour = ColourBy::none;
-  std::optional<std::array<Real, 2>> colour_range{};
+  Color background{0.93, 0.94, 0.95};
+  ColorBy color = ColorBy::none;
+  std::optional<std::array<Real, 2>> color_range{};
   bool legend = true;
-  Colour front{0.82, 0.33, 0.24};
-  Colour back{0.95, 0.77, 0.55};
+  Color front{0.82, 0.33, 0.24};
+  Color back{0.95, 0.77, 0.55};
   Shading shading = Shading::smooth;
   bool wireframe = false;
   bool ground = true;
@@ -63,11 +63,11 @@ struct ViewSettings {
   static void visit(Self& self, Visitor&& field) {
     field(OptionInfo{"camera", "", "where the picture is taken from"}, self.camera);
     field(OptionInfo{"background", "", "behind everything"}, self.background);
-    field(OptionInfo{"colour", "", "of the bodies by `stretch`, `energy` or `speed`, or in two tones: `none`"},
-          self.colour);
-    field(OptionInfo{"colour_range", "", "values at the two ends of the colour map; default: those of all frames"},
-          self.colour_range);
-    field(OptionInfo{"legend", "", "show the colour map and its range"}, self.legend);
+    field(OptionInfo{"color", "", "of the bodies by `stretch`, `energy` or `speed`, or in two tones: `none`"},
+          self.color);
+    field(OptionInfo{"color_range", "", "values at the two ends of the color map; default: those of all frames"},
+          self.color_range);
+    field(OptionInfo{"legend", "", "show the color map and its range"}, self.legend);
     field(OptionInfo{"front", "", "tone of the side that normals point from"}, self.front);
     field(OptionInfo{"back", "", "tone of the other side"}, self.back);
     field(OptionInfo{"shading", "", "`smooth`, or `flat`: each face by itself"}, self.shading);

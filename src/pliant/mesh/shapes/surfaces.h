@@ -17,7 +17,7 @@ struct TorusOptions {
   static void visit(Self& self, Visitor&& field) {
     field(OptionInfo{"major_segments", "", "vertices around the axis", Range{3}}, self.major_segments);
     field(OptionInfo{"minor_segments", "", "vertices around the tube", Range{3}}, self.minor_segments);
-    field(OptionInfo{"major_radius", "m", "R, from the centre to the tube's middle", positive}, self.major_radius);
+    field(OptionInfo{"major_radius", "m", "R, from the center to the tube's middle", positive}, self.major_radius);
     field(OptionInfo{"minor_radius", "m", "r, of the tube, less than R", positive}, self.minor_radius);
   }
 };

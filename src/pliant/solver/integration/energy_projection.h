@@ -8,7 +8,7 @@
 //
 // V is the elastic energy of all constraints but those with targets: these (soft pins, drags) count as forces from
 // outside, with the force at which the step leaves them, so their own springs stay damped by the step. A part that
-// nothing holds is seen from its centre, whose flight is left alone, and v_rigid is its turning with the angular
+// nothing holds is seen from its center, whose flight is left alone, and v_rigid is its turning with the angular
 // momentum that it should have; of a part that something holds v_rigid is 0.
 #include <cmath>
 
@@ -73,7 +73,7 @@ class EnergyProjection {
 
   /// What is done on a part from outside.
   struct Work {
-    Real sum = 0;     // relative to the centre of a part that nothing holds [J]
+    Real sum = 0;     // relative to the center of a part that nothing holds [J]
     Real size = 0;    // of its terms
     Real braked = 0;  // taken by forces along velocities
     Vec3 torque = Vec3::Zero();

@@ -41,7 +41,7 @@ class LocalStep {
   Index first_not_finite(std::size_t group, const Positions& q) const;
   /// Fills in what the local step reads and writes.
   void describe(SystemInfo& info) const;
-  /// Chunks of a group that a vertex is in, on the average: little above 1 where neighbours stand near each other.
+  /// Chunks of a group that a vertex is in, on the average: little above 1 where neighbors stand near each other.
   Real chunks_of_vertex() const { return chunks_of_vertex_; }
   /// Rows of all reductions together: a measure of the work.
   std::size_t slot_count() const { return slot_count_; }

@@ -69,13 +69,13 @@ class Patches {
       if (is_numbered_[at(v)] != 0) continue;
       is_numbered_[at(v)] = 1;
       order_.push_back(v);
-      add_neighbours(v);
+      add_neighbors(v);
     }
     border_.insert(border_.end(), queue_.begin() + static_cast<std::ptrdiff_t>(next), queue_.end());
   }
 
   /// Those over constraints that no vertex came by yet; the others are in a queue already, or in the border.
-  void add_neighbours(Index v) {
+  void add_neighbors(Index v) {
     for (std::size_t k = incidence_.offsets[at(v)]; k < incidence_.offsets[at(v) + 1]; ++k) {
       const std::uint32_t constraint = incidence_.constraints[k];
       if (is_visited_[constraint] != 0) continue;

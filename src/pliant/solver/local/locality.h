@@ -1,5 +1,5 @@
 #pragma once
-// Constraints and vertices in an order in which neighbours stand near each other, whatever the order of the mesh.
+// Constraints and vertices in an order in which neighbors stand near each other, whatever the order of the mesh.
 #include "pliant/constraints/constraint_group.h"
 
 namespace pliant {

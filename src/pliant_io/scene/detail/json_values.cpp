@@ -125,9 +125,9 @@ void read(const Node& node, Ragged<Real>& lists) {
   });
 }
 
-void read(const Node& node, Colour& colour) {
-  constexpr std::string_view wanted = "is no colour; give \"#rrggbb\", or three numbers from 0 to 1";
-  const std::array<Real*, 3> parts = {&colour.red, &colour.green, &colour.blue};
+void read(const Node& node, Color& color) {
+  constexpr std::string_view wanted = "is no color; give \"#rrggbb\", or three numbers from 0 to 1";
+  const std::array<Real*, 3> parts = {&color.red, &color.green, &color.blue};
   if (node.is_list()) {
     node.require_list(3, "numbers from 0 to 1");
     for (std::size_t i = 0; i < 3; ++i) {

@@ -34,7 +34,7 @@ void read(const Node& node, Points& points);
 void read(const Node& node, Ragged<Real>& lists);
 
 /// "#rrggbb", or a list of three numbers from 0 to 1.
-void read(const Node& node, Colour& colour);
+void read(const Node& node, Color& color);
 
 /// Refuses a number out of its range, where it stands in the value or in a list of that.
 void check_range(const Node& value, const OptionInfo& info);

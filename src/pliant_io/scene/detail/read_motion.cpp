@@ -38,7 +38,7 @@ EventPath read_move(const Node& node, std::vector<std::string_view> more_keys) {
   const std::string_view kind = node.require_one_of({"target", "offset", "rotate", "keyframes"});
   const bool turns = kind == "rotate" || kind == "keyframes";
   if (const auto center = node.find("center"); center && !turns) {
-    center->fail(fmt::format("'{}' turns nothing; leave out the centre, or use rotate or keyframes", kind));
+    center->fail(fmt::format("'{}' turns nothing; leave out the center, or use rotate or keyframes", kind));
   }
   if (const auto over = node.find("over"); over && kind == "keyframes") {
     over->fail("the times of the keyframes say how long the move takes; leave out 'over'");

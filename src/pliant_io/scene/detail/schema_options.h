@@ -47,8 +47,8 @@ inline SchemaJson value_schema(const OptionInfo&, const std::string&) {
 inline SchemaJson value_schema(const OptionInfo&, const Vec3&) {
   return schema_reference("vector");
 }
-inline SchemaJson value_schema(const OptionInfo&, const Colour&) {
-  return schema_reference("colour");
+inline SchemaJson value_schema(const OptionInfo&, const Color&) {
+  return schema_reference("color");
 }
 inline SchemaJson value_schema(const OptionInfo&, const Points&) {
   return schema_reference("points");
@@ -88,7 +88,7 @@ SchemaJson default_json(const Value& value) {
     return "all";
   } else if constexpr (std::is_same_v<Value, Values>) {
     return value.empty() ? SchemaJson() : SchemaJson(value[0]);
-  } else if constexpr (std::is_same_v<Value, Colour>) {
+  } else if constexpr (std::is_same_v<Value, Color>) {
     return {value.red, value.green, value.blue};
   } else {
     return nullptr;

@@ -99,7 +99,7 @@ std::int64_t weight_of(const std::vector<PanelShape>& panels, const std::vector<
   return weight;
 }
 
-/// Tasks of the subtrees below these roots, small neighbours in one. Takes their panels; returns their weight as well.
+/// Tasks of the subtrees below these roots, small neighbors in one. Takes their panels; returns their weight as well.
 std::pair<PanelStage, std::int64_t> make_stage(const std::vector<PanelShape>& panels, const Subtrees& trees,
                                                const std::vector<Index>& roots, std::vector<char>& is_taken) {
   PanelStage stage;

@@ -1,12 +1,12 @@
-#include "pliant_io/mesh/detail/colours.h"
+#include "pliant_io/mesh/detail/colors.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace pliant {
 
-ColourMaps::ColourMaps(const Mesh& mesh) {
-  for (const std::string_view name : colour_names) {
+ColorMaps::ColorMaps(const Mesh& mesh) {
+  for (const std::string_view name : color_names) {
     const auto map = std::ranges::find(mesh.maps, name, &VertexMap::name);
     if (map == mesh.maps.end() || map->values.size() != static_cast<std::size_t>(mesh.vertex_count())) break;
     channels[count++] = &*map;
