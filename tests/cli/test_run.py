@@ -119,7 +119,7 @@ class Run(unittest.TestCase):
         self.assertIn("pliant scenes", error)
 
     def test_help_and_version(self):
-        self.assertRegex(self.pliant("--version").stdout, r"^pliant \d+\.\d+\.\d+ ")
+        self.assertRegex(self.pliant("--version").stdout, r"^pliant \d+\.\d+\.\d+(-dev)? \(")
         self.assertIn("Example", self.pliant("run", "--help").stdout)
 
     def test_slips_of_the_command_line_exit_with_2(self):
