@@ -1,6 +1,7 @@
 // pliant resume: a run goes on from its last checkpoint.
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -12,6 +13,7 @@
 #include "pliant_io/recorder/run_files.h"
 #include "recording.h"
 #include "scene_options.h"
+#include "system/folder_lock.h"
 #include "terminal.h"
 
 namespace pliant_cli {
@@ -28,6 +30,8 @@ struct ResumeArguments {
 int resume_scene(const ResumeArguments& arguments) {
   const fs::path checkpoint = arguments.folder / pliant::checkpoint_name;
   std::error_code ignored;
+  std::optional<pliant_system::FolderLock> lock;  // before the first look: a run beside this one removes the checkpoint
+  if (fs::is_directory(arguments.folder, ignored)) lock.emplace(arguments.folder);
   if (!fs::exists(checkpoint, ignored)) {
     pliant::fail_input(
         fmt::format("{}: no such file: no run left a checkpoint there; give the folder of a run, one that "

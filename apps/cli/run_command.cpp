@@ -9,6 +9,7 @@
 #include "pliant_io/recorder/run_files.h"
 #include "recording.h"
 #include "scene_options.h"
+#include "system/folder_lock.h"
 #include "terminal.h"
 
 namespace pliant_cli {
@@ -37,6 +38,8 @@ int run_scene(const RunOptions& options) {
   catch_interrupts();
   const pliant::RunInfo info = run_info(scene, options.scene);
   refuse_to_replace(options.scene, folder, info.frame_format);
+  pliant::make_run_folder(folder);
+  const pliant_system::FolderLock lock(folder);
   pliant::begin_run(folder, info, scene.simulation);
   return record_scene(scene, folder, info, options.recording);
 }

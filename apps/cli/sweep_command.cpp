@@ -14,6 +14,7 @@
 #include "sweep/process.h"
 #include "sweep/sweep.h"
 #include "sweep/sweep_report.h"
+#include "system/folder_lock.h"
 #include "terminal.h"
 
 namespace pliant_cli {
@@ -132,7 +133,7 @@ void make_folder(const fs::path& folder) {
 
 int sweep_in_folder(const SweepArguments& arguments, SweepSetup setup, Earlier earlier) {
   make_folder(arguments.out);
-  const FolderLock lock(arguments.out);
+  const pliant_system::FolderLock lock(arguments.out);
   SweepPlan plan = plan_sweep(arguments.out, std::move(setup), earlier);
   begin_sweep(arguments.out, plan);
   const std::size_t there = plan.runs.size() - count_of(plan, RunOutcome::waiting);

@@ -1,5 +1,5 @@
 #pragma once
-// What depends on the operating system: other programs, and a folder that one sweep has for itself.
+// What depends on the operating system: other programs.
 #include <chrono>
 #include <filesystem>
 #include <memory>
@@ -48,18 +48,5 @@ void wait_for_any(const std::vector<const ChildProcess*>& children, std::chrono:
 
 /// The path that starts this same program, also after its file was replaced.
 std::string own_program();
-
-/// Keeps other sweeps out of a folder, until it and all processes that were started meanwhile are gone.
-class FolderLock {
- public:
-  /// @throws pliant::Error (output): another sweep has the folder
-  explicit FolderLock(const std::filesystem::path& folder);
-  ~FolderLock();
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
-
- private:
-  int folder_ = -1;
-};
 
 }  // namespace pliant_sweep

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <spawn.h>
-#include <sys/file.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -151,19 +150,6 @@ void wait_for_any(const std::vector<const ChildProcess*>& children, std::chrono:
 
 std::string own_program() {
   return "/proc/self/exe";
-}
-
-FolderLock::FolderLock(const std::filesystem::path& folder) {
-  // Without O_CLOEXEC: a run whose sweep was killed goes on, and nobody else may write in its folder meanwhile.
-  folder_ = open(folder.c_str(), O_RDONLY | O_DIRECTORY);  // NOLINT(android-cloexec-open)
-  if (folder_ < 0) fail_process(folder, fmt::format("cannot be used for a sweep: {}", reason(errno)));
-  if (flock(folder_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;  // not all file systems know locks
-  close(folder_);
-  fail_process(folder, "another sweep runs here, or its runs still do; wait for them, or give another folder");
-}
-
-FolderLock::~FolderLock() {
-  close(folder_);
 }
 
 }  // namespace pliant_sweep

@@ -288,11 +288,12 @@ class Sweep(unittest.TestCase):
     def test_one_sweep_at_a_time_has_a_folder(self):
         process = self.start("--vary", "steps=5,100000000")
         scene = self.folder / "scene.json"
-        self.assertIn("another sweep runs here", self.sweep(scene, "--vary", "steps=5,6", expect=4).stderr)
+        self.assertIn(f"out: process {process.pid} (", self.sweep(scene, "--vary", "steps=5,6", expect=4).stderr)
         process.kill()
         process.wait()
         # Its run goes on, and still has the folder.
-        self.assertIn("its runs still do", self.sweep(scene, "--vary", "steps=5,6", expect=4).stderr)
+        error = self.sweep(scene, "--vary", "steps=5,6", expect=4).stderr
+        self.assertRegex(error, rf"out: what process {process.pid} \(.* started still writes here; wait until it ends")
         self.end_run("0002", signal.SIGKILL)
         deadline = time.monotonic() + 60
         while time.monotonic() < deadline:

@@ -141,10 +141,14 @@ bool is_run_file(std::string_view file) {
   return std::ranges::any_of(known_names, [&](std::string_view name) { return is_name_of(name, file); });
 }
 
-void prepare_run_folder(const fs::path& folder, std::string_view format) {
+void make_run_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) fail_output(folder, error.message());
+}
+
+void prepare_run_folder(const fs::path& folder, std::string_view format) {
+  make_run_folder(folder);
   const std::set<std::string> names = names_in(folder);
   const std::set<std::string> earlier = files_of_earlier_run(folder, names);
   const std::vector<std::string> wanted = run_files(format);
@@ -154,6 +158,7 @@ void prepare_run_folder(const fs::path& folder, std::string_view format) {
     fail_output(folder, fmt::format("the run would replace its {}, which no run wrote", file));
   }
   for (const std::string& file : earlier) {
+    std::error_code error;
     fs::remove(folder / file, error);
     if (error) fail_output(folder / file, error.message());
   }

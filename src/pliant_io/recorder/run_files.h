@@ -24,6 +24,10 @@ std::vector<std::string> run_files(std::string_view format);
 /// Whether a file of this name in the folder of a run is one that a run writes, whatever its format.
 bool is_run_file(std::string_view file);
 
+/// Makes the folder where it is missing. @throws Error (output): the name stands for something else, or it cannot be
+/// made.
+void make_run_folder(const std::filesystem::path& folder);
+
 /// Makes the folder where it is missing, and removes the files that the run.json there tells an earlier run wrote.
 /// Everything else stays, and nothing of it is replaced:
 /// @throws Error (output): the name stands for something else, the folder cannot be used, or a file stands there that
