@@ -14,14 +14,18 @@ ThreadPool::ThreadPool(int threads) {
     fail_input("threads: " + std::to_string(threads) + " is negative; give 0 for all processors, or a count from 1");
   }
   if (threads == 0) threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  workers_.reserve(static_cast<std::size_t>(threads - 1));
+  workers_ = std::vector<Worker>(static_cast<std::size_t>(threads - 1));
   shares_ = std::vector<Share>(static_cast<std::size_t>(threads));
+  active_ = threads;
+  int started = 1;
   try {
-    for (int i = 1; i < threads; ++i) workers_.emplace_back([this, i] { work(i); });
+    for (; started < threads; ++started) {
+      workers_[static_cast<std::size_t>(started - 1)].thread = std::thread([this, started] { work(started); });
+    }
   } catch (const std::system_error&) {
-    const std::string started = std::to_string(workers_.size() + 1);
     stop();
-    fail_input("threads: the system gives " + started + " of " + std::to_string(threads) + "; ask for fewer");
+    fail_input("threads: the system gives " + std::to_string(started) + " of " + std::to_string(threads) +
+               "; ask for fewer");
   }
 }
 
@@ -31,53 +35,77 @@ ThreadPool::~ThreadPool() {
 
 void ThreadPool::stop() {
   stop_ = true;
-  generation_.fetch_add(1, std::memory_order_release);
-  generation_.notify_all();
-  for (std::thread& worker : workers_) worker.join();
+  for (Worker& worker : workers_) {
+    if (!worker.thread.joinable()) continue;
+    worker.calls.fetch_add(1, std::memory_order_release);
+    worker.calls.notify_one();
+    worker.thread.join();
+  }
 }
 
 void ThreadPool::run(Index count, void* context, Call call) {
-  count_ = count;
   context_ = context;
   call_ = call;
-  const auto share_count = static_cast<std::int64_t>(shares_.size());
-  for (std::int64_t t = 0; t < share_count; ++t) {
+  sharing_ = active_;
+  for (int t = 0; t < sharing_; ++t) {
     Share& share = shares_[static_cast<std::size_t>(t)];
-    share.next.store(static_cast<Index>(count * t / share_count), std::memory_order_relaxed);
-    share.end = static_cast<Index>(count * (t + 1) / share_count);
+    share.next.store(static_cast<Index>(std::int64_t{count} * t / sharing_), std::memory_order_relaxed);
+    share.end = static_cast<Index>(std::int64_t{count} * (t + 1) / sharing_);
   }
-  busy_workers_.store(static_cast<int>(workers_.size()), std::memory_order_relaxed);
-  generation_.fetch_add(1, std::memory_order_release);
-  generation_.notify_all();
+  gate_.store(is_open, std::memory_order_release);
+  for (int t = 1; t < sharing_; ++t) {
+    Worker& worker = workers_[static_cast<std::size_t>(t - 1)];
+    worker.calls.fetch_add(1, std::memory_order_release);
+    worker.calls.notify_one();
+  }
   take_iterations(0);
-  for (int busy; (busy = busy_workers_.load(std::memory_order_acquire)) != 0;) busy_workers_.wait(busy);
+  // All iterations are taken: whoever comes now stays out, and who is inside is waited for.
+  std::uint32_t inside = gate_.fetch_and(~is_open, std::memory_order_acq_rel) & ~is_open;
+  for (; inside != 0; inside = gate_.load(std::memory_order_acquire)) gate_.wait(inside, std::memory_order_acquire);
   if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
 }
 
 void ThreadPool::take_iterations(int thread) {
+  const auto count = static_cast<std::size_t>(sharing_);
   try {
-    for (std::size_t k = 0; k < shares_.size(); ++k) {
-      Share& share = shares_[(static_cast<std::size_t>(thread) + k) % shares_.size()];
+    for (std::size_t k = 0; k < count; ++k) {
+      Share& share = shares_[(static_cast<std::size_t>(thread) + k) % count];
       while (share.next.load(std::memory_order_relaxed) < share.end) {
         const Index i = share.next.fetch_add(1, std::memory_order_relaxed);
         if (i < share.end) call_(context_, i, thread);
       }
     }
   } catch (...) {
-    for (Share& share : shares_) share.next.store(share.end, std::memory_order_relaxed);
+    for (std::size_t k = 0; k < count; ++k) shares_[k].next.store(shares_[k].end, std::memory_order_relaxed);
     const std::lock_guard lock(failure_mutex_);
     if (!failure_) failure_ = std::current_exception();
   }
 }
 
+/// Whether there is a loop that may be entered; then leave() must follow.
+bool ThreadPool::enter() {
+  std::uint32_t gate = gate_.load(std::memory_order_acquire);
+  while ((gate & is_open) != 0) {
+    if (gate_.compare_exchange_weak(gate, gate + 1, std::memory_order_acq_rel, std::memory_order_acquire)) return true;
+  }
+  return false;
+}
+
+void ThreadPool::leave() {
+  if (gate_.fetch_sub(1, std::memory_order_acq_rel) == 1) gate_.notify_one();  // closed, and nobody is left inside
+}
+
 void ThreadPool::work(int thread) {
+  std::atomic<std::uint32_t>& calls = workers_[static_cast<std::size_t>(thread - 1)].calls;
   std::uint32_t seen = 0;
   for (;;) {
-    generation_.wait(seen, std::memory_order_acquire);
-    seen = generation_.load(std::memory_order_acquire);
+    calls.wait(seen, std::memory_order_acquire);
+    seen = calls.load(std::memory_order_acquire);
     if (stop_) return;
-    take_iterations(thread);
-    if (busy_workers_.fetch_sub(1, std::memory_order_release) == 1) busy_workers_.notify_one();
+    if (!enter()) continue;
+    // A loop with fewer threads may have come since this one was called: it has no share then.
+    if (thread < sharing_) take_iterations(thread);
+    leave();
   }
 }
 

@@ -2,6 +2,9 @@
 // Threads for loops whose iterations write to places of their own. Which thread runs which iteration is left open, so
 // a loop body must not depend on it; sums are made afterwards, in the order of the iterations. Every thread begins with
 // the same share of a loop each time, so that what it reads again and again stays in its cache, and then helps others.
+//
+// A loop ends when its iterations are done, not when every thread has looked for one: a thread that the system does not
+// run, because other programs want the processor, holds nobody up unless it is in the middle of an iteration.
 #include <atomic>
 #include <exception>
 #include <mutex>
@@ -24,11 +27,15 @@ class ThreadPool {
 
   int thread_count() const { return static_cast<int>(workers_.size()) + 1; }
 
-  /// Calls body(i), or body(i, thread) with thread in [0, thread_count()), once for every i in [0, count), and returns
+  /// How many of the threads take part in loops from now on, from 1 to thread_count(); at first all. Costs nothing.
+  void set_active(int threads) { active_ = threads; }
+  int active() const { return active_; }
+
+  /// Calls body(i), or body(i, thread) with thread in [0, active()), once for every i in [0, count), and returns
   /// when all are done. Never allocates. The first exception that a body throws is thrown again here.
   template <class Body>
   void parallel_for(Index count, Body&& body) {
-    if (workers_.empty() || count <= 1) {
+    if (active_ == 1 || count <= 1) {
       for (Index i = 0; i < count; ++i) invoke(body, i, 0);
       return;
     }
@@ -44,6 +51,11 @@ class ThreadPool {
     std::atomic<Index> next{0};
     Index end = 0;
   };
+  /// One thread besides the caller's.
+  struct alignas(64) Worker {
+    std::atomic<std::uint32_t> calls{0};  // one more for every loop it is called to, and once more to stop
+    std::thread thread;
+  };
 
   template <class Body>
   static void invoke(Body& body, Index i, int thread) {
@@ -58,13 +70,18 @@ class ThreadPool {
   void run(Index count, void* context, Call call);
   void take_iterations(int thread);
   void work(int thread);
+  bool enter();
+  void leave();
 
-  std::vector<std::thread> workers_;
-  std::atomic<std::uint32_t> generation_{0};  // one more for every loop, and once more to stop
+  /// Of a loop that may be entered; below it the number of workers that have entered and not left.
+  static constexpr std::uint32_t is_open = std::uint32_t{1} << 31U;
+
+  std::vector<Worker> workers_;
   std::vector<Share> shares_;
-  std::atomic<int> busy_workers_{0};
-  bool stop_ = false;  // this and the rest are written before generation_ is raised
-  Index count_ = 0;
+  std::atomic<std::uint32_t> gate_{0};
+  std::atomic<bool> stop_{false};
+  int active_ = 1;
+  int sharing_ = 1;  // threads of the loop under way; this and the rest are written while the gate is closed and empty
   void* context_ = nullptr;
   Call call_ = nullptr;
   std::mutex failure_mutex_;
