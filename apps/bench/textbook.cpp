@@ -140,7 +140,7 @@ void Textbook::add_group(const ConstraintGroup& group, const Positions& rest) {
     for (std::size_t place = 0; place < n * k; ++place) {
       reduction_.emplace_back(first_row + static_cast<Index>(place / n), stencil[place % n], reduction[place]);
     }
-    weights_.insert(weights_.end(), k, group.stiffness() * group.measure()[i]);
+    weights_.insert(weights_.end(), k, group.stiffness() * group.rest_measure()[i]);
     if (group.type() == "position") {
       constraints_.push_back(std::make_unique<TextbookPin>(first_row, Vec3(targets.data() + 3 * i)));
     } else if (group.type() == "tetrahedron_strain") {

@@ -19,8 +19,8 @@ std::int64_t size_of(std::size_t count) {
 std::int64_t bytes_of(ConstraintGroup& group) {
   const bool is_difference = std::ranges::all_of(group.reduction(), [](Real c) { return c == 1 || c == -1; });
   const std::size_t reduction = is_difference ? 0 : group.reduction().size();
-  return index * size_of(group.stencil().size()) + real * size_of(reduction + group.measure().size()) +
-         real * size_of(group.mutable_numbers().size());  // the fields
+  return index * size_of(group.stencil().size()) + real * size_of(reduction + group.rest_measure().size()) +
+         real * size_of(group.parameters().size());  // the fields
 }
 
 }  // namespace

@@ -186,7 +186,7 @@ Json describe(Scene& scene) {
           {"forces", std::move(forces)},
           {"events", scene.timeline.event_count()},
           {"files", std::move(files)},
-          {"vertices", {{"all", vertices}, {"held", info.held_vertices}, {"free", vertices - info.held_vertices}}},
+          {"vertices", {{"all", vertices}, {"held", info.pinned_vertices}, {"free", vertices - info.pinned_vertices}}},
           {"free_parts", info.free_parts.size()},
           {"system",
            {{"matrix_entries", info.matrix_entries},

@@ -88,7 +88,7 @@ std::vector<std::uint32_t> pinned_vertices(const pliant::Simulation& simulation)
   for (const auto& [id, group] : simulation.groups()) {
     if (group.type != "position") continue;
     for (const auto& part : group.set.parts) {
-      append(pinned, part->held_vertices());
+      append(pinned, part->pinned_vertices());
       append(pinned, part->stencil());
     }
   }

@@ -138,7 +138,7 @@ std::optional<Session::Pin> Session::find_pin(Index vertex) const {
     if (group.type != pliant::Position::info.name) continue;
     Index first = 0;
     for (const auto& part : group.set.parts) {
-      for (const std::span<const Index> vertices : {part->held_vertices(), part->stencil()}) {
+      for (const std::span<const Index> vertices : {part->pinned_vertices(), part->stencil()}) {
         const auto found = std::ranges::find(vertices, vertex);
         if (found != vertices.end()) return Pin{id, first + static_cast<Index>(found - vertices.begin())};
         first += static_cast<Index>(vertices.size());

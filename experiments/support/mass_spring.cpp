@@ -24,7 +24,7 @@ void add_springs(const ConstraintGroup& group, const Positions& rest, std::vecto
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
     const Index from = group.stencil()[2 * i];
     const Index to = group.stencil()[2 * i + 1];
-    const double stiffness = group.stiffness() * group.measure()[i];
+    const double stiffness = group.stiffness() * group.rest_measure()[i];
     const Vec3 pull(pulls.data() + 3 * i);
     const Vec3 p = row(rest, to) - row(rest, from) + pull / stiffness;
     springs.push_back({from, to, stiffness, p.norm()});
@@ -32,18 +32,18 @@ void add_springs(const ConstraintGroup& group, const Positions& rest, std::vecto
 }
 
 void add_pins(const ConstraintGroup& group, MassSpring& model) {
-  for (const Index i : group.held_vertices()) model.is_held[static_cast<std::size_t>(i)] = 1;
-  if (!group.held_vertices().empty()) return;
+  for (const Index i : group.pinned_vertices()) model.is_pinned[static_cast<std::size_t>(i)] = 1;
+  if (!group.pinned_vertices().empty()) return;
   // targets() is not const, since points may be moved through it; here they are only read.
   const std::span<const Real> targets = const_cast<ConstraintGroup&>(group).targets();
   for (std::size_t i = 0; i < static_cast<std::size_t>(group.shape().count); ++i) {
     model.soft_pins.push_back(
-        {group.stencil()[i], group.stiffness() * group.measure()[i], Vec3(targets.data() + 3 * i)});
+        {group.stencil()[i], group.stiffness() * group.rest_measure()[i], Vec3(targets.data() + 3 * i)});
   }
 }
 
-bool is_held(const MassSpring& model, Index vertex) {
-  return model.is_held[static_cast<std::size_t>(vertex)] != 0;
+bool is_pinned(const MassSpring& model, Index vertex) {
+  return model.is_pinned[static_cast<std::size_t>(vertex)] != 0;
 }
 
 }  // namespace
@@ -51,7 +51,7 @@ bool is_held(const MassSpring& model, Index vertex) {
 MassSpring mass_spring(const Simulation& simulation) {
   MassSpring model;
   model.masses = simulation.state().masses;
-  model.is_held.assign(model.masses.size(), 0);
+  model.is_pinned.assign(model.masses.size(), 0);
   const Positions rest = rest_positions(simulation);
   for (const auto& [id, group] : simulation.groups()) {
     for (const auto& part : group.set.parts) {
@@ -74,7 +74,7 @@ EulerStep next_step(const Simulation& simulation, const MassSpring& model) {
   for (const auto& [id, force] : simulation.forces()) force->add_to(forces, state.view(), h);
   EulerStep step{h, state.positions};
   for (Index i = 0; i < model.vertex_count(); ++i) {
-    if (is_held(model, i)) continue;
+    if (is_pinned(model, i)) continue;
     step.predicted.row(i) +=
         h * state.velocities.row(i) + h * h / model.masses[static_cast<std::size_t>(i)] * forces.row(i);
   }
@@ -112,7 +112,7 @@ Positions gradient(const MassSpring& model, const EulerStep& step, const Positio
     g.row(pin.vertex) += pin.stiffness * (row(q, pin.vertex) - pin.target).transpose();
   }
   for (Index i = 0; i < model.vertex_count(); ++i) {
-    if (is_held(model, i)) g.row(i).setZero();
+    if (is_pinned(model, i)) g.row(i).setZero();
   }
   return g;
 }

@@ -25,7 +25,7 @@ struct MassSpring {
   std::vector<double> masses;  ///< [kg], one a vertex
   std::vector<Spring> springs;
   std::vector<SoftPin> soft_pins;
-  std::vector<char> is_held;  ///< one a vertex: it stays where it is
+  std::vector<char> is_pinned;  ///< one a vertex: it stays where it is
 
   pliant::Index vertex_count() const { return static_cast<pliant::Index>(masses.size()); }
 };

@@ -74,18 +74,18 @@ void Newton::add(const Block& block, const Mat3& values, bool is_diagonal) {
 
 const Eigen::SparseMatrix<double>& Newton::assemble(const EulerStep& step, const Positions& q, Curvature curvature) {
   std::fill_n(hessian_.valuePtr(), hessian_.nonZeros(), 0.);
-  const auto is_held = [&](Index i) { return model_.is_held[static_cast<std::size_t>(i)] != 0; };
+  const auto is_pinned = [&](Index i) { return model_.is_pinned[static_cast<std::size_t>(i)] != 0; };
   for (Index i = 0; i < model_.vertex_count(); ++i) {
     const double inertia = model_.masses[static_cast<std::size_t>(i)] / (step.time_step * step.time_step);
-    add(diagonal_[static_cast<std::size_t>(i)], (is_held(i) ? 1 : inertia) * Mat3::Identity(), true);
+    add(diagonal_[static_cast<std::size_t>(i)], (is_pinned(i) ? 1 : inertia) * Mat3::Identity(), true);
   }
   for (std::size_t i = 0; i < model_.springs.size(); ++i) {
     const Spring& spring = model_.springs[i];
     const Mat3 values = spring_block(spring, q, curvature);
     for (const Index end : {spring.from, spring.to}) {
-      if (!is_held(end)) add(diagonal_[static_cast<std::size_t>(end)], values, true);
+      if (!is_pinned(end)) add(diagonal_[static_cast<std::size_t>(end)], values, true);
     }
-    if (!is_held(spring.from) && !is_held(spring.to)) add(off_diagonal_[i], -values, false);
+    if (!is_pinned(spring.from) && !is_pinned(spring.to)) add(off_diagonal_[i], -values, false);
   }
   for (const SoftPin& pin : model_.soft_pins) {
     add(diagonal_[static_cast<std::size_t>(pin.vertex)], pin.stiffness * Mat3::Identity(), true);

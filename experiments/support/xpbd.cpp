@@ -16,7 +16,7 @@ Xpbd::Xpbd(const Simulation& simulation, const XpbdOptions& options)
   for (const auto& [id, force] : simulation.forces()) force->add_to(accelerations_, state.view(), time_step_);
   for (Index i = 0; i < model_.vertex_count(); ++i) {
     const auto vertex = static_cast<std::size_t>(i);
-    inverse_masses_.push_back(model_.is_held[vertex] != 0 ? 0 : 1 / model_.masses[vertex]);
+    inverse_masses_.push_back(model_.is_pinned[vertex] != 0 ? 0 : 1 / model_.masses[vertex]);
     accelerations_.row(i) *= inverse_masses_.back();
   }
   multipliers_.resize(model_.springs.size());

@@ -115,7 +115,7 @@ TEST_CASE("stencils of a second body carry on where those of the first end") {
   const ConstraintSet set = build(BodyView{sheet, sheet.vertices, 100, "second"}, TriangleStrain{});
   for (const Index vertex : set.parts[0]->stencil()) CHECK((vertex >= 100 && vertex < 109));
   const ConstraintSet pins = build(BodyView{sheet, sheet.vertices, 100, "second"}, Position{.on = {4}});
-  CHECK(pins.parts[0]->held_vertices()[0] == 104);
+  CHECK(pins.parts[0]->pinned_vertices()[0] == 104);
 }
 
 TEST_CASE("a flat mesh is flat to bending, however it lies in space") {

@@ -31,7 +31,7 @@ class PullAll final : public ConstraintGroup {
   GroupShape shape() const override { return shape_; }
   std::span<const Index> stencil() const override { return stencil_; }
   std::span<const Real> reduction() const override { return reduction_; }
-  std::span<const Real> measure() const override { return {&one_, 1}; }
+  std::span<const Real> rest_measure() const override { return {&one_, 1}; }
   Real project(const Positions& q, std::span<Real> out, Index, Index) const override {
     Real energy = 0;
     for (std::size_t i = 0; i < static_cast<std::size_t>(3 * shape_.rows); ++i) {

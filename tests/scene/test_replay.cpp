@@ -56,9 +56,9 @@ void resume(Show& show, const Show& from) {
     REQUIRE(copy.set.parts.size() == group.set.parts.size());
     CHECK(copy.points == group.points);
     for (std::size_t i = 0; i < group.set.parts.size(); ++i) {
-      const std::span<const Real> numbers = group.set.parts[i]->mutable_numbers();
-      REQUIRE(copy.set.parts[i]->mutable_numbers().size() == numbers.size());
-      std::ranges::copy(numbers, copy.set.parts[i]->mutable_numbers().begin());
+      const std::span<const Real> numbers = group.set.parts[i]->parameters();
+      REQUIRE(copy.set.parts[i]->parameters().size() == numbers.size());
+      std::ranges::copy(numbers, copy.set.parts[i]->parameters().begin());
       copy.set.parts[i]->set_stiffness(group.set.parts[i]->stiffness());
     }
   }

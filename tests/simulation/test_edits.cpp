@@ -135,7 +135,7 @@ TEST_CASE("released vertices go, the others stay") {
   CHECK(simulation.groups().at(sheet.pins).set.count == 2);
   const auto& part = simulation.groups().at(sheet.pins).set.parts[0];
   if (part->shape().count > 0)
-    CHECK(std::vector<Real>(part->measure().begin(), part->measure().end()) == std::vector<Real>{2, 3});
+    CHECK(std::vector<Real>(part->rest_measure().begin(), part->rest_measure().end()) == std::vector<Real>{2, 3});
   CHECK(contains(error_of([&] { simulation.release(sheet.pins, released); }), "vertex 12 is not held here"));
   CHECK(simulation.target_count(sheet.pins) == 2);
   const std::array<Index, 2> others = {15, 13};
@@ -202,7 +202,7 @@ TEST_CASE("with its numbers and stiffness, a group made anew has the bits of the
   for (const auto& [id, group] : first.groups()) {
     for (std::size_t p = 0; p < group.set.parts.size(); ++p) {
       ConstraintGroup& copy = *second.groups().at(id).set.parts[p];
-      std::ranges::copy(group.set.parts[p]->mutable_numbers(), copy.mutable_numbers().begin());
+      std::ranges::copy(group.set.parts[p]->parameters(), copy.parameters().begin());
       if (copy.shape().count > 0) copy.set_stiffness(group.set.parts[p]->stiffness());
     }
   }

@@ -122,7 +122,7 @@ class Broken final : public ConstraintGroup {
   GroupShape shape() const override { return {1, 1, 1}; }
   std::span<const Index> stencil() const override { return {&vertex_, 1}; }
   std::span<const Real> reduction() const override { return {&one_, 1}; }
-  std::span<const Real> measure() const override { return {&one_, 1}; }
+  std::span<const Real> rest_measure() const override { return {&one_, 1}; }
   void begin_step(const StateView& state, Real) override { is_broken_ = state.step >= 2; }
   Real project(const Positions&, std::span<Real> out, Index, Index) const override {
     for (std::size_t i = 0; i < 3; ++i) out[i] = is_broken_ ? std::numeric_limits<Real>::quiet_NaN() : 0;

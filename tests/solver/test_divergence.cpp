@@ -76,6 +76,20 @@ TEST_CASE("a constraint that returns NaN is named, whatever the iterations and t
   }
 }
 
+TEST_CASE("a force that grows without bound says itself what helps") {
+  struct Endless final : Force {
+    std::string_view type() const override { return "endless"; }
+    void add_to(Positions& forces, const StateView&, Real) override { forces.setConstant(1e200); }
+    std::string remedy() const override { return "give it an end"; }
+  };
+  Simulation simulation;
+  const BodyId body = simulation.add_body(grid({.columns = 3, .rows = 3}), Mass::per_vertex(1));
+  simulation.add(body, EdgeSpring{});
+  simulation.add_force(std::make_unique<Endless>());
+  CHECK(refusal(simulation).find("the force `endless` on it has grown without bound; give it an end") !=
+        std::string::npos);
+}
+
 TEST_CASE("a simulation goes on after what broke it is gone") {
   Simulation simulation = falling_with_culprit(10, 0, 5);
   CHECK(refusal(simulation) != "");

@@ -1,5 +1,6 @@
 // Energy projection: what is kept, what is left alone, and that it stays calm.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -9,6 +10,7 @@
 #include "../simulation/everything.h"
 #include "../simulation/run.h"
 #include "motions.h"
+#include "pliant/constraints/batch.h"
 #include "pliant/core/error.h"
 #include "pliant/forces/mouse_spring.h"
 #include "pliant/solver/global/system_matrix.h"
@@ -67,7 +69,49 @@ Pulled mass_on_moved_pin(const SolverSettings& settings) {
   return pulled;
 }
 
+/// A group that calls itself external, and is otherwise like the one it has.
+struct External final : ConstraintGroup {
+  explicit External(std::unique_ptr<ConstraintGroup> group) : inner(std::move(group)) {
+    set_stiffness(inner->stiffness());
+  }
+  std::string_view type() const override { return inner->type(); }
+  GroupShape shape() const override { return inner->shape(); }
+  std::span<const Index> stencil() const override { return inner->stencil(); }
+  std::span<const Real> reduction() const override { return inner->reduction(); }
+  std::span<const Real> rest_measure() const override { return inner->rest_measure(); }
+  Real project(const Positions& positions, std::span<Real> out, Index begin, Index end) const override {
+    return inner->project(positions, out, begin, end);
+  }
+  bool is_external() override { return true; }
+  std::unique_ptr<ConstraintGroup> inner;
+};
+
 }  // namespace
+
+TEST_CASE("what an external group does is work, and its energy none of the body's") {
+  const auto energy_left = [](bool is_external, Real share) {
+    Pulled pulled = mass_on_moved_pin(keeping(oscillator_settings(Integrator::implicit_euler, 0.05), share));
+    Simulation& simulation = pulled.simulation;
+    const GroupId springs = simulation.groups().begin()->first;
+    if (is_external) {
+      simulation.remove(springs);
+      auto batch = std::make_unique<Batch<EdgeSpringProjection>>(omega * omega);
+      batch->add(std::array<Index, 2>{0, 1}, std::array<Real, 2>{-1, 1}, 1, std::array<Real, 1>{1});
+      ConstraintSet set;
+      set.count = 1;
+      set.parts.push_back(std::make_unique<External>(std::move(batch)));
+      simulation.add_set(BodyId{0}, std::move(set), "edge_spring");
+    }
+    Positions velocities = Positions::Zero(2, 3);
+    velocities(1, 0) = 0.1;
+    simulation.set_state(Positions(simulation.state().positions), velocities);
+    const Real begin = total(simulation);
+    advance(simulation, 40);
+    return total(simulation) / begin;
+  };
+  CHECK(energy_left(false, 1) == doctest::Approx(1).epsilon(1e-9));
+  CHECK(energy_left(true, 1) < 0.1);  // damped by the step, as without projection
+}
 
 TEST_CASE("an oscillator keeps its energy up to hω = 1, and gains none beyond") {
   for (const Integrator integrator : {Integrator::implicit_euler, Integrator::bdf2}) {

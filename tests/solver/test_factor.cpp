@@ -163,7 +163,7 @@ TEST_CASE("the system matrix is M/h² plus the sum of w SᵀAᵀAS") {
   for (Index i = 0; i < vertex_count; ++i) masses.push_back(random.uniform(0.5, 2));
   const std::array<ConstraintGroup*, 3> groups = {&triangles, &edges, &drags};
   Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(vertex_count, vertex_count);
-  std::vector<char> is_held(static_cast<std::size_t>(vertex_count), 0);
+  std::vector<char> is_pinned(static_cast<std::size_t>(vertex_count), 0);
 
   const auto add = [&](auto& batch, Index rows, Index n, std::size_t field_count) {
     std::vector<Index> stencil;
@@ -195,14 +195,14 @@ TEST_CASE("the system matrix is M/h² plus the sum of w SᵀAᵀAS") {
   SUBCASE("of free vertices") {}
   SUBCASE("with held vertices, whose rows keep their diagonal alone") {
     for (const Index held : {2, 5}) {
-      is_held[static_cast<std::size_t>(held)] = 1;
+      is_pinned[static_cast<std::size_t>(held)] = 1;
       const Real diagonal = expected(held, held);
       expected.row(held).setZero();
       expected.col(held).setZero();
       expected(held, held) = diagonal;
     }
   }
-  system.sum(masses, time_step, groups, is_held);
+  system.sum(masses, time_step, groups, is_pinned);
   CHECK((dense_of(system.matrix()) - expected).cwiseAbs().maxCoeff() < 1e-12 * expected.maxCoeff());
 }
 

@@ -125,7 +125,7 @@ class Stubborn final : public ConstraintGroup {
   GroupShape shape() const override { return {1, 1, 1}; }
   std::span<const Index> stencil() const override { return {&vertex_, 1}; }
   std::span<const Real> reduction() const override { return {&one_, 1}; }
-  std::span<const Real> measure() const override { return {&one_, 1}; }
+  std::span<const Real> rest_measure() const override { return {&one_, 1}; }
   Real project(const Positions& q, std::span<Real> out, Index, Index) const override {
     for (std::size_t axis = 0; axis < 3; ++axis) out[axis] = -q(vertex_, static_cast<Index>(axis));
     return q.row(vertex_).squaredNorm() / 2;
@@ -190,11 +190,11 @@ TEST_CASE("constraints in another order project to the same bits, after changes 
       for (Real& number : part->targets()) number += 0.1;
       part->begin_step(simulation.state().view(), 0.1);
     }
-    if (changed) groups.take_numbers();
+    if (changed) groups.sync_parameters();
     for (std::size_t g = 0; g < parts.size(); ++g) {
       CAPTURE(parts[g]->type());
       const ConstraintGroup& copy = *groups.in_use()[g];
-      CHECK(copy.held_vertices().size() == parts[g]->held_vertices().size());
+      CHECK(copy.pinned_vertices().size() == parts[g]->pinned_vertices().size());
       const auto rows = static_cast<std::size_t>(parts[g]->shape().rows);
       std::vector<Real> expected(3 * rows), found(3 * rows);
       for (Index i = 0; i < copy.shape().count; ++i) {

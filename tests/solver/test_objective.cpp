@@ -102,9 +102,9 @@ TEST_CASE("the residual is the largest gradient of the objective on a vertex tha
     for (const auto& [id, group] : simulation.groups()) {
       for (const auto& part : group.set.parts) parts.push_back(part.get());
     }
-    std::vector<char> is_held(simulation.state().masses.size(), 0);
+    std::vector<char> is_pinned(simulation.state().masses.size(), 0);
     for (const ConstraintGroup* part : parts) {
-      for (const Index vertex : part->held_vertices()) is_held[static_cast<std::size_t>(vertex)] = 1;
+      for (const Index vertex : part->pinned_vertices()) is_pinned[static_cast<std::size_t>(vertex)] = 1;
     }
     std::vector<Real> weights;
     for (const Real mass : simulation.state().masses) weights.push_back(mass / (h * h));
@@ -115,13 +115,13 @@ TEST_CASE("the residual is the largest gradient of the objective on a vertex tha
     Positions unused = q;
     const auto objective_at = [&](Real& coordinate, Real x) {
       const Real before = std::exchange(coordinate, x);
-      const LocalResult found = local.run(q, s, weights, is_held, unused, threads);
+      const LocalResult found = local.run(q, s, weights, is_pinned, unused, threads);
       coordinate = before;
       return found.inertia + found.elastic;
     };
     Real largest = 0;
     for (Index i = 0; i < q.rows(); ++i) {
-      if (is_held[static_cast<std::size_t>(i)]) continue;
+      if (is_pinned[static_cast<std::size_t>(i)]) continue;
       Vec3 gradient;
       for (int axis = 0; axis < 3; ++axis) {
         Real& x = q(i, axis);

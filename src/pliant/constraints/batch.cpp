@@ -11,7 +11,7 @@ void check_sum_of_row(std::string_view type, std::span<const Real> coefficients)
   }
   if (std::abs(sum) <= 1e-9 * magnitude || !std::isfinite(magnitude)) return;
   fail_input(std::string(type) + ": the coefficients of a row sum to " + std::to_string(sum) +
-             ", not to zero; mend them, or declare the type not translation_invariant");
+             ", not to zero; fix them, or declare the type not translation_invariant");
 }
 
 void check_numbers(std::string_view type, const GroupShape& shape, std::size_t fields, std::size_t stencil_size,

@@ -55,15 +55,15 @@ class Batch final : public ConstraintGroup {
     for (const Index vertex : stencil) stencil_.push_back(vertex);
     for (const Real coefficient : reduction) reduction_.push_back(coefficient);
     for (const Real field : fields) fields_.push_back(field);
-    measure_.push_back(measure);
+    rest_measure_.push_back(measure);
     changed();
   }
 
   std::string_view type() const override { return Type::name; }
-  GroupShape shape() const override { return {static_cast<Index>(measure_.size()), vertices(), Type::rows}; }
+  GroupShape shape() const override { return {static_cast<Index>(rest_measure_.size()), vertices(), Type::rows}; }
   std::span<const Index> stencil() const override { return stencil_; }
   std::span<const Real> reduction() const override { return reduction_; }
-  std::span<const Real> measure() const override { return measure_; }
+  std::span<const Real> rest_measure() const override { return rest_measure_; }
   std::span<const Real> fields() const { return fields_; }
 
   std::span<Real> targets() override {
@@ -83,7 +83,7 @@ class Batch final : public ConstraintGroup {
       return ConstraintGroup::anchor(i);
     }
   }
-  std::span<Real> mutable_numbers() override { return fields_; }
+  std::span<Real> parameters() override { return fields_; }
 
   std::unique_ptr<ConstraintGroup> reordered(std::span<const Index> order,
                                              std::span<const Index> numbers) const override {
@@ -92,19 +92,19 @@ class Batch final : public ConstraintGroup {
     batch->stencil_ = in_order(stencil(), order, n);
     for (Index& vertex : batch->stencil_) vertex = numbers[static_cast<std::size_t>(vertex)];
     batch->reduction_ = in_order(reduction(), order, n * Type::rows);
-    batch->measure_ = in_order(measure(), order, 1);
+    batch->rest_measure_ = in_order(rest_measure(), order, 1);
     batch->fields_ = in_order(fields(), order, Type::fields);
     return batch;
   }
-  void take_numbers(const ConstraintGroup& from, std::span<const Index> order) override {
-    ConstraintGroup::take_numbers(from, order);
+  void sync_parameters(const ConstraintGroup& from, std::span<const Index> order) override {
+    ConstraintGroup::sync_parameters(from, order);
     take_in_order(dynamic_cast<const Batch&>(from).fields(), order, Type::fields, std::span<Real>(fields_));
   }
 
   void begin_step(const StateView& state, Real) override {
     if constexpr (requires { &Type::begin_step; }) {
       const auto n = static_cast<std::size_t>(vertices());
-      for (std::size_t i = 0; i < measure_.size(); ++i) {
+      for (std::size_t i = 0; i < rest_measure_.size(); ++i) {
         Type::begin_step(state.positions, std::span<const Index>(stencil_).subspan(i * n, n), field(i));
       }
     }
@@ -136,7 +136,7 @@ class Batch final : public ConstraintGroup {
     sum_stencil<Type::rows, Type::translation_invariant>(positions, std::span<const Index>(stencil_).subspan(i * n, n),
                                                          reduction_.data() + i * n * Type::rows, z.data());
     Type::project(field(i), z.data(), p.data());
-    const Real weight = stiffness() * measure_[i];
+    const Real weight = stiffness() * rest_measure_[i];
     Real squared = 0;
     for (std::size_t a = 0; a < size; ++a) {
       const Real d = p[a] - z[a];
@@ -158,7 +158,7 @@ class Batch final : public ConstraintGroup {
       const std::size_t count = std::min(local_block, last - first);
       const LocalDone done = (kernels.*Type::kernel)({positions.data(), stencil_.data() + n * first,
                                                       reduction_.data() + n * Type::rows * first, field(first),
-                                                      measure_.data() + first, stiffness(), n, count, out.data()});
+                                                      rest_measure_.data() + first, stiffness(), n, count, out.data()});
       energy += done.energy;
       for (std::size_t i = done.next(0); i < count; i = done.next(i + 1)) {
         const auto place = static_cast<Index>(first + i);
@@ -188,7 +188,7 @@ class Batch final : public ConstraintGroup {
   int vertices_;
   std::vector<Index> stencil_;
   std::vector<Real> reduction_;
-  std::vector<Real> measure_;
+  std::vector<Real> rest_measure_;
   std::vector<Real> fields_;
 };
 

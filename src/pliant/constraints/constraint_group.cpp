@@ -32,7 +32,7 @@ Real ConstraintGroup::project_to_forces(const Positions& positions, std::span<Re
   return energy;
 }
 
-std::span<const Index> ConstraintGroup::held_vertices() const {
+std::span<const Index> ConstraintGroup::pinned_vertices() const {
   return {};
 }
 
@@ -40,12 +40,16 @@ std::span<Real> ConstraintGroup::targets() {
   return {};
 }
 
+bool ConstraintGroup::is_external() {
+  return !targets().empty();
+}
+
 std::span<Real> ConstraintGroup::anchor(Index i) {
   const auto first = 3 * static_cast<std::size_t>(i);
   return first < targets().size() ? targets().subspan(first, 3) : std::span<Real>();
 }
 
-std::span<Real> ConstraintGroup::mutable_numbers() {
+std::span<Real> ConstraintGroup::parameters() {
   return targets();
 }
 
@@ -53,7 +57,7 @@ std::unique_ptr<ConstraintGroup> ConstraintGroup::reordered(std::span<const Inde
   return nullptr;
 }
 
-void ConstraintGroup::take_numbers(const ConstraintGroup& from, std::span<const Index>) {
+void ConstraintGroup::sync_parameters(const ConstraintGroup& from, std::span<const Index>) {
   stiffness_ = from.stiffness_;
 }
 
@@ -67,7 +71,7 @@ namespace {
 void check_lengths(const ConstraintGroup& group, const std::string& where) {
   const GroupShape shape = group.shape();
   if (shape.count < 0 || shape.vertices < 1 || shape.rows < 1) {
-    fail_input(where + ": its shape has no vertices, no rows or a negative count; mend shape()");
+    fail_input(where + ": its shape has no vertices, no rows or a negative count; fix shape()");
   }
   if (shape.vertices > max_stencil) {
     fail_input(fmt::format("{}: its constraints have {} vertices, of {} at most; split them", where, shape.vertices,
@@ -80,7 +84,8 @@ void check_lengths(const ConstraintGroup& group, const std::string& where) {
   const auto count = static_cast<std::size_t>(shape.count);
   const std::size_t stencil = count * static_cast<std::size_t>(shape.vertices);
   const std::size_t reduction = stencil * static_cast<std::size_t>(shape.rows);
-  if (group.stencil().size() != stencil || group.reduction().size() != reduction || group.measure().size() != count) {
+  if (group.stencil().size() != stencil || group.reduction().size() != reduction ||
+      group.rest_measure().size() != count) {
     fail_input(where + ": the lengths of stencil, reduction and measure do not fit its shape; give count × n, " +
                "count × k × n and count entries");
   }
@@ -104,19 +109,19 @@ void check_group(ConstraintGroup& group, Index vertex_count, std::string_view na
     }
     const std::size_t size = n * static_cast<std::size_t>(shape.rows);
     if (!std::ranges::all_of(group.reduction().subspan(i * size, size), finite)) {
-      fail_input(constraint() + " has a coefficient that is not finite; mend its rest shape");
+      fail_input(constraint() + " has a coefficient that is not finite; fix its rest shape");
     }
-    if (!(group.measure()[i] > 0) || !std::isfinite(group.measure()[i])) {
-      fail_input(constraint() + " has a measure that is not positive and finite; mend its rest shape or stiffness");
+    if (!(group.rest_measure()[i] > 0) || !std::isfinite(group.rest_measure()[i])) {
+      fail_input(constraint() + " has a measure that is not positive and finite; fix its rest shape or stiffness");
     }
   }
-  for (const Index vertex : group.held_vertices()) {
+  for (const Index vertex : group.pinned_vertices()) {
     if (vertex < 0 || vertex >= vertex_count) fail_index(vertex, vertex_count, where);
   }
-  if (3 * group.held_vertices().size() > group.targets().size()) {
+  if (3 * group.pinned_vertices().size() > group.targets().size()) {
     fail_input(where + " holds vertices that have no target; give each a point");
   }
-  if (!std::ranges::all_of(group.targets(), finite)) fail_input(where + ": a target is not finite; mend it");
+  if (!std::ranges::all_of(group.targets(), finite)) fail_input(where + ": a target is not finite; fix it");
 }
 
 void ConstraintGroup::set_stiffness(Real stiffness) {

@@ -35,7 +35,7 @@ class ConstraintGroup {
   /// Coefficients of A, count × k × n.
   virtual std::span<const Real> reduction() const = 0;
   /// Rest measure of each constraint (length, area, volume, or 1), times its own stiffness where each has one.
-  virtual std::span<const Real> measure() const = 0;
+  virtual std::span<const Real> rest_measure() const = 0;
 
   /// Called once at the start of a step, before anything reads the group: the place to freeze normals.
   virtual void begin_step(const StateView& state, Real time_step);
@@ -51,16 +51,21 @@ class ConstraintGroup {
 
   /// Vertices that the group holds exactly (hard pins). They leave the system of equations; vertex i of them stands at
   /// the point i of targets().
-  virtual std::span<const Index> held_vertices() const;
+  virtual std::span<const Index> pinned_vertices() const;
   /// Points in space that may be moved while the simulation runs, count × 3; empty for a type that has none.
   virtual std::span<Real> targets();
+
+  /// Whether what it does comes from outside of the bodies, as a force does: energy projection then counts the work of
+  /// its forces, and none of its energy as elastic energy. So do groups with targets (soft pins, drags), and those that
+  /// a force brings.
+  virtual bool is_external();
 
   /// The point of constraint i that its builder puts where the vertices are, unless it is told where: a target, the
   /// origin of a line. Three numbers, or none for a type without; as a rule point i of targets().
   virtual std::span<Real> anchor(Index i);
   /// Every number by which this group may differ from one that was made anew of the same options: what a checkpoint
   /// must hold of it, besides the stiffness. A type that keeps others than its targets says so here.
-  virtual std::span<Real> mutable_numbers();
+  virtual std::span<Real> parameters();
 
   /// The same constraints in another order, on renumbered vertices: constraint i of it is constraint order[i] of this
   /// group, vertex v has the number numbers[v]. Its projections are the same to the bit. Null from a group that cannot:
@@ -69,7 +74,7 @@ class ConstraintGroup {
                                                      std::span<const Index> numbers) const;
   /// For what reordered() returns: takes the stiffness and all numbers that may have changed from the group that it was
   /// made of. Never allocates.
-  virtual void take_numbers(const ConstraintGroup& from, std::span<const Index> order);
+  virtual void sync_parameters(const ConstraintGroup& from, std::span<const Index> order);
 
   /// Common factor of all weights; 1 where each constraint has a stiffness of its own.
   Real stiffness() const { return stiffness_; }

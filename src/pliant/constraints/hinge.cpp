@@ -38,7 +38,7 @@ ConstraintSet build(const BodyView& body, const HingeBending& options) {
     const auto corner = [&](std::size_t j) { return row(body.rest.vertices, chosen[i][j]); };
     const RestHinge rest = rest_hinge(corner(0), corner(1), corner(2), corner(3));
     for (const Real area : rest.areas) {
-      check_rest_measure(type, body, i, area, "area in one of its triangles; leave it out, or mend its vertices");
+      check_rest_measure(type, body, i, area, "area in one of its triangles; leave it out, or fix its vertices");
     }
     batches.add(chosen[i], rest.coefficients, stiffness.of(i) / (rest.areas[0] + rest.areas[1]));
   }

@@ -14,8 +14,8 @@ std::unique_ptr<ConstraintGroup> HardPins::reordered(std::span<const Index>, std
   return pins;
 }
 
-void HardPins::take_numbers(const ConstraintGroup& from, std::span<const Index> order) {
-  ConstraintGroup::take_numbers(from, order);
+void HardPins::sync_parameters(const ConstraintGroup& from, std::span<const Index> order) {
+  ConstraintGroup::sync_parameters(from, order);
   std::ranges::copy(dynamic_cast<const HardPins&>(from).targets_, targets_.begin());
 }
 
@@ -64,8 +64,8 @@ std::vector<std::size_t> kept_places(std::span<const Index> vertices, std::span<
 
 std::unique_ptr<ConstraintGroup> release(HardPins& pins, std::span<const Index> released) {
   auto rest = std::make_unique<HardPins>();
-  for (const std::size_t i : kept_places(pins.held_vertices(), released)) {
-    rest->add(pins.held_vertices()[i], Eigen::Map<const Vec3>(pins.targets().subspan(3 * i, 3).data()));
+  for (const std::size_t i : kept_places(pins.pinned_vertices(), released)) {
+    rest->add(pins.pinned_vertices()[i], Eigen::Map<const Vec3>(pins.targets().subspan(3 * i, 3).data()));
   }
   return rest;
 }
@@ -73,7 +73,7 @@ std::unique_ptr<ConstraintGroup> release(HardPins& pins, std::span<const Index> 
 std::unique_ptr<ConstraintGroup> release(const Batch<PositionProjection>& pins, std::span<const Index> released) {
   auto rest = std::make_unique<Batch<PositionProjection>>(pins.stiffness());
   for (const std::size_t i : kept_places(pins.stencil(), released)) {
-    rest->add(pins.stencil().subspan(i, 1), pins.reduction().subspan(i, 1), pins.measure()[i],
+    rest->add(pins.stencil().subspan(i, 1), pins.reduction().subspan(i, 1), pins.rest_measure()[i],
               pins.fields().subspan(3 * i, 3));
   }
   return rest;
@@ -90,7 +90,7 @@ ConstraintSet release(const ConstraintSet& positions, std::span<const Index> ver
     std::unique_ptr<ConstraintGroup> kept;
     if (auto* pins = dynamic_cast<HardPins*>(part.get())) {
       kept = release(*pins, released);
-      all.insert(all.end(), pins->held_vertices().begin(), pins->held_vertices().end());
+      all.insert(all.end(), pins->pinned_vertices().begin(), pins->pinned_vertices().end());
     } else if (const auto* soft = dynamic_cast<const Batch<PositionProjection>*>(part.get())) {
       kept = release(*soft, released);
       all.insert(all.end(), soft->stencil().begin(), soft->stencil().end());

@@ -56,13 +56,13 @@ class HardPins final : public ConstraintGroup {
   GroupShape shape() const override { return {}; }
   std::span<const Index> stencil() const override { return {}; }
   std::span<const Real> reduction() const override { return {}; }
-  std::span<const Real> measure() const override { return {}; }
+  std::span<const Real> rest_measure() const override { return {}; }
   Real project(const Positions&, std::span<Real>, Index, Index) const override { return 0; }
-  std::span<const Index> held_vertices() const override { return held_; }
+  std::span<const Index> pinned_vertices() const override { return held_; }
   std::span<Real> targets() override { return targets_; }
   std::unique_ptr<ConstraintGroup> reordered(std::span<const Index> order,
                                              std::span<const Index> numbers) const override;
-  void take_numbers(const ConstraintGroup& from, std::span<const Index> order) override;
+  void sync_parameters(const ConstraintGroup& from, std::span<const Index> order) override;
 
  private:
   std::vector<Index> held_;

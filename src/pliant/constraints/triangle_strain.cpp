@@ -26,7 +26,7 @@ ConstraintSet build(const BodyView& body, const TriangleStrain& options) {
   for (Index i = 0; i < chosen.size(); ++i) {
     const auto corner = [&](std::size_t j) { return row(body.rest.vertices, chosen[i][j]); };
     const RestElement<3> rest = rest_triangle(corner(0), corner(1), corner(2));
-    check_rest_measure(type, body, i, rest.measure, "area; leave it out, or mend its vertices");
+    check_rest_measure(type, body, i, rest.measure, "area; leave it out, or fix its vertices");
     batch->add(global_stencil(body, chosen[i]), rest.reduction, stiffness.of(i) * rest.measure, limits[i]);
   }
   return one_part(std::move(batch));

@@ -34,6 +34,9 @@ class Force {
   /// however small, so the two are refused together.
   virtual bool is_explicit_spring() const { return false; }
 
+  /// What helps where it has grown without bound: the end of the message of a step that diverges.
+  virtual std::string remedy() const { return "reduce it"; }
+
   /// A warning when this force may be unstable with this time step, with the limit in it.
   virtual std::optional<std::string> warning(const StateView& state, Real time_step) const;
 };

@@ -51,6 +51,7 @@ class Wind final : public Force {
   Wind(std::vector<Triangle> triangles, std::vector<Real> rest_areas, const WindOptions& options);
 
   std::string_view type() const override { return "wind"; }
+  std::string remedy() const override { return "reduce it, or give it `area` `rest` or the model `relative`"; }
 
   /// `relative` is evaluated at vₙ, which alone would overshoot once x = h c ΣA/(3m) passes 2; each vertex' share is
   /// therefore scaled by (1 − e⁻ˣ)/x: the exact decay of a vertex that only the wind acts on.

@@ -10,15 +10,15 @@ namespace {
 
 /// Constraints that the set has in a part, hard pins included.
 std::size_t count_of(const ConstraintGroup& part) {
-  const std::size_t held = part.held_vertices().size();
-  return held > 0 ? held : part.measure().size();
+  const std::size_t held = part.pinned_vertices().size();
+  return held > 0 ? held : part.rest_measure().size();
 }
 
 /// What makes a constraint the same one in another set: its vertices and their coefficients.
 using Identity = std::pair<std::vector<Index>, std::vector<Real>>;
 
 Identity identity(const ConstraintGroup& part, std::size_t i) {
-  if (!part.held_vertices().empty()) return {{part.held_vertices()[i]}, {1}};
+  if (!part.pinned_vertices().empty()) return {{part.pinned_vertices()[i]}, {1}};
   const auto n = static_cast<std::size_t>(part.shape().vertices);
   const std::size_t size = n * static_cast<std::size_t>(part.shape().rows);
   const std::span<const Index> stencil = part.stencil().subspan(i * n, n);
@@ -100,7 +100,7 @@ void Simulation::warn_of(const ConstraintSet& set, const std::string& place) {
 /// A vertex can be held at one place only.
 void Simulation::check_held(const ConstraintGroup& added, const std::string& place,
                             std::optional<GroupId> replaced) const {
-  std::vector<Index> held(added.held_vertices().begin(), added.held_vertices().end());
+  std::vector<Index> held(added.pinned_vertices().begin(), added.pinned_vertices().end());
   std::ranges::sort(held);
   const auto twice = std::ranges::adjacent_find(held);
   if (twice != held.end()) fail_input(place + ": vertex " + std::to_string(*twice) + " is held twice; leave one out");

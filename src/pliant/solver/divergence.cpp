@@ -34,7 +34,7 @@ void Solver::report_divergence(const State& state) const {
   const Real h = substep();
   // In the order of the step. One solve takes the whole body along, so the cause is looked for before that.
   for (Index i = 0; i < vertex_count_; ++i) {
-    if (!is_held_[static_cast<std::size_t>(i)] && is_far(s_.row(i))) {
+    if (!is_pinned_[static_cast<std::size_t>(i)] && is_far(s_.row(i))) {
       fail(state, h, local_groups_.vertex(i), force_reason(state, local_groups_.vertex(i)));
     }
   }
@@ -44,7 +44,7 @@ void Solver::report_divergence(const State& state) const {
     const Index constraint = local_groups_.constraint(g, local);
     const auto first = static_cast<std::size_t>(constraint) * static_cast<std::size_t>(groups_[g]->shape().vertices);
     fail(state, h, groups_[g]->stencil()[first],
-         fmt::format("constraint {} of type {} has a force that is not finite; lessen its stiffness", constraint,
+         fmt::format("constraint {} of type {} has a force that is not finite; reduce its stiffness", constraint,
                      groups_[g]->type()));
   }
   for (Index i = 0; i < vertex_count_; ++i) {
@@ -53,10 +53,10 @@ void Solver::report_divergence(const State& state) const {
     }
     if (is_far(q_.row(i)) || !residual_.row(i).allFinite()) {
       fail(state, h, local_groups_.vertex(i),
-           "the system of equations is too badly conditioned; lessen the ratio of stiffness to m/h²");
+           "the system of equations is too badly conditioned; reduce the ratio of stiffness to m/h²");
     }
   }
-  fail(state, h, 0, "the residual has grown past all numbers; lessen the forces or the stiffness");
+  fail(state, h, 0, "the residual has grown past all numbers; reduce the forces or the stiffness");
 }
 
 std::string Solver::force_reason(const State& state, Index vertex) const {
@@ -67,10 +67,9 @@ std::string Solver::force_reason(const State& state, Index vertex) const {
     alone.setZero();
     force->add_to(alone, state.view(), h);
     if (!is_far(alone.row(vertex) * h * h / mass)) continue;
-    return fmt::format("the force `{}` on it has grown without bound; lessen it{}", force->type(),
-                       force->type() == "wind" ? ", or give the wind `area` `rest` or the model `relative`" : "");
+    return fmt::format("the force `{}` on it has grown without bound; {}", force->type(), force->remedy());
   }
-  return "its velocity has grown without bound; lessen the forces or the time step";
+  return "its velocity has grown without bound; reduce the forces or the time step";
 }
 
 }  // namespace pliant

@@ -86,7 +86,7 @@ SetUpTimes Solver::prepare(const State& state) {
     lay_out_groups();
     times.layout = watch.seconds();
   } else {
-    local_groups_.take_numbers();
+    local_groups_.sync_parameters();
   }
   if (factor_step_ != inertia_step(settings_.integrator, substep()) || stiffness_changed()) factorize(state, times);
   history_.clear();
@@ -122,9 +122,9 @@ void Solver::lay_out_groups() {
     places_.emplace(group, stamps_.size());
     stamps_.push_back({group->revision(), group->stiffness()});
   }
-  is_held_.assign(static_cast<std::size_t>(vertex_count_), 0);
+  is_pinned_.assign(static_cast<std::size_t>(vertex_count_), 0);
   for (const ConstraintGroup* group : groups) {
-    for (const Index vertex : group->held_vertices()) is_held_[static_cast<std::size_t>(vertex)] = 1;
+    for (const Index vertex : group->pinned_vertices()) is_pinned_[static_cast<std::size_t>(vertex)] = 1;
   }
   lay_out_parts(groups);
   groups_laid_out_ = true;
@@ -133,15 +133,15 @@ void Solver::lay_out_groups() {
 
 void Solver::lay_out_parts(std::span<ConstraintGroup* const> groups) {
   ConnectedParts parts = find_parts(system_matrix_.matrix());
-  free_parts_ = find_free_parts(parts, groups, is_held_);
-  energy_.set_parts(parts, free_parts_, is_held_);
+  free_parts_ = find_free_parts(parts, groups, is_pinned_);
+  energy_.set_parts(parts, free_parts_, is_pinned_);
   local_step_.set_parts(energy_.part_of_vertex());
   for (Index& vertex : parts.vertices) vertex = local_groups_.vertex(vertex);
-  std::vector<char> is_held(is_held_.size());
-  for (std::size_t i = 0; i < is_held.size(); ++i) {
-    is_held[static_cast<std::size_t>(local_groups_.vertex(static_cast<Index>(i)))] = is_held_[i];
+  std::vector<char> is_pinned(is_pinned_.size());
+  for (std::size_t i = 0; i < is_pinned.size(); ++i) {
+    is_pinned[static_cast<std::size_t>(local_groups_.vertex(static_cast<Index>(i)))] = is_pinned_[i];
   }
-  damping_.set_parts(std::move(parts), std::move(is_held));
+  damping_.set_parts(std::move(parts), std::move(is_pinned));
 }
 
 void Solver::weigh_inertia(const State& state, Real step) {
@@ -149,7 +149,7 @@ void Solver::weigh_inertia(const State& state, Real step) {
   inertia_weights_.resize(state.masses.size());
   for (std::size_t i = 0; i < inertia_weights_.size(); ++i) {
     masses_[i] = state.masses[static_cast<std::size_t>(local_groups_.vertex(static_cast<Index>(i)))];
-    inertia_weights_[i] = is_held_[i] ? 0 : masses_[i] / (step * step);
+    inertia_weights_[i] = is_pinned_[i] ? 0 : masses_[i] / (step * step);
   }
 }
 
@@ -159,7 +159,7 @@ void Solver::factorize(const State& state, SetUpTimes& times) {
   for (std::size_t g = 0; g < groups_.size(); ++g) stamps_[g].stiffness = groups_[g]->stiffness();
   factor_step_ = 0;  // until this succeeds
   weigh_inertia(state, step);
-  system_matrix_.sum(masses_, step, local_groups_.in_use(), is_held_);
+  system_matrix_.sum(masses_, step, local_groups_.in_use(), is_pinned_);
   times.assembly = watch.lap();
   if (!pattern_analyzed_) global_step_.analyze(system_matrix_.matrix());
   pattern_analyzed_ = true;

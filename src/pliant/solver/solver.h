@@ -88,7 +88,7 @@ class Solver {
   [[noreturn]] void give_up(const State& state) const;
   void predict(const State& state);
   void start_from_positions(const State& state);
-  void place_held_vertices(Positions& q) const;
+  void apply_pins(Positions& q) const;
   void record(const LocalResult& result);
   void check_finite(const State& state) const;
   [[noreturn]] void report_divergence(const State& state) const;
@@ -98,7 +98,7 @@ class Solver {
   void add_forces(const State& state);
   void begin_energy(const State& state);
   void find_outside_forces(const State& state);
-  void count_targets_as_outside();
+  void count_external_groups();
   void evaluate_end(const State& state);
   void keep_energy(const State& state);
   void commit_energy(State& state);
@@ -124,7 +124,7 @@ class Solver {
   bool groups_laid_out_ = false;
   bool pattern_analyzed_ = false;
 
-  std::vector<char> is_held_;
+  std::vector<char> is_pinned_;
   ConnectedParts free_parts_;
   std::vector<Real> masses_;
   std::vector<Real> inertia_weights_;  // M/η², 0 at held vertices

@@ -31,12 +31,12 @@ void Solver::take_substep(State& state, StepReport& report) {
   /* 1-2 */ predict(state);  // s = q + h v + h² M⁻¹ f
   if (keeps_energy()) begin_energy(state);
   /* 3   */ settings_.start == Start::prediction ? void(q_ = s_) : start_from_positions(state);
-  place_held_vertices(q_);
+  apply_pins(q_);
   bool reached_tolerance = false;
   /* 4   */ for (Index i = 0; i < settings_.iterations; ++i) {
     if (stop_ && stop_()) give_up(state);
     const Stopwatch local;
-    /* 5 */ const LocalResult found = local_step_.run(q_, s_, inertia_weights_, is_held_, residual_, *threads_);
+    /* 5 */ const LocalResult found = local_step_.run(q_, s_, inertia_weights_, is_pinned_, residual_, *threads_);
     if (!std::isfinite(found.residual)) report_divergence(state);
     record(found);
     report.residual = found.residual;
@@ -98,9 +98,9 @@ void Solver::start_from_positions(const State& state) {
   for (Index i = 0; i < vertex_count_; ++i) q_.row(i) = state.positions.row(local_groups_.vertex(i));
 }
 
-void Solver::place_held_vertices(Positions& q) const {
+void Solver::apply_pins(Positions& q) const {
   for (ConstraintGroup* group : local_groups_.in_use()) {
-    const std::span<const Index> held = group->held_vertices();
+    const std::span<const Index> held = group->pinned_vertices();
     const std::span<const Real> targets = group->targets();
     for (std::size_t i = 0; i < held.size(); ++i) {
       const Eigen::Map<const Vec3> target(targets.data() + 3 * i);
@@ -161,11 +161,11 @@ Evaluation Solver::evaluate(const State& state) {
   const bool is_new = !groups_laid_out_ || groups_changed();
   const bool is_predicted = predicted_step_ > 0;
   if (!is_predicted || is_new) begin_groups(state);
-  is_new ? lay_out_groups() : local_groups_.take_numbers();
+  is_new ? lay_out_groups() : local_groups_.sync_parameters();
   start_from_positions(state);
   if (!is_predicted) s_ = q_;
   weigh_inertia(state, is_predicted ? predicted_step_ : substep());
-  const LocalResult found = local_step_.run(q_, s_, inertia_weights_, is_held_, residual_, *threads_);
+  const LocalResult found = local_step_.run(q_, s_, inertia_weights_, is_pinned_, residual_, *threads_);
   return {found.residual, found.inertia, found.elastic};
 }
 

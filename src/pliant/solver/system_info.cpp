@@ -70,7 +70,7 @@ SystemInfo Solver::system_info(const State& state) {
   local_step_.describe(info);
   constexpr auto entry_bytes = static_cast<std::int64_t>(sizeof(Real) + sizeof(Index));
   info.bytes = info.matrix_entries * entry_bytes + info.sweep_bytes;
-  info.held_vertices = static_cast<Index>(std::ranges::count_if(is_held_, [](char held) { return held != 0; }));
+  info.pinned_vertices = static_cast<Index>(std::ranges::count_if(is_pinned_, [](char held) { return held != 0; }));
 
   for (std::size_t i = 0; i < free_parts_.count(); ++i) {
     const std::span<const Index> part = free_parts_.part(i);
@@ -82,9 +82,9 @@ SystemInfo Solver::system_info(const State& state) {
   std::ranges::sort(info.free_parts, {}, &FreePart::first_vertex);
 
   SystemMatrix elastic = system_matrix_;
-  elastic.sum(masses_, std::numeric_limits<Real>::infinity(), local_groups_.in_use(), is_held_);  // M/h² vanishes
+  elastic.sum(masses_, std::numeric_limits<Real>::infinity(), local_groups_.in_use(), is_pinned_);  // M/h² vanishes
   Vector scale(vertex_count_);
-  for (Index i = 0; i < vertex_count_; ++i) scale[i] = is_held_[at(i)] ? 0 : 1 / std::sqrt(masses_[at(i)]);
+  for (Index i = 0; i < vertex_count_; ++i) scale[i] = is_pinned_[at(i)] ? 0 : 1 / std::sqrt(masses_[at(i)]);
   info.fastest_frequency = std::sqrt(largest_eigenvalue(elastic.matrix(), scale));
   return info;
 }

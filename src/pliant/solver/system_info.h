@@ -20,8 +20,8 @@ struct SystemInfo {
   std::int64_t partial_list_bytes = 0;       ///< of the lists by which vertices read them
   std::int64_t bytes = 0;                    ///< that matrix and factor take
   Precision precision = Precision::double_;  ///< of the panels in use
-  Real contraction = 0;     ///< of single precision: the share of an error that a solve leaves; 0 when not asked for
-  Index held_vertices = 0;  ///< by hard pins; the others are free
+  Real contraction = 0;       ///< of single precision: the share of an error that a solve leaves; 0 when not asked for
+  Index pinned_vertices = 0;  ///< by hard pins; the others are free
   std::vector<FreePart> free_parts;
   /// √λ_max(M⁻¹K) [rad/s], K the sum of the constraints' matrices on the free vertices: no vibration is faster. From
   /// below, to about a part in a thousand.

@@ -119,7 +119,7 @@ void restore_groups(const Node& list, const Simulation& simulation) {
     parts.require_list(group.set.parts.size(), "(one a part)");
     for (std::size_t p = 0; p < group.set.parts.size(); ++p) {
       ConstraintGroup& part = *group.set.parts[p];
-      read_numbers(parts[p].require("numbers"), part.mutable_numbers());
+      read_numbers(parts[p].require("numbers"), part.parameters());
       const Node stiffness = parts[p].require("stiffness");
       stiffness.locate([&] { part.set_stiffness(read_real(stiffness)); });
     }

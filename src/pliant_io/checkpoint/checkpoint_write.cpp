@@ -94,7 +94,7 @@ Json write_groups(const Simulation& simulation) {
   for (const auto& [id, group] : simulation.groups()) {
     Json parts = Json::array();
     for (const auto& part : group.set.parts) {
-      parts.push_back({{"stiffness", part->stiffness()}, {"numbers", bytes_of(part->mutable_numbers())}});
+      parts.push_back({{"stiffness", part->stiffness()}, {"numbers", bytes_of(part->parameters())}});
     }
     groups.push_back({{"name", bytes_of(group.name)}, {"parts", std::move(parts)}});
   }

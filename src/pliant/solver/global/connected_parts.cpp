@@ -64,8 +64,8 @@ ConnectedParts find_parts(const LowerMatrix& matrix) {
 }
 
 ConnectedParts find_free_parts(const ConnectedParts& parts, std::span<ConstraintGroup* const> groups,
-                               std::span<const char> is_held) {
-  std::vector<char> is_anchored(is_held.begin(), is_held.end());
+                               std::span<const char> is_pinned) {
+  std::vector<char> is_anchored(is_pinned.begin(), is_pinned.end());
   for (const ConstraintGroup* group : groups) mark_anchored(*group, is_anchored);
   ConnectedParts free;
   for (std::size_t i = 0; i < parts.count(); ++i) {

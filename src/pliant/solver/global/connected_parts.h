@@ -22,6 +22,6 @@ ConnectedParts find_parts(const LowerMatrix& matrix);
 /// Those of the parts none of whose vertices belongs to a constraint that a translation does not leave as it is (pins,
 /// drags, lines), or is held exactly.
 ConnectedParts find_free_parts(const ConnectedParts& parts, std::span<ConstraintGroup* const> groups,
-                               std::span<const char> is_held);
+                               std::span<const char> is_pinned);
 
 }  // namespace pliant

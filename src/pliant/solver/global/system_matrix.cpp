@@ -76,7 +76,7 @@ SystemMatrix::UnitMatrix SystemMatrix::unit_matrix(const ConstraintGroup& group,
   const auto n = static_cast<std::size_t>(shape.vertices);
   const auto k = static_cast<std::size_t>(shape.rows);
   const std::span<const Real> reduction = group.reduction();
-  const std::span<const Real> measure = group.measure();
+  const std::span<const Real> measure = group.rest_measure();
   UnitMatrix unit;
   const auto add = [&](Index where, std::size_t i, std::size_t a, std::size_t b) {
     Real product = 0;
@@ -104,7 +104,7 @@ SystemMatrix::UnitMatrix SystemMatrix::unit_matrix(const ConstraintGroup& group,
 }
 
 void SystemMatrix::sum(std::span<const Real> masses, Real time_step, std::span<const ConstraintGroup* const> groups,
-                       std::span<const char> is_held) {
+                       std::span<const char> is_pinned) {
   std::ranges::fill(matrix_.values, Real(0));
   const Index m = matrix_.size();
   for (Index i = 0; i < m; ++i) {
@@ -120,7 +120,7 @@ void SystemMatrix::sum(std::span<const Real> masses, Real time_step, std::span<c
   for (Index column = 0; column < m; ++column) {
     const Index diagonal = matrix_.column_starts[at(column)];
     for (Index e = diagonal + 1; e < matrix_.column_starts[at(column) + 1]; ++e) {
-      if (is_held[at(column)] || is_held[at(matrix_.rows[at(e)])]) matrix_.values[at(e)] = 0;
+      if (is_pinned[at(column)] || is_pinned[at(matrix_.rows[at(e)])]) matrix_.values[at(e)] = 0;
     }
   }
 }

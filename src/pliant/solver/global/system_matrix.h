@@ -26,7 +26,7 @@ class SystemMatrix {
 
   /// Sums the matrix for these masses [kg], this time step [s] and the groups' stiffnesses.
   void sum(std::span<const Real> masses, Real time_step, std::span<const ConstraintGroup* const> groups,
-           std::span<const char> is_held);
+           std::span<const char> is_pinned);
 
   const LowerMatrix& matrix() const { return matrix_; }
 

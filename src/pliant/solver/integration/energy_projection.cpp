@@ -32,10 +32,10 @@ Real turning_energy(const Mat3& inertia, const Vec3& angular_momentum) {
 }  // namespace
 
 void EnergyProjection::set_parts(ConnectedParts parts, const ConnectedParts& free_parts,
-                                 std::span<const char> is_held) {
+                                 std::span<const char> is_pinned) {
   parts_ = std::move(parts);
-  is_held_.assign(is_held.begin(), is_held.end());
-  part_of_vertex_.resize(is_held.size());
+  is_pinned_.assign(is_pinned.begin(), is_pinned.end());
+  part_of_vertex_.resize(is_pinned.size());
   for (std::size_t p = 0; p < parts_.count(); ++p) {
     for (const Index v : parts_.part(p)) part_of_vertex_[at(v)] = static_cast<Index>(p);
   }
@@ -58,7 +58,7 @@ Real EnergyProjection::vibration(std::size_t part, const RigidMotion& rigid, con
                                  const Positions& velocities) const {
   Real energy = 0;
   for (const Index v : parts_.part(part)) {
-    if (is_held_[at(v)]) continue;
+    if (is_pinned_[at(v)]) continue;
     energy += masses_[at(v)] / 2 * (row(velocities, v) - rigid.velocity_at(row(positions, v))).squaredNorm();
   }
   return energy;
@@ -97,7 +97,7 @@ EnergyProjection::Work EnergyProjection::outside_work(std::size_t part, const Ri
   Work work;
   for (const Index v : parts_.part(part)) {
     const Vec3 way = row(end.positions, v) - row(positions_, v);
-    if (is_held_[at(v)]) {
+    if (is_pinned_[at(v)]) {
       work.add(-(row(elastic_forces_, v) + row(end.elastic_forces, v)).dot(way) / 2);
       continue;
     }
@@ -151,7 +151,7 @@ void EnergyProjection::write_forces(std::size_t part, const StepEnd& end, const 
   }
   for (const Index v : parts_.part(part)) {
     const Vec3 force = force_on(v) - masses_[at(v)] * acceleration;
-    forces.row(v) = (is_held_[at(v)] ? Vec3(Vec3::Zero()) : force).transpose();
+    forces.row(v) = (is_pinned_[at(v)] ? Vec3(Vec3::Zero()) : force).transpose();
   }
 }
 
@@ -179,7 +179,7 @@ void EnergyProjection::move(const StepEnd& end, const OutsideForces& outside, co
       const Real along = row(forces, v).dot(row(way, v));
       slope += along;
       curvature += along - weights[at(v)] * way.row(v).squaredNorm();
-      if (!is_held_[at(v)]) work += row(outside.along_velocities, v).dot(row(way, v));
+      if (!is_pinned_[at(v)]) work += row(outside.along_velocities, v).dot(row(way, v));
     }
     Balance& balance = balances_[p];
     const RigidMotion rigid = rigid_motion(p, end.positions, end.velocities);
@@ -209,7 +209,7 @@ void EnergyProjection::finish(const StepEnd& end, const OutsideForces& outside, 
     const Real surplus = scaled * (factor * factor - 1) - missing;
     if (surplus > balance.noise) balance.debt += surplus;
     for (const Index v : parts_.part(p)) {
-      if (is_held_[at(v)]) continue;
+      if (is_pinned_[at(v)]) continue;
       const Vec3 x = row(end.positions, v);
       const Vec3 vibration = row(end.velocities, v) - rigid.velocity_at(x);
       velocities.row(v) = (rigid.velocity + turning.cross(x - rigid.center) + factor * vibration).transpose();

@@ -6,8 +6,9 @@
 //     H* = T(vₙ) + V(qₙ) + W                     what the part had, and what was done on it from outside
 //     q ← q + λ Y⁻¹ ∇H,  v ← v_rigid + (1 + λ) (v − v_rigid)      with λ such that T + V = H*
 //
-// V is the elastic energy of all constraints but those with targets: these (soft pins, drags) count as forces from
-// outside, with the force at which the step leaves them, so their own springs stay damped by the step. A part that
+// V is the elastic energy of all constraints but external ones (ConstraintGroup::is_external: soft pins, drags, what a
+// force brings): these count as forces from outside, with the force at which the step leaves them, so their own springs
+// stay damped by the step. A part that
 // nothing holds is seen from its center, whose flight is left alone, and v_rigid is its turning with the angular
 // momentum that it should have; of a part that something holds v_rigid is 0.
 #include <cmath>
@@ -34,7 +35,7 @@ struct OutsideForces {
 class EnergyProjection {
  public:
   /// The parts, which of them nothing holds, and which vertices are held exactly.
-  void set_parts(ConnectedParts parts, const ConnectedParts& free_parts, std::span<const char> is_held);
+  void set_parts(ConnectedParts parts, const ConnectedParts& free_parts, std::span<const char> is_pinned);
   std::size_t part_count() const { return parts_.count(); }
   /// The part of each vertex.
   std::span<const Index> part_of_vertex() const { return part_of_vertex_; }
@@ -93,8 +94,8 @@ class EnergyProjection {
   void write_forces(std::size_t part, const StepEnd& end, const OutsideForces& outside, Positions& forces) const;
 
   ConnectedParts parts_;
-  std::vector<char> is_free_;  // of each part
-  std::vector<char> is_held_;  // of each vertex
+  std::vector<char> is_free_;    // of each part
+  std::vector<char> is_pinned_;  // of each vertex
   std::vector<Index> part_of_vertex_;
   std::vector<Balance> balances_;
   std::span<const Real> masses_;

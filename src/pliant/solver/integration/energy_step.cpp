@@ -48,7 +48,7 @@ void Solver::begin_energy(const State& state) {
   }
   evaluate_elastic();
   work.along_positions.setZero();
-  count_targets_as_outside();
+  count_external_groups();
   energy_.begin({q_, work.velocities, work.elastic, work.elastic_forces}, masses_, work.debts);
 }
 
@@ -71,12 +71,12 @@ void Solver::find_outside_forces(const State& state) {
   }
 }
 
-/// What springs to targets do counts as from outside: their V is left out, so their forces are too.
-void Solver::count_targets_as_outside() {
+/// What external groups do counts as from outside: their V is left out, so their forces are too.
+void Solver::count_external_groups() {
   EnergyWork& work = energy_work_;
   for (ConstraintGroup* group : local_groups_.in_use()) {
     const GroupShape shape = group->shape();
-    if (group->targets().empty() || shape.count == 0) continue;
+    if (!group->is_external() || shape.count == 0) continue;
     const auto n = static_cast<std::size_t>(shape.vertices);
     const auto k = static_cast<std::size_t>(shape.rows);
     work.slot.resize(3 * k);
@@ -96,7 +96,7 @@ void Solver::count_targets_as_outside() {
 void Solver::evaluate_end(const State& state) {
   find_outside_forces(state);
   evaluate_elastic();
-  count_targets_as_outside();
+  count_external_groups();
 }
 
 void Solver::keep_energy(const State& state) {

@@ -4,9 +4,9 @@
 
 namespace pliant {
 
-void RigidDamping::set_parts(ConnectedParts parts, std::vector<char> is_held) {
+void RigidDamping::set_parts(ConnectedParts parts, std::vector<char> is_pinned) {
   parts_ = std::move(parts);
-  is_held_ = std::move(is_held);
+  is_pinned_ = std::move(is_pinned);
 }
 
 void RigidDamping::apply(const Positions& positions, std::span<const Real> masses, Real factor,
@@ -19,7 +19,7 @@ void RigidDamping::apply_to(std::span<const Index> part, const Positions& positi
   const RigidMotion motion = fit_rigid_motion(part, positions, masses, velocities);
   if (!motion.turning.allFinite()) return;
   for (const Index v : part) {
-    if (is_held_[static_cast<std::size_t>(v)]) continue;
+    if (is_pinned_[static_cast<std::size_t>(v)]) continue;
     const Vec3 rigid = motion.velocity_at(row(positions, v));
     velocities.row(v) = (rigid + factor * (row(velocities, v) - rigid)).transpose();
   }

@@ -10,7 +10,7 @@ class RigidDamping {
  public:
   /// Parts of connected vertices, and which vertices are held: their velocities are not changed. All with the indices
   /// of the simulation.
-  void set_parts(ConnectedParts parts, std::vector<char> is_held);
+  void set_parts(ConnectedParts parts, std::vector<char> is_pinned);
 
   /// v ← v_rigid + factor (v − v_rigid). The rigid motion v_rigid = c + ω × x, nearest to v in Σ m ‖·‖², has the part's
   /// momentum and angular momentum, so the damped velocities of a part without held vertices have them too. A part on a
@@ -22,7 +22,7 @@ class RigidDamping {
                 Positions& velocities) const;
 
   ConnectedParts parts_;
-  std::vector<char> is_held_;
+  std::vector<char> is_pinned_;
 };
 
 }  // namespace pliant

@@ -159,7 +159,7 @@ void LocalStep::lay_out_vertices(Index vertex_count, std::span<const Index> part
 }
 
 LocalResult LocalStep::run(const Positions& q, const Positions& s, std::span<const Real> inertia_weights,
-                           std::span<const char> is_held, Positions& r, ThreadPool& threads) {
+                           std::span<const char> is_pinned, Positions& r, ThreadPool& threads) {
   LocalResult result;
   const Stopwatch projections;
   slots_.resize(static_cast<std::size_t>(threads.thread_count()));
@@ -173,7 +173,7 @@ LocalResult LocalStep::run(const Positions& q, const Positions& s, std::span<con
   threads.parallel_for(static_cast<Index>(vertex_sums_.size()), [&](Index i) {
     const Index begin = i * vertices_per_chunk;
     const Index end = std::min(vertex_count, begin + vertices_per_chunk);
-    vertex_sums_[static_cast<std::size_t>(i)] = gather(begin, end, q, s, inertia_weights, is_held, r);
+    vertex_sums_[static_cast<std::size_t>(i)] = gather(begin, end, q, s, inertia_weights, is_pinned, r);
   });
   for (const Real energy : chunk_energies_) result.elastic += energy;
   for (const VertexSums& sums : vertex_sums_) {
@@ -213,12 +213,12 @@ void LocalStep::collect(const Chunk& chunk, const Real* slots) {
 }
 
 LocalStep::VertexSums LocalStep::gather(Index begin, Index end, const Positions& q, const Positions& s,
-                                        std::span<const Real> inertia_weights, std::span<const char> is_held,
+                                        std::span<const Real> inertia_weights, std::span<const char> is_pinned,
                                         Positions& r) const {
   VertexSums sums;
   for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
     Real* out = r.data() + 3 * i;
-    if (is_held[i]) {
+    if (is_pinned[i]) {
       std::fill_n(out, 3, Real(0));
       continue;
     }
@@ -263,7 +263,7 @@ void LocalStep::elastic_energies(const Positions& q, std::span<Real> of_parts) {
   for (std::size_t c = 0; c < chunks_.size(); ++c) {
     const Chunk& chunk = chunks_[c];
     ConstraintGroup& group = *groups_[chunk.group];
-    if (!group.targets().empty()) continue;
+    if (group.is_external()) continue;
     if (chunk.part != mixed) {
       of_parts[static_cast<std::size_t>(chunk.part)] += chunk_energies_[c];
       continue;

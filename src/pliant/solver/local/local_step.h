@@ -28,11 +28,11 @@ class LocalStep {
 
   /// Writes r (m × 3) [N], zero at held vertices. inertia_weights: M/h² of each vertex, 0 at held ones.
   LocalResult run(const Positions& q, const Positions& s, std::span<const Real> inertia_weights,
-                  std::span<const char> is_held, Positions& r, ThreadPool& threads);
+                  std::span<const char> is_pinned, Positions& r, ThreadPool& threads);
 
   /// Which part each vertex is in, as elastic_energies() will have it. A constraint is in that of its vertices.
   void set_parts(std::span<const Index> part_of_vertex);
-  /// Elastic energy of each part in the last run, which was at q, but for groups with targets [J].
+  /// Elastic energy of each part in the last run, which was at q, but for external groups [J].
   void elastic_energies(const Positions& q, std::span<Real> of_parts);
 
   /// Elastic energy of a group in the last run [J].
@@ -72,7 +72,7 @@ class LocalStep {
   template <bool units>
   void collect(const Chunk& chunk, const Real* slots);
   VertexSums gather(Index begin, Index end, const Positions& q, const Positions& s,
-                    std::span<const Real> inertia_weights, std::span<const char> is_held, Positions& r) const;
+                    std::span<const Real> inertia_weights, std::span<const char> is_pinned, Positions& r) const;
 
   std::vector<ConstraintGroup*> groups_;
   std::size_t slot_count_ = 0;

@@ -143,8 +143,8 @@ bool LocalGroups::reorder(Index vertex_count) {
   return true;
 }
 
-void LocalGroups::take_numbers() {
-  for (std::size_t g = 0; g < copies_.size(); ++g) copies_[g]->take_numbers(*groups_[g], order_.constraints[g]);
+void LocalGroups::sync_parameters() {
+  for (std::size_t g = 0; g < copies_.size(); ++g) copies_[g]->sync_parameters(*groups_[g], order_.constraints[g]);
 }
 
 Positions LocalGroups::in_local_order(const Positions& x) const {

@@ -23,7 +23,7 @@ class LocalGroups {
   /// Copies in a local order. False where a group cannot be copied so; then nothing changes.
   bool reorder(Index vertex_count);
   /// To be called after the groups of the simulation may have changed numbers: targets, normals, stiffness.
-  void take_numbers();
+  void sync_parameters();
 
   std::span<ConstraintGroup* const> in_use() const { return in_use_; }
   /// The vertex of the simulation, for one of the groups in use.

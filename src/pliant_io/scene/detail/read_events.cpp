@@ -244,10 +244,10 @@ Timeline::Edit EventReader::read_remove(const Node& node) {
 }
 
 /// The vertices that a group of positions holds, with the indices of its body, in the order of its targets.
-std::vector<Index> held_vertices(const Simulation& simulation, const Group& group) {
+std::vector<Index> pinned_vertices(const Simulation& simulation, const Group& group) {
   std::vector<Index> vertices;
   for (const auto& part : group.set.parts) {
-    const std::span<const Index> held = part->held_vertices().empty() ? part->stencil() : part->held_vertices();
+    const std::span<const Index> held = part->pinned_vertices().empty() ? part->stencil() : part->pinned_vertices();
     vertices.insert(vertices.end(), held.begin(), held.end());
   }
   for (Index& vertex : vertices) vertex -= simulation.body(group.body).first_vertex;
@@ -313,7 +313,7 @@ Timeline::Edit EventReader::read_release(const Node& node) {
                           printable(name), type_of(entry.options)));
   }
   const Group& group = scene_.simulation.groups().at(find_group(scene_.simulation, name));
-  const std::vector<Index> held = held_vertices(scene_.simulation, group);
+  const std::vector<Index> held = pinned_vertices(scene_.simulation, group);
   const std::string_view key = node_.require_one_of({"vertices", "index"});
   const std::vector<Index> released = key == "vertices"
                                           ? read_released(node_.require(key), scene_.body(entry.body), held)

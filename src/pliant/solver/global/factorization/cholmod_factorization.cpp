@@ -142,7 +142,7 @@ class CholmodFactorization final : public Factorization {
     if (common_.status == CHOLMOD_OUT_OF_MEMORY || common_.status == CHOLMOD_TOO_LARGE) {
       fail_input("the factor of the system matrix does not fit into memory; use a coarser mesh");
     }
-    fail_input("the system matrix is not positive definite to rounding; lessen the ratio of stiffness to m/h²");
+    fail_input("the system matrix is not positive definite to rounding; reduce the ratio of stiffness to m/h²");
   }
 
   cholmod_common common_;

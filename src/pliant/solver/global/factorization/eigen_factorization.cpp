@@ -26,7 +26,7 @@ class EigenFactorization final : public Factorization {
   void factorize(const LowerMatrix& matrix) override {
     llt_.factorize(EigenMatrix(view(matrix)));
     if (llt_.info() == Eigen::Success) return;
-    fail_input("the system matrix is not positive definite to rounding; lessen the ratio of stiffness to m/h²");
+    fail_input("the system matrix is not positive definite to rounding; reduce the ratio of stiffness to m/h²");
   }
 
   FactorView factor() const override {
