@@ -76,7 +76,7 @@ class CholmodFactorization final : public Factorization {
     if (ordering == Ordering::minimum_degree) common_.method[0].ordering = CHOLMOD_AMD;
     if (ordering == Ordering::nested_dissection) common_.method[0].ordering = CHOLMOD_METIS;
     // Which columns are joined into one panel although that stores zeros: up to so many columns always, and more of
-    // them for ever smaller shares of zeros (benchmarks/NOTES.md, "Panels").
+    // them for ever smaller shares of zeros (benchmarks/NOTES.md, "How many zeros may panels store?").
     std::ranges::copy(std::array{4, 8, 16}, common_.nrelax);
     std::ranges::copy(std::array{0.5, 0.2, 0.1}, common_.zrelax);
   }
