@@ -15,10 +15,8 @@ LAYERS = {
     "pliant/mesh": ["pliant/core"],
     "pliant/constraints": ["pliant/core", "pliant/mesh"],
     "pliant/forces": ["pliant/core", "pliant/mesh"],
-    "pliant/collision": ["pliant/core", "pliant/mesh"],
     "pliant/solver": ["pliant/core", "pliant/constraints/constraint_group.h", "pliant/forces/force.h"],
-    "pliant/simulation": ["pliant/core", "pliant/mesh", "pliant/constraints", "pliant/forces", "pliant/collision",
-                          "pliant/solver"],
+    "pliant/simulation": ["pliant/core", "pliant/mesh", "pliant/constraints", "pliant/forces", "pliant/solver"],
 }
 LAYERS["pliant/timeline"] = LAYERS["pliant/simulation"] + ["pliant/simulation"]
 # All of the algorithm, and of files what is below.
@@ -173,8 +171,6 @@ SELF_TEST = [
     ("src/pliant/constraints/a.h", '"pliant/forces/b.h"', True),
     ("src/pliant/constraints/a.h", '"pliant/solver/b.h"', True),
     ("src/pliant/forces/a.h", '"pliant/constraints/b.h"', True),
-    ("src/pliant/collision/a.h", '"pliant/constraints/constraint_group.h"', True),
-    ("src/pliant/collision/a.h", '"pliant/constraints/batch.h"', True),
     ("src/pliant/solver/a.h", '"pliant/constraints/constraint_group.h"', False),
     ("src/pliant/solver/a.h", '"pliant/forces/force.h"', False),
     ("src/pliant/solver/a.h", '"pliant/forces/wind.h"', True),

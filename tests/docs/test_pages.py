@@ -1,4 +1,5 @@
 """The pages of the documentation: what they quote is compiled, what they link to is there, what they tell to type works."""
+import importlib.util
 import json
 import os
 import pathlib
@@ -56,6 +57,42 @@ class Pages(unittest.TestCase):
         version = re.search(r"project\(pliant VERSION (\d+\.\d+)", (SOURCE / "CMakeLists.txt").read_text())[1]
         for file in ("docs/cpp.md", "examples/consumer/CMakeLists.txt"):
             self.assertIn(f"find_package(pliant {version} REQUIRED)", (SOURCE / file).read_text(), file)
+
+
+class Tree(unittest.TestCase):
+    """What the pages say of the source is so."""
+
+    def test_layers_are_folders_and_listed_for_contributors(self):
+        spec = importlib.util.spec_from_file_location("check_layers", SOURCE / "scripts" / "check_layers.py")
+        check_layers = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(check_layers)
+        folders = {path.relative_to(SOURCE / "src").as_posix() for path in (SOURCE / "src").glob("*/*/")}
+        self.assertEqual(set(check_layers.LAYERS), {folder for folder in folders if (SOURCE / "src" / folder).is_dir()})
+        listed = re.findall(r"^\| `(pliant\w*/\w+)` \|", (SOURCE / "CONTRIBUTING.md").read_text(), re.MULTILINE)
+        self.assertEqual(set(check_layers.LAYERS), set(listed))
+
+    def test_folders_of_the_architecture_exist(self):
+        page = (SOURCE / "docs" / "architecture.md").read_text().split("\n## ")[0]
+        for target in ("pliant", "pliant_io"):
+            table = re.search(rf"\| `src/{target}/`.*?\n\n", page, re.DOTALL)[0]
+            rooms = re.findall(r"^\| `([\w/.]+)` \|", table, re.MULTILINE)
+            self.assertGreater(len(rooms), 5)
+            for room in rooms:
+                self.assertTrue((SOURCE / "src" / target / room).exists(), room)
+
+    def test_functions_of_the_algorithm_exist(self):
+        page = (SOURCE / "docs" / "algorithm.md").read_text()
+        table = re.search(r"## One step\n\n(.*?)\n\n", page, re.DOTALL)[1]
+        text = {path: path.read_text() for path in (SOURCE / "src" / "pliant").rglob("*.h")}
+        functions = re.findall(r"`(\w+)::(\w+)`", table)
+        self.assertGreater(len(functions), 5)
+        for owner, function in functions:
+            with self.subTest(f"{owner}::{function}"):
+                headers = [t for t in text.values() if re.search(rf"^class {owner}\b[^;]*\{{", t, re.MULTILINE)]
+                self.assertEqual(len(headers), 1)
+                self.assertRegex(headers[0], rf"\b{function}\(")
+        for place in re.findall(r"`([\w/.]+/[\w.]*)`", "".join(row.split("|")[4] for row in table.splitlines()[2:])):
+            self.assertTrue((SOURCE / "src" / "pliant" / place).exists(), place)
 
 
 class FirstGarment(unittest.TestCase):
