@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 
 #include "pliant/pliant.h"
-#include "viewer/live_stage.h"
+#include "viewer/live_source.h"
 #include "viewer/viewer.h"
 
 namespace {
@@ -48,8 +48,8 @@ struct Count {
 Count count_steps(pliant_viewer::LiveScene& live) {
   std::atomic<bool> is_done = false;
   Count count{};
-  live.post([&](pliant_viewer::Workshop& workshop) {
-    count = {workshop.session.simulation().state().step, Clock::now()};
+  live.post([&](pliant_viewer::CommandContext& context) {
+    count = {context.session.simulation().state().step, Clock::now()};
     is_done = true;
     is_done.notify_one();
   });
@@ -62,7 +62,7 @@ double rate(const Count& from, const Count& to) {
 }
 
 void run_unlimited(pliant_viewer::LiveScene& live) {
-  live.post([](pliant_viewer::Workshop& workshop) { workshop.pacer.set_speed(pliant_viewer::Pacer::unlimited); });
+  live.post([](pliant_viewer::CommandContext& context) { context.pacer.set_speed(pliant_viewer::Pacer::unlimited); });
 }
 
 double steps_without_window(const pliant_viewer::MakeScene& make, double seconds) {
@@ -81,11 +81,11 @@ struct WithWindow {
 };
 
 WithWindow with_window(pliant_viewer::Window& window, const pliant_viewer::MakeScene& make, double seconds) {
-  pliant_viewer::LiveStage stage(make, 1, true, pliant_viewer::Window::wake);
-  run_unlimited(*stage.live());
+  pliant_viewer::LiveSource source(make, 1, true, pliant_viewer::Window::wake);
+  run_unlimited(*source.live());
   pliant_viewer::ViewerOptions options;
-  options.look = stage.look();
-  pliant_viewer::Viewer viewer(window, stage, std::move(options));
+  options.appearance = source.appearance();
+  pliant_viewer::Viewer viewer(window, source, std::move(options));
   const auto turn_for = [&](double time) {
     double longest = 0;
     const Clock::time_point begin = Clock::now();
@@ -98,10 +98,10 @@ WithWindow with_window(pliant_viewer::Window& window, const pliant_viewer::MakeS
   };
   turn_for(1);
   const std::uint64_t pictures = viewer.frame_count();
-  const Count begin = count_steps(*stage.live());
+  const Count begin = count_steps(*source.live());
   WithWindow result{};
   result.longest_turn = turn_for(seconds);
-  const Count end = count_steps(*stage.live());
+  const Count end = count_steps(*source.live());
   result.steps = rate(begin, end);
   result.pictures = static_cast<double>(viewer.frame_count() - pictures) / Seconds(end.when - begin.when).count();
   return result;

@@ -2,7 +2,7 @@
 // The experiments: chapter 6 of the thesis, the comparisons of the paper, and what goes beyond both.
 #include <span>
 
-#include "lab.h"
+#include "experiment_context.h"
 
 namespace pliant_experiments {
 
@@ -11,7 +11,7 @@ struct Experiment {
   std::string_view title;  ///< "Damping by the number of iterations"
   /// Runs it: what was measured, the claims with their verdicts, the figures. Name, title and seconds are filled in by
   /// the caller.
-  pliant_report::Chapter (*run)(const Lab& lab);
+  pliant_report::Chapter (*run)(const ExperimentContext& context);
 };
 
 /// In the order of the report.

@@ -108,9 +108,9 @@ void print_chapter(const pliant_report::Chapter& chapter) {
 }
 
 /// An experiment that diverges where it should not is a claim that does not hold; the others go on.
-pliant_report::Chapter run_or_fail(const Experiment& experiment, const pliant_experiments::Lab& lab) {
+pliant_report::Chapter run_or_fail(const Experiment& experiment, const pliant_experiments::ExperimentContext& context) {
   try {
-    return experiment.run(lab);
+    return experiment.run(context);
   } catch (const pliant::Error& error) {
     if (error.kind() != pliant::ErrorKind::diverged) throw;
     pliant_report::Chapter chapter;
@@ -120,11 +120,11 @@ pliant_report::Chapter run_or_fail(const Experiment& experiment, const pliant_ex
 }
 
 pliant_report::Chapter run_one(const Experiment& experiment, const ExperimentArguments& arguments, bool draws) {
-  const pliant_experiments::Lab lab(
+  const pliant_experiments::ExperimentContext context(
       {draws, [&](std::string_view what) { show(arguments, fmt::format("{}: {} ...", experiment.name, what)); },
        was_interrupted});
   const pliant::Stopwatch watch;
-  pliant_report::Chapter chapter = run_or_fail(experiment, lab);
+  pliant_report::Chapter chapter = run_or_fail(experiment, context);
   chapter.name = experiment.name;
   chapter.title = experiment.title;
   chapter.seconds = watch.seconds();

@@ -6,23 +6,23 @@
 
 #include <fmt/format.h>
 
+#include "appearance_options.h"
 #include "commands.h"
-#include "look_options.h"
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
 #include "pliant_io/files/atomic_file.h"
+#include "render/clip.h"
 #include "render/film_writer.h"
 #include "render/picture_maker.h"
-#include "render/take.h"
 #include "terminal.h"
 
 namespace pliant_cli {
 namespace {
 
 namespace fs = std::filesystem;
-using pliant_render::Take;
+using pliant_render::Clip;
 
-struct RenderArguments : LookArguments {
+struct RenderArguments : AppearanceArguments {
   fs::path out;
   std::int64_t fps = 30;
   std::int64_t samples = 4;
@@ -39,12 +39,12 @@ void show(const RenderArguments& arguments, const std::string& what) {
   if (!arguments.quiet && has_error_terminal()) print_to_stderr("\r\x1b[K" + what);
 }
 
-Take take_of_run(const RenderArguments& arguments) {
-  const pliant::ViewSettings look = look_of_run(arguments);
+Clip clip_of_run(const RenderArguments& arguments) {
+  const pliant::ViewSettings appearance = appearance_of_run(arguments);
   pliant::Animation animation = pliant::read_run(arguments.scene);
   const bool is_film = !is_picture(arguments) && animation.times.size() > 1;
   if (is_film) pliant::resample(animation, static_cast<pliant::Real>(arguments.fps));
-  return pliant_render::take_animation(std::move(animation), look);
+  return pliant_render::clip_from_animation(std::move(animation), appearance);
 }
 
 /// Steps from frame to frame: a film plays as fast as what it shows happens, where the time step allows it.
@@ -53,11 +53,11 @@ std::int64_t steps_a_frame(const pliant::Scene& scene, std::int64_t fps) {
   return std::max<std::int64_t>(1, std::llround(std::min(steps, 1e15)));
 }
 
-Take take_of_scene(const RenderArguments& arguments) {
+Clip clip_of_scene(const RenderArguments& arguments) {
   pliant::Scene scene = open_scene(arguments);
-  apply_look(arguments, scene.view);
+  apply_appearance(arguments, scene.view);
   scene.simulation.set_stop(waits_no_longer);
-  return pliant_render::take_scene(scene, steps_a_frame(scene, arguments.fps), [&](std::int64_t step) {
+  return pliant_render::clip_from_scene(scene, steps_a_frame(scene, arguments.fps), [&](std::int64_t step) {
     if (step % 16 == 0) show(arguments, fmt::format("simulating: step {} of {}", step, scene.steps));
     return !was_interrupted();
   });
@@ -72,8 +72,8 @@ std::vector<std::size_t> choose_frames(std::size_t available, std::size_t count)
   return chosen;
 }
 
-std::vector<std::size_t> frames_to_draw(const RenderArguments& arguments, const Take& take) {
-  const std::size_t available = take.frames.size();
+std::vector<std::size_t> frames_to_draw(const RenderArguments& arguments, const Clip& clip) {
+  const std::size_t available = clip.frames.size();
   if (!is_picture(arguments) && !arguments.frames) return choose_frames(available, available);
   const auto asked = static_cast<std::size_t>(arguments.frames.value_or(arguments.sheet ? 12 : 1));
   return choose_frames(available, std::min(asked, available));
@@ -89,33 +89,33 @@ std::array<std::uint8_t, 3> bytes_of(const pliant::Color& color) {
   return {byte(color.red), byte(color.green), byte(color.blue)};
 }
 
-/// Draws the chosen frames of a take, one after the other.
+/// Draws the chosen frames of a clip, one after the other.
 class FrameDrawer {
  public:
-  FrameDrawer(const RenderArguments& arguments, const Take& take, std::vector<std::size_t> chosen,
+  FrameDrawer(const RenderArguments& arguments, const Clip& clip, std::vector<std::size_t> chosen,
               const std::array<pliant::Index, 2>& size)
-      : arguments_(arguments), take_(take), chosen_(std::move(chosen)), maker_(take.scenery, options(size)) {}
+      : arguments_(arguments), clip_(clip), chosen_(std::move(chosen)), maker_(clip.render_mesh, options(size)) {}
 
   std::size_t count() const { return chosen_.size(); }
   const std::string& driver() const { return maker_.driver(); }
   pliant_render::Image draw(std::size_t i) {
     show(arguments_, fmt::format("drawing: frame {} of {}", i + 1, chosen_.size()));
-    const pliant_render::TakeFrame& frame = take_.frames[chosen_[i]];
+    const pliant_render::ClipFrame& frame = clip_.frames[chosen_[i]];
     return maker_.draw(frame.content, frame.wind);
   }
   /// What the frames show lasts [s].
-  pliant::Real duration() const { return take_.frames[chosen_.back()].time - take_.frames[chosen_.front()].time; }
+  pliant::Real duration() const { return clip_.frames[chosen_.back()].time - clip_.frames[chosen_.front()].time; }
 
  private:
   pliant_render::PictureOptions options(const std::array<pliant::Index, 2>& size) const {
-    pliant_render::PictureOptions options{take_.look, static_cast<int>(arguments_.samples), bounds_of(take_),
-                                          ground_height(take_), color_range(take_)};
-    options.look.size = size;
+    pliant_render::PictureOptions options{clip_.appearance, static_cast<int>(arguments_.samples), bounds_of(clip_),
+                                          ground_height(clip_), color_range(clip_)};
+    options.appearance.size = size;
     return options;
   }
 
   const RenderArguments& arguments_;
-  const Take& take_;
+  const Clip& clip_;
   std::vector<std::size_t> chosen_;
   pliant_render::PictureMaker maker_;
 };
@@ -126,16 +126,16 @@ class FrameDrawer {
 
 /// Frames beside each other, drawn as small as they are there, in a picture of about the size asked for. Returns what
 /// was written. @throws Error (interrupted).
-std::string write_sheet(const RenderArguments& arguments, const Take& take) {
-  const std::vector<std::size_t> chosen = frames_to_draw(arguments, take);
+std::string write_sheet(const RenderArguments& arguments, const Clip& clip) {
+  const std::vector<std::size_t> chosen = frames_to_draw(arguments, clip);
   const int columns = columns_of(chosen.size());
   const auto cell = [columns](pliant::Index size) { return std::max(16, size / columns); };
-  FrameDrawer drawer(arguments, take, chosen, {cell(take.look.size[0]), cell(take.look.size[1])});
+  FrameDrawer drawer(arguments, clip, chosen, {cell(clip.appearance.size[0]), cell(clip.appearance.size[1])});
   std::vector<pliant_render::Image> images;
   for (std::size_t i = 0; i < drawer.count() && !was_interrupted(); ++i) images.push_back(drawer.draw(i));
   if (was_interrupted()) throw_nothing_written();
-  const int gap = std::max(2, take.look.size[0] / 160);
-  const pliant_render::Image sheet = contact_sheet(images, columns, gap, bytes_of(take.look.background));
+  const int gap = std::max(2, clip.appearance.size[0] / 160);
+  const pliant_render::Image sheet = contact_sheet(images, columns, gap, bytes_of(clip.appearance.background));
   write_png(arguments.out, sheet);
   return fmt::format("{}: {} frames, {} x {} pixels, drawn by {}", pliant::printable_place(arguments.out.string()),
                      images.size(), sheet.width, sheet.height, pliant::printable(drawer.driver()));
@@ -150,9 +150,9 @@ std::string speed_text(pliant::Real duration, std::size_t frames, std::int64_t f
 }
 
 /// The same for a film or separate pictures.
-std::string write_film(const RenderArguments& arguments, const Take& take) {
-  FrameDrawer drawer(arguments, take, frames_to_draw(arguments, take), take.look.size);
-  pliant_render::FilmWriter writer({arguments.out, take.look.size[0], take.look.size[1],
+std::string write_film(const RenderArguments& arguments, const Clip& clip) {
+  FrameDrawer drawer(arguments, clip, frames_to_draw(arguments, clip), clip.appearance.size);
+  pliant_render::FilmWriter writer({arguments.out, clip.appearance.size[0], clip.appearance.size[1],
                                     static_cast<int>(arguments.fps), static_cast<int>(drawer.count())});
   std::size_t drawn = 0;
   for (; drawn < drawer.count() && !was_interrupted(); ++drawn) writer.add(drawer.draw(drawn));
@@ -167,7 +167,7 @@ std::string write_film(const RenderArguments& arguments, const Take& take) {
   if (!writer.hint().empty()) print_to_stderr("hint: " + writer.hint() + "\n");
   return fmt::format("{}: {}{} x {} pixels, drawn by {}", pliant::printable_place(written),
                      is_picture(arguments) ? "" : speed_text(drawer.duration(), drawer.count(), arguments.fps),
-                     take.look.size[0], take.look.size[1], pliant::printable(drawer.driver()));
+                     clip.appearance.size[0], clip.appearance.size[1], pliant::printable(drawer.driver()));
 }
 
 void check(const RenderArguments& arguments) {
@@ -192,9 +192,9 @@ void probe(const RenderArguments& arguments) {
 std::string make(const RenderArguments& arguments) {
   probe(arguments);
   std::error_code ignored;
-  const Take take = fs::is_directory(arguments.scene, ignored) ? take_of_run(arguments) : take_of_scene(arguments);
+  const Clip clip = fs::is_directory(arguments.scene, ignored) ? clip_of_run(arguments) : clip_of_scene(arguments);
   if (was_interrupted()) throw_nothing_written();
-  return arguments.sheet ? write_sheet(arguments, take) : write_film(arguments, take);
+  return arguments.sheet ? write_sheet(arguments, clip) : write_film(arguments, clip);
 }
 
 int render(const RenderArguments& arguments) {
@@ -221,7 +221,7 @@ void add_render_command(CLI::App& program, int& exit_code) {
   const auto arguments = std::make_shared<RenderArguments>();
   add_scene_arguments(*command, *arguments);
   command->add_option("--out", arguments->out, "Film (.mp4, .webm, .gif) or picture (.png)")->required();
-  add_look_options(*command, *arguments);
+  add_appearance_options(*command, *arguments);
   add_number(*command, "--fps", arguments->fps, {1, 240},
              "Frames a second of a film, which plays in real time where it can");
   add_number(*command, "--samples", arguments->samples, {1, 16}, "Of a pixel; 1: hard edges, in less time; default 4");

@@ -7,13 +7,13 @@
 
 #include <fmt/format.h>
 
+#include "appearance_options.h"
 #include "commands.h"
 #include "import_options.h"
-#include "look_options.h"
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
 #include "terminal.h"
-#include "viewer/live_stage.h"
+#include "viewer/live_source.h"
 #include "viewer/mesh_scene.h"
 #include "viewer/playback.h"
 #include "viewer/viewer.h"
@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct ViewArguments : LookArguments {
+struct ViewArguments : AppearanceArguments {
   pliant::ImportOptions import;
   std::optional<std::int64_t> samples;
   bool is_paused = false;
@@ -84,7 +84,7 @@ pliant::Scene open_mesh(const ViewArguments& arguments) {
 
 pliant::Scene make_scene(const ViewArguments& arguments) {
   pliant::Scene scene = is_mesh(arguments) ? open_mesh(arguments) : open_scene(arguments);
-  apply_look(arguments, scene.view);
+  apply_appearance(arguments, scene.view);
   return scene;
 }
 
@@ -96,33 +96,33 @@ pliant_viewer::MakeScene scene_maker(const ViewArguments& arguments, std::shared
   };
 }
 
-int show(pliant_viewer::Window& window, pliant_viewer::Stage& stage, const ViewArguments& arguments) {
+int show(pliant_viewer::Window& window, pliant_viewer::ViewSource& source, const ViewArguments& arguments) {
   pliant_viewer::ViewerOptions options;
-  options.look = stage.look();
+  options.appearance = source.appearance();
   if (arguments.samples) options.samples = static_cast<int>(*arguments.samples);
-  pliant_viewer::Viewer viewer(window, stage, std::move(options));
+  pliant_viewer::Viewer viewer(window, source, std::move(options));
   viewer.run(was_interrupted);
   return was_interrupted() ? exit_interrupted : 0;
 }
 
 int view_run(const ViewArguments& arguments) {
-  const pliant::ViewSettings look = look_of_run(arguments);
+  const pliant::ViewSettings appearance = appearance_of_run(arguments);
   if (arguments.color == pliant::ColorBy::energy) {
     pliant::fail_input("--color: a run does not say the energy of its vertices; give its scene, or another color");
   }
-  pliant_viewer::Playback stage(pliant_render::RunFrames(pliant::read_run(arguments.scene)), look,
-                                !arguments.is_paused);
-  pliant_viewer::Window window(stage.name() + " - Pliant", look.size[0], look.size[1]);
-  return show(window, stage, arguments);
+  pliant_viewer::Playback source(pliant_render::RunFrames(pliant::read_run(arguments.scene)), appearance,
+                                 !arguments.is_paused);
+  pliant_viewer::Window window(source.name() + " - Pliant", appearance.size[0], appearance.size[1]);
+  return show(window, source, arguments);
 }
 
 int view_scene(const ViewArguments& arguments) {
   auto scene = std::make_shared<pliant::Scene>(make_scene(arguments));
   if (is_mesh(arguments)) fmt::print("{}\n", scene->description);
   pliant_viewer::Window window(scene->name + " - Pliant", scene->view.size[0], scene->view.size[1]);
-  pliant_viewer::LiveStage stage(scene_maker(arguments, std::move(scene)), window.is_software() ? spare_threads() : 0,
-                                 !arguments.is_paused, pliant_viewer::Window::wake);
-  return show(window, stage, arguments);
+  pliant_viewer::LiveSource source(scene_maker(arguments, std::move(scene)), window.is_software() ? spare_threads() : 0,
+                                   !arguments.is_paused, pliant_viewer::Window::wake);
+  return show(window, source, arguments);
 }
 
 int view(const ViewArguments& arguments) {
@@ -139,7 +139,7 @@ void add_view_command(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand("view", "Open a window: pull at a scene or a mesh, or play a run");
   const auto arguments = std::make_shared<ViewArguments>();
   add_scene_arguments(*command, *arguments);
-  add_look_options(*command, *arguments);
+  add_appearance_options(*command, *arguments);
   add_number(*command, "--samples", arguments->samples, {1, 16},
              "Of a pixel; default: 4 on a graphics card, 1 where the processor draws");
   command->add_flag("--paused", arguments->is_paused, "Wait for the space bar");

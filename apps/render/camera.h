@@ -1,17 +1,17 @@
 #pragma once
-// From the scene's camera to matrices, and the automatic one.
+// From the scene's camera to matrices, and the automatic camera.
 #include "pliant_io/scene/view_settings.h"
 #include "render/gl_objects.h"
 
 namespace pliant_render {
 
-/// The smallest box along the axes around everything that shall be seen.
+/// An axis-aligned box around everything to be seen.
 struct Bounds {
   Vec3f low = Vec3f::Constant(std::numeric_limits<float>::infinity());
   Vec3f high = -low;
 
   void add(const Vec3f& point) {
-    if (!point.allFinite()) return;  // past what single precision holds
+    if (!point.allFinite()) return;  // beyond the range of single precision
     low = low.cwiseMin(point);
     high = high.cwiseMax(point);
   }
@@ -20,15 +20,15 @@ struct Bounds {
   float radius() const { return (high - low).norm() / 2; }
 };
 
-/// A camera with everything decided.
+/// A camera with nothing left open.
 struct Viewpoint {
-  Vec3f eye = {0, -1, 0};
-  Vec3f target = {0, 0, 0};
-  Vec3f up = {0, 0, 1};        ///< at right angles to the direction of view, of length 1
-  float field_of_view = 0.7F;  ///< from the lower edge of the picture to the upper [rad]
-  float near = 0.01F;
-  float far = 100;
-  float inset = 0;  ///< share of the width that is left free on the right, for a legend; negative: on the left
+  Vec3f eye = {0, -1, 0};      ///< [m]
+  Vec3f target = {0, 0, 0};    ///< that the eye looks at [m]
+  Vec3f up = {0, 0, 1};        ///< unit length, perpendicular to the direction of view
+  float field_of_view = 0.7F;  ///< vertical [rad]
+  float near = 0.01F;          ///< distance of the near plane [m]
+  float far = 100;             ///< distance of the far plane [m]
+  float inset = 0;             ///< fraction of the width left free on the right, for a legend; negative: on the left
 
   Vec3f forward() const { return (target - eye).normalized(); }
   Vec3f right() const { return forward().cross(up); }
@@ -37,13 +37,13 @@ struct Viewpoint {
   Mat4f projection(float aspect) const;
 };
 
-/// What the scene leaves open is chosen so that the box is in the picture: a target in its middle, a position in front
-/// of it and somewhat above, as far away as it needs.
+/// Chooses what the scene leaves open so that the box fits into the picture: the target at its center, the position in
+/// front and somewhat above, as far away as necessary.
 Viewpoint place_camera(const pliant::Camera& camera, const Bounds& bounds, float aspect, float inset = 0);
 
-/// Moves the camera, without turning it, to where the box just fits into the picture.
+/// Moves the camera without turning it to where the box just fits into the picture.
 void fit_into_picture(Viewpoint& view, const Bounds& bounds, float aspect);
-/// Chooses near and far so that the box and the ground about it are between them, wherever the eye is.
+/// Chooses near and far planes that enclose the box and the ground around it, wherever the eye is.
 void set_depth_range(Viewpoint& view, const Bounds& bounds);
 
 }  // namespace pliant_render

@@ -1,5 +1,5 @@
 #pragma once
-// OpenGL objects that delete themselves. Their context must be current whenever they are made, used or deleted.
+// OpenGL objects with automatic lifetime. Their context must be current whenever they are made, used or destroyed.
 #include <string_view>
 #include <vector>
 
@@ -12,7 +12,7 @@ using Vec2f = Eigen::Vector2f;
 using Vec3f = Eigen::Vector3f;
 using Mat4f = Eigen::Matrix4f;
 
-/// The name of one object, which the functions of its kind make and delete.
+/// Owns the name of one OpenGL object.
 template <auto& generate, auto& remove>
 class GlObject {
  public:
@@ -32,17 +32,17 @@ using Texture = GlObject<glGenTextures, glDeleteTextures>;
 using Renderbuffer = GlObject<glGenRenderbuffers, glDeleteRenderbuffers>;
 using Framebuffer = GlObject<glGenFramebuffers, glDeleteFramebuffers>;
 
-/// A linked program.
+/// A linked shader program.
 class Program {
  public:
-  /// Sources of the stages; an empty one is left out. Throws std::logic_error with the driver's message.
+  /// Compiles the sources of the stages; empty ones are left out. @throws std::logic_error with the driver's message.
   Program(std::string_view vertex, std::string_view geometry, std::string_view fragment);
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
   ~Program();
 
   void use() const { glUseProgram(id_); }
-  /// Of the program in use.
+  /// Sets a uniform; the program must be in use.
   void set(const char* name, int value) const { glUniform1i(place(name), value); }
   void set(const char* name, float value) const { glUniform1f(place(name), value); }
   void set(const char* name, const Vec2f& value) const { glUniform2fv(place(name), 1, value.data()); }
@@ -55,7 +55,7 @@ class Program {
   GLuint id_;
 };
 
-/// Puts the list into the buffer.
+/// Copies the list into the buffer.
 template <class T>
 void upload(const Buffer& buffer, GLenum target, const std::vector<T>& list, GLenum usage) {
   glBindBuffer(target, buffer.id());

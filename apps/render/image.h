@@ -1,5 +1,5 @@
 #pragma once
-// Pictures in memory, as PNG files, and put together.
+// Images in memory, as PNG files, and combined into contact sheets.
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -9,21 +9,21 @@
 
 namespace pliant_render {
 
-/// RGB of 8 bits each in sRGB, three bytes a pixel, the top row first and no padding between rows.
+/// 8-bit RGB in sRGB, three bytes per pixel, top row first, without padding between rows.
 struct Image {
-  int width = 0;
-  int height = 0;
-  std::vector<std::uint8_t> pixels;
+  int width = 0;                     ///< [pixels]
+  int height = 0;                    ///< [pixels]
+  std::vector<std::uint8_t> pixels;  ///< 3 x width x height bytes
 };
 
-/// Whether there is at least one pixel and as many bytes as the size says.
+/// Whether the image has at least one pixel and as many bytes as its size requires.
 bool is_whole(const Image& image);
 
 /// The bytes of a PNG file.
-/// @throws pliant::Error (output) for an image of more than 2³¹ bytes; std::logic_error for one that is not whole.
+/// @throws pliant::Error (output) for an image of more than 2³¹ bytes; std::logic_error for an image that is not whole.
 std::string encode_png(const Image& image);
 
-/// Writes the file in one go: it is whole or absent.
+/// Writes the file atomically: it is complete or absent.
 /// @throws pliant::Error (output) with the path and the reason; std::logic_error for an image that is not whole.
 void write_png(const std::filesystem::path& path, const Image& image);
 

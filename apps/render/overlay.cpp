@@ -23,17 +23,18 @@ Overlay::~Overlay() {
   ImGui::DestroyContext(context_);
 }
 
-void Overlay::draw(const pliant::ViewSettings& look, const Viewpoint& viewpoint, const std::optional<Legend>& legend,
-                   const std::optional<WindSign>& wind, int width, int height) {
+void Overlay::draw(const pliant::ViewSettings& appearance, const Viewpoint& viewpoint,
+                   const std::optional<Legend>& legend, const std::optional<WindAnnotation>& wind, int width,
+                   int height) {
   if (!legend && !wind) return;
   ImGui::SetCurrentContext(context_);
   ImGui::GetIO().DisplaySize = {static_cast<float>(width), static_cast<float>(height)};
   ImGui_ImplOpenGL3_NewFrame();
   ImGui::NewFrame();
-  const SignSheet sheet{*ImGui::GetBackgroundDrawList(), *font_, ink_on(look.background), static_cast<float>(width),
-                        static_cast<float>(height)};
-  if (legend) draw_legend(*legend, sheet);
-  if (wind) draw_wind(*wind, viewpoint, sheet);
+  const AnnotationCanvas canvas{*ImGui::GetBackgroundDrawList(), *font_, ink_on(appearance.background),
+                                static_cast<float>(width), static_cast<float>(height)};
+  if (legend) draw_legend(*legend, canvas);
+  if (wind) draw_wind(*wind, viewpoint, canvas);
   ImGui::Render();
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }

@@ -1,6 +1,6 @@
 #pragma once
-// Signs on pictures that are drawn without a window.
-#include "render/signs.h"
+// Annotations on pictures that are drawn without a window.
+#include "render/annotations.h"
 
 struct ImGuiContext;
 
@@ -8,15 +8,15 @@ namespace pliant_render {
 
 class Overlay {
  public:
-  /// Loads the font. Needs a current context of OpenGL, as do all members.
+  /// Loads the font. Needs a current OpenGL context, as do all members.
   Overlay();
   ~Overlay();
   Overlay(const Overlay&) = delete;
   Overlay& operator=(const Overlay&) = delete;
 
-  /// Draws onto the framebuffer that is bound, of this size in pixels.
-  void draw(const pliant::ViewSettings& look, const Viewpoint& viewpoint, const std::optional<Legend>& legend,
-            const std::optional<WindSign>& wind, int width, int height);
+  /// Draws onto the bound framebuffer of this size [pixels].
+  void draw(const pliant::ViewSettings& appearance, const Viewpoint& viewpoint, const std::optional<Legend>& legend,
+            const std::optional<WindAnnotation>& wind, int width, int height);
 
  private:
   ImGuiContext* context_;

@@ -2,25 +2,26 @@
 
 namespace pliant_render {
 
-PictureMaker::PictureMaker(Scenery scenery, PictureOptions options)
+PictureMaker::PictureMaker(RenderMesh render_mesh, PictureOptions options)
     : options_(std::move(options)),
-      target_(options_.look.size[0], options_.look.size[1], options_.samples),
-      renderer_(std::move(scenery)) {}
+      target_(options_.appearance.size[0], options_.appearance.size[1], options_.samples),
+      renderer_(std::move(render_mesh)) {}
 
-Image PictureMaker::draw(const FrameContent& frame, const std::optional<WindSign>& wind) {
+Image PictureMaker::draw(const FrameContent& frame, const std::optional<WindAnnotation>& wind) {
   const float aspect = static_cast<float>(target_.width()) / static_cast<float>(target_.height());
   DrawOptions options;
-  const std::optional<Legend> colors = make_legend(options_.look, options_.range, target_.width(), target_.height());
-  options.viewpoint = place_camera(options_.look.camera, options_.bounds, aspect,
+  const std::optional<Legend> colors =
+      make_legend(options_.appearance, options_.range, target_.width(), target_.height());
+  options.viewpoint = place_camera(options_.appearance.camera, options_.bounds, aspect,
                                    colors ? legend_width(target_.height()) / static_cast<float>(target_.width()) : 0);
   options.range = options_.range;
   options.ground_height = options_.ground_height;
   options.scale = static_cast<float>(target_.height()) / 720;
-  renderer_.set_frame(frame, options_.look.color);
+  renderer_.set_frame(frame, options_.appearance.color);
   target_.begin();
-  renderer_.draw(options_.look, options, target_.width(), target_.height());
+  renderer_.draw(options_.appearance, options, target_.width(), target_.height());
   target_.resolve();
-  overlay_.draw(options_.look, options.viewpoint, colors, wind, target_.width(), target_.height());
+  overlay_.draw(options_.appearance, options.viewpoint, colors, wind, target_.width(), target_.height());
   return target_.read();
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Frames to pictures without a window: everything that OpenGL needs, in one.
+// Makes pictures of frames without a window: OpenGL context, renderer and annotations in one.
 #include <memory>
 
 #include "render/image.h"
@@ -11,20 +11,20 @@
 namespace pliant_render {
 
 struct PictureOptions {
-  pliant::ViewSettings look;
-  int samples = 4;                      ///< of a pixel; 1: hard edges, in less time
-  Bounds bounds;                        ///< what an automatic camera has in the picture
+  pliant::ViewSettings appearance;      ///< size, camera, colors and light
+  int samples = 4;                      ///< per pixel; 1 is faster and leaves hard edges
+  Bounds bounds;                        ///< what the automatic camera fits into the picture
   float ground_height = 0;              ///< [m]
-  std::array<float, 2> range = {0, 1};  ///< of the values, at the ends of the color map
+  std::array<float, 2> range = {0, 1};  ///< values at the ends of the color map
 };
 
 class PictureMaker {
  public:
-  /// Throws Error(input) where there is no OpenGL, or none that draws pictures of this size.
-  PictureMaker(Scenery scenery, PictureOptions options);
+  /// @throws pliant::Error (input) if there is no OpenGL, or it cannot draw pictures of this size.
+  PictureMaker(RenderMesh render_mesh, PictureOptions options);
 
   const std::string& driver() const { return context_.renderer(); }
-  Image draw(const FrameContent& frame, const std::optional<WindSign>& wind);
+  Image draw(const FrameContent& frame, const std::optional<WindAnnotation>& wind);
 
  private:
   PictureOptions options_;

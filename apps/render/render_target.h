@@ -1,28 +1,27 @@
 #pragma once
-// Where a picture is drawn when there is no window: a framebuffer with several samples a pixel, and a plain one that
-// can be read.
+// Where a picture is drawn without a window: a multisampled framebuffer, and a plain one that can be read back.
 #include "render/gl_objects.h"
 #include "render/image.h"
 
 namespace pliant_render {
 
-/// What stands in the framebuffer that is bound for reading.
+/// Reads the framebuffer that is bound for reading, of this size [pixels].
 Image read_picture(int width, int height);
 
 class RenderTarget {
  public:
-  /// samples: of a pixel, 1 for none; as many as the driver has at most. Throws Error(input) on a size that the driver
-  /// does not take.
+  /// samples: per pixel, 1 for no antialiasing; limited to the driver's maximum.
+  /// @throws pliant::Error (input) for a size that the driver does not support.
   RenderTarget(int width, int height, int samples);
 
   int width() const { return width_; }
   int height() const { return height_; }
-  /// Of the last drawing: first all that needs depth and samples.
+  /// Starts a picture: what needs depth and several samples is drawn next.
   void begin() const;
-  /// Then, what is drawn flat on top.
+  /// Resolves the samples: what is drawn flat on top comes next.
   void resolve() const;
   Image read() const;
-  /// Of what was resolved, into a window of the same size, which is bound from then on.
+  /// Copies the resolved picture into a window of the same size and leaves the window's framebuffer bound.
   void show() const;
 
  private:

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "render/quantities.h"
+#include "render/scalar_fields.h"
 #include "render/shaders.h"
 
 namespace pliant_render {
@@ -28,8 +28,8 @@ float depth_shift(const Viewpoint& view, const Bounds& bounds, float shift) {
   return shift * 2 * view.far * view.near / ((view.far - view.near) * depth * depth);
 }
 
-Vec3f light_of(const pliant::ViewSettings& look) {
-  return look.light.cast<float>().normalized();
+Vec3f light_of(const pliant::ViewSettings& appearance) {
+  return appearance.light.cast<float>().normalized();
 }
 
 void set_up_texture(const Texture& texture, GLenum format, int width, int height, const void* pixels) {
@@ -56,8 +56,8 @@ GLsizei count_of(const std::vector<std::uint32_t>& list) {
 
 }  // namespace
 
-Renderer::Renderer(Scenery scenery)
-    : scenery_(std::move(scenery)),
+Renderer::Renderer(RenderMesh render_mesh)
+    : render_mesh_(std::move(render_mesh)),
       surface_(shaders::surface_vertex, "", shaders::surface_fragment),
       flat_surface_(shaders::flat_vertex, shaders::flat_geometry, shaders::surface_fragment),
       line_(shaders::stroke_vertex, shaders::line_geometry, shaders::line_fragment),
@@ -72,9 +72,9 @@ Renderer::Renderer(Scenery scenery)
     set_vertex_layout();
     upload(elements, GL_ELEMENT_ARRAY_BUFFER, list, GL_STATIC_DRAW);
   };
-  set_up(triangles_array_, triangles_, scenery_.triangles);
-  set_up(ropes_array_, ropes_, scenery_.ropes);
-  set_up(edges_array_, edges_, scenery_.edges);
+  set_up(triangles_array_, triangles_, render_mesh_.triangles);
+  set_up(ropes_array_, ropes_, render_mesh_.ropes);
+  set_up(edges_array_, edges_, render_mesh_.edges);
   set_up(markers_array_, markers_, {});
   glBindVertexArray(0);
   set_up_mask(mask_, mask_target_);
@@ -97,7 +97,7 @@ void Renderer::set_vertex_layout() const {
 void Renderer::set_frame(const FrameContent& frame, pliant::ColorBy color) {
   bounds_ = bounds_of(frame.positions);
   has_values_ = frame.values.size() == frame.positions.size() && color != pliant::ColorBy::none;
-  const std::vector<Vec3f> normals = vertex_normals(scenery_, frame.positions);
+  const std::vector<Vec3f> normals = vertex_normals(render_mesh_, frame.positions);
   vertices_.resize(frame.positions.size());
   for (std::size_t i = 0; i < vertices_.size(); ++i) {
     vertices_[i] = {frame.positions[i], normals[i], has_values_ ? frame.values[i] : 0};
@@ -113,29 +113,29 @@ void Renderer::set_frame(const FrameContent& frame, pliant::ColorBy color) {
   set_up_texture(map_, GL_RGB8, static_cast<int>(map.size()), 1, map.data());
 }
 
-void Renderer::draw(const pliant::ViewSettings& look, const DrawOptions& options, int width, int height) {
+void Renderer::draw(const pliant::ViewSettings& appearance, const DrawOptions& options, int width, int height) {
   GLint target = 0;
   glGetIntegerv(GL_FRAMEBUFFER_BINDING, &target);
   const Vec2f picture(static_cast<float>(width), static_cast<float>(height));
   const Mat4f camera = options.viewpoint.projection(picture.x() / picture.y()) * options.viewpoint.view();
-  const Vec3f light = light_of(look);
-  const bool has_shadow = look.ground && look.shadow && light.z() > 0.05F && !bounds_.is_empty();
+  const Vec3f light = light_of(appearance);
+  const bool has_shadow = appearance.ground && appearance.shadow && light.z() > 0.05F && !bounds_.is_empty();
   ShadowArea area{Vec2f::Zero(), Vec2f::Ones()};
   if (has_shadow) area = draw_shadow(light, options.ground_height);
 
   glBindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(target));
   glViewport(0, 0, width, height);
-  const Vec3f background = tone_of(look.background);
+  const Vec3f background = tone_of(appearance.background);
   glClearColor(background.x(), background.y(), background.z(), 1);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   glEnable(GL_MULTISAMPLE);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-  if (look.ground) draw_ground(look, options, camera);
+  if (appearance.ground) draw_ground(appearance, options, camera);
   glEnable(GL_BLEND);
   if (has_shadow) lay_shadow(area, options.ground_height, camera);
   glEnable(GL_DEPTH_TEST);
-  draw_surface(look, options, camera);
-  draw_lines(look, options, camera, picture);
+  draw_surface(appearance, options, camera);
+  draw_lines(appearance, options, camera, picture);
   draw_markers(options, camera, picture);
   glDisable(GL_BLEND);
   glDisable(GL_DEPTH_TEST);
@@ -168,8 +168,8 @@ Renderer::ShadowArea Renderer::draw_shadow(const Vec3f& light, float height) {
     glBindVertexArray(array.id());
     glDrawElements(kind, count, GL_UNSIGNED_INT, nullptr);
   };
-  flatten(flatten_, triangles_array_, GL_TRIANGLES, count_of(scenery_.triangles));
-  flatten(flatten_ropes_, ropes_array_, GL_LINES, count_of(scenery_.ropes));
+  flatten(flatten_, triangles_array_, GL_TRIANGLES, count_of(render_mesh_.triangles));
+  flatten(flatten_ropes_, ropes_array_, GL_LINES, count_of(render_mesh_.ropes));
   // As wide in both directions on the ground, not in the mask.
   const float texel = 0.75F * area.reach.maxCoeff() / mask_size;
   blur(mask_, half_blurred_target_, {texel / area.reach.x(), 0});
@@ -188,8 +188,9 @@ void Renderer::blur(const Texture& from, const Framebuffer& to, const Vec2f& ste
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void Renderer::draw_ground(const pliant::ViewSettings& look, const DrawOptions& options, const Mat4f& camera) const {
-  const Vec3f background = tone_of(look.background);
+void Renderer::draw_ground(const pliant::ViewSettings& appearance, const DrawOptions& options,
+                           const Mat4f& camera) const {
+  const Vec3f background = tone_of(appearance.background);
   const Vec3f center = bounds_.is_empty() ? Vec3f::Zero().eval() : bounds_.center();
   ground_.use();
   ground_.set("camera", camera);
@@ -217,15 +218,16 @@ void Renderer::lay_shadow(const ShadowArea& area, float height, const Mat4f& cam
   glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
 }
 
-void Renderer::draw_surface(const pliant::ViewSettings& look, const DrawOptions& options, const Mat4f& camera) const {
-  if (scenery_.triangles.empty()) return;
-  const Program& program = look.shading == pliant::Shading::flat ? flat_surface_ : surface_;
+void Renderer::draw_surface(const pliant::ViewSettings& appearance, const DrawOptions& options,
+                            const Mat4f& camera) const {
+  if (render_mesh_.triangles.empty()) return;
+  const Program& program = appearance.shading == pliant::Shading::flat ? flat_surface_ : surface_;
   program.use();
   program.set("camera", camera);
   program.set("to_eye", Vec3f(-options.viewpoint.forward()));
-  program.set("light", light_of(look));
-  program.set("front", tone_of(look.front));
-  program.set("back", tone_of(look.back));
+  program.set("light", light_of(appearance));
+  program.set("front", tone_of(appearance.front));
+  program.set("back", tone_of(appearance.back));
   program.set("is_colored", has_values_ ? 1 : 0);
   program.set("low", options.range[0]);
   program.set("high", options.range[1]);
@@ -233,10 +235,10 @@ void Renderer::draw_surface(const pliant::ViewSettings& look, const DrawOptions&
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, map_.id());
   glBindVertexArray(triangles_array_.id());
-  glDrawElements(GL_TRIANGLES, count_of(scenery_.triangles), GL_UNSIGNED_INT, nullptr);
+  glDrawElements(GL_TRIANGLES, count_of(render_mesh_.triangles), GL_UNSIGNED_INT, nullptr);
 }
 
-void Renderer::draw_lines(const pliant::ViewSettings& look, const DrawOptions& options, const Mat4f& camera,
+void Renderer::draw_lines(const pliant::ViewSettings& appearance, const DrawOptions& options, const Mat4f& camera,
                           const Vec2f& picture) const {
   line_.use();
   line_.set("camera", camera);
@@ -258,9 +260,9 @@ void Renderer::draw_lines(const pliant::ViewSettings& look, const DrawOptions& o
     glBindVertexArray(array.id());
     glDrawElements(GL_LINES, count, GL_UNSIGNED_INT, nullptr);
   };
-  draw_list(ropes_array_, count_of(scenery_.ropes), rope_width, 1, tone_of(look.front), true);
-  if (look.wireframe) {
-    draw_list(edges_array_, count_of(scenery_.edges), edge_width, 0.55F, Vec3f(0.10F, 0.11F, 0.14F), false);
+  draw_list(ropes_array_, count_of(render_mesh_.ropes), rope_width, 1, tone_of(appearance.front), true);
+  if (appearance.wireframe) {
+    draw_list(edges_array_, count_of(render_mesh_.edges), edge_width, 0.55F, Vec3f(0.10F, 0.11F, 0.14F), false);
   }
 }
 

@@ -1,35 +1,35 @@
 #pragma once
-// Draws frames of one scenery with OpenGL 3.3 core, in a window as well as without one.
+// Draws frames of one render mesh with OpenGL 3.3 core, with or without a window.
 #include "render/gl_objects.h"
-#include "render/scenery.h"
+#include "render/render_mesh.h"
 
 namespace pliant_render {
 
-/// How a frame is drawn, besides the scene's settings.
+/// How a frame is drawn, in addition to the scene's settings.
 struct DrawOptions {
-  Viewpoint viewpoint;
-  std::array<float, 2> range = {0, 1};  ///< of the values, at the ends of the color map
+  Viewpoint viewpoint;                  ///< the camera
+  std::array<float, 2> range = {0, 1};  ///< values at the ends of the color map
   float ground_height = 0;              ///< [m]
-  float scale = 1;                      ///< of widths and marks: pixels of the picture to one at 720 rows
+  float scale = 1;                      ///< of line widths and markers: pixels per pixel of a picture of 720 rows
 };
 
 class Renderer {
  public:
-  /// Needs a current context, as do all members.
-  explicit Renderer(Scenery scenery);
+  /// Needs a current OpenGL context, as do all members.
+  explicit Renderer(RenderMesh render_mesh);
 
-  const Scenery& scenery() const { return scenery_; }
-  /// Takes over the positions, values and markers of a frame.
+  const RenderMesh& render_mesh() const { return render_mesh_; }
+  /// Uploads the positions, values and markers of a frame.
   void set_frame(const FrameContent& frame, pliant::ColorBy color);
-  /// Clears the framebuffer that is bound, of this size in pixels, and draws the frame.
-  void draw(const pliant::ViewSettings& look, const DrawOptions& options, int width, int height);
+  /// Clears the bound framebuffer of this size [pixels] and draws the frame.
+  void draw(const pliant::ViewSettings& appearance, const DrawOptions& options, int width, int height);
 
  private:
   struct Vertex {
     Vec3f position, normal;
     float value;
   };
-  /// Where the shadow lies on the ground.
+  /// The area of the ground that the shadow covers [m].
   struct ShadowArea {
     Vec2f middle, reach;
   };
@@ -37,14 +37,14 @@ class Renderer {
   void set_vertex_layout() const;
   ShadowArea draw_shadow(const Vec3f& light, float height);
   void blur(const Texture& from, const Framebuffer& to, const Vec2f& step) const;
-  void draw_ground(const pliant::ViewSettings& look, const DrawOptions& options, const Mat4f& camera) const;
+  void draw_ground(const pliant::ViewSettings& appearance, const DrawOptions& options, const Mat4f& camera) const;
   void lay_shadow(const ShadowArea& area, float height, const Mat4f& camera) const;
-  void draw_surface(const pliant::ViewSettings& look, const DrawOptions& options, const Mat4f& camera) const;
-  void draw_lines(const pliant::ViewSettings& look, const DrawOptions& options, const Mat4f& camera,
+  void draw_surface(const pliant::ViewSettings& appearance, const DrawOptions& options, const Mat4f& camera) const;
+  void draw_lines(const pliant::ViewSettings& appearance, const DrawOptions& options, const Mat4f& camera,
                   const Vec2f& picture) const;
   void draw_markers(const DrawOptions& options, const Mat4f& camera, const Vec2f& picture) const;
 
-  Scenery scenery_;
+  RenderMesh render_mesh_;
   Bounds bounds_;
   bool has_values_ = false;
   pliant::ColorBy map_of_ = pliant::ColorBy::none;

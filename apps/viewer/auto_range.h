@@ -1,15 +1,15 @@
 #pragma once
-// The range of a color map while nobody knows what is still to come.
+// The range of a color map while the values of later frames are still unknown.
 #include "pliant_io/scene/view_settings.h"
 #include "viewer/pacer.h"
 
 namespace pliant_viewer {
 
-/// A round number that nothing has been beyond: grows at once, and shrinks after a while in which less would have done,
-/// so that the colors of a quiet picture tell something too and the legend does not flicker.
+/// A round upper bound of the values. It grows at once, and shrinks only after a smaller one has sufficed for a while,
+/// so that colors stay meaningful in a quiet picture and the legend does not flicker.
 class AutoRange {
  public:
-  /// The ends of the map; `largest`: the largest magnitude now.
+  /// Returns both ends of the map; `largest` is the largest magnitude of the current frame.
   std::array<float, 2> update(pliant::ColorBy color, float largest, Clock::time_point now);
 
  private:

@@ -7,11 +7,11 @@
 namespace pliant_viewer {
 namespace {
 
-constexpr Seconds patience{0.5};     // with a step that a change waits for
-constexpr Seconds longest_wait{1};   // a clock cannot count the seconds of any time step
-constexpr Seconds freshness{0.008};  // of what is shown
+constexpr Seconds patience{0.5};     // with a step while a change is waiting
+constexpr Seconds longest_wait{1};   // a huge time step would overflow the clock
+constexpr Seconds freshness{0.008};  // age at which a snapshot is replaced
 
-bool is_same(const pliant_render::Scenery& a, const pliant_render::Scenery& b) {
+bool is_same(const pliant_render::RenderMesh& a, const pliant_render::RenderMesh& b) {
   return a.vertex_count == b.vertex_count && a.triangles == b.triangles && a.ropes == b.ropes && a.edges == b.edges &&
          a.springs == b.springs && a.rest_lengths == b.rest_lengths;
 }
@@ -20,16 +20,16 @@ bool is_same(const pliant_render::Scenery& a, const pliant_render::Scenery& b) {
 
 LiveScene::LiveScene(MakeScene make, Index threads, bool is_playing, std::function<void()> wake)
     : session_(std::move(make)),
-      workshop_{session_, pacer_, is_playing},
+      context_{session_, pacer_, is_playing},
       threads_(threads),
       wake_(std::move(wake)),
-      look_(session_.scene().view),
+      appearance_(session_.scene().view),
       name_(session_.scene().name),
       suggested_pull_(suggest_pull_stiffness(session_.simulation())) {
-  workshop_.color = look_.color;
+  context_.color = appearance_.color;
   session_.set_stop([this] { return shall_give_up(); });
   set_thread_count();
-  update_scenery();
+  update_render_mesh();
   publish();
   thread_ = std::thread([this] { work(); });
 }
@@ -73,7 +73,7 @@ Seconds LiveScene::step_age() const {
   return began == 0 ? Seconds(0) : Clock::now() - Clock::time_point(Clock::duration(began));
 }
 
-/// Asked before each iteration, on the thread of the simulation.
+/// Asked before each iteration, on the simulation's thread.
 bool LiveScene::shall_give_up() const {
   return is_closing_ || ends_waiting_ > 0 || (changes_waiting_ > 0 && step_age() > patience);
 }
@@ -85,29 +85,29 @@ void LiveScene::work() {
     if (is_closing_) return;
     try {
       turn();
-    } catch (
-        const std::exception& error) {  // of what is shown, such as no memory for it; steps and commands tell theirs
+    } catch (const std::exception& error) {  // age at which a snapshot is replaced, such as no memory for it; steps and
+                                             // commands tell theirs
       note_ = error.what();
-      workshop_.is_playing = false;
-      workshop_.single_steps = 0;
+      context_.is_playing = false;
+      context_.single_steps = 0;
     }
   }
 }
 
 void LiveScene::turn() {
   run_commands();
-  // What was asked for is shown to have come before a step that may take long.
+  // A change is shown before a step that may take long.
   if (is_dirty_ && commands_published_ != commands_done_) publish();
   if (time_to_step() <= Seconds(0)) step();
-  // A window that has not looked yet is shown newer things now and then, and whenever there is time.
+  // A snapshot that the window has not taken yet is replaced now and then, and whenever there is time.
   const bool is_fresh = has_news() && Clock::now() - published_ < freshness;
   if (is_dirty_ && (!is_fresh || time_to_step() > Seconds(0))) publish();
 }
 
 /// Until the next step is due.
 Seconds LiveScene::time_to_step() {
-  if (workshop_.single_steps > 0) return Seconds(0);
-  if (!workshop_.is_playing) return Seconds::max();
+  if (context_.single_steps > 0) return Seconds(0);
+  if (!context_.is_playing) return Seconds::max();
   return pacer_.wait(Clock::now(), session_.simulation().settings().time_step);
 }
 
@@ -117,7 +117,7 @@ void LiveScene::wait_for_work() {
   if (wait <= Seconds(0)) return;
   std::unique_lock lock(mutex_);
   const auto has_work = [this] { return is_closing_ || !queue_.empty(); };
-  if (workshop_.is_playing) {
+  if (context_.is_playing) {
     work_.wait_for(lock, std::min(wait, longest_wait), has_work);
   } else {
     work_.wait(lock, has_work);
@@ -133,30 +133,30 @@ void LiveScene::run_commands() {
     ends_waiting_ = 0;
   }
   for (const auto& [command, kind] : commands) {
-    const bool was_playing = workshop_.is_playing;
+    const bool was_playing = context_.is_playing;
     const double speed = pacer_.speed();
-    const std::uint64_t restarts = workshop_.restarts;
+    const std::uint64_t restarts = context_.restarts;
     try {
-      command(workshop_);
-      if (workshop_.restarts != restarts) note_.clear();
+      command(context_);
+      if (context_.restarts != restarts) note_.clear();
     } catch (const std::exception& error) {
       note_ = error.what();
     }
-    if (workshop_.is_playing && !was_playing) {
+    if (context_.is_playing && !was_playing) {
       pacer_.start(Clock::now());
-      pulse_.clear();
+      statistics_.clear();
       note_.clear();
     }
-    if (pacer_.speed() != speed) pulse_.clear();
+    if (pacer_.speed() != speed) statistics_.clear();
     ++commands_done_;
     is_dirty_ = true;
   }
-  if (workshop_.restarts == restarts_seen_) return;
-  restarts_seen_ = workshop_.restarts;
-  pulse_.clear();
+  if (context_.restarts == restarts_seen_) return;
+  restarts_seen_ = context_.restarts;
+  statistics_.clear();
   pacer_.start(Clock::now());
   set_thread_count();
-  update_scenery();
+  update_render_mesh();
 }
 
 void LiveScene::step() {
@@ -165,28 +165,28 @@ void LiveScene::step() {
     const double before = session_.simulation().state().time;
     const pliant::StepReport report = session_.step();
     pacer_.took_step();
-    workshop_.single_steps = std::max<std::int64_t>(workshop_.single_steps - 1, 0);
-    pulse_.add({Clock::now(), session_.simulation().state().time - before, report.seconds_local, report.seconds_global,
-                report.seconds_factor, report.seconds_total});
+    context_.single_steps = std::max<std::int64_t>(context_.single_steps - 1, 0);
+    statistics_.add({Clock::now(), session_.simulation().state().time - before, report.seconds_local,
+                     report.seconds_global, report.seconds_factor, report.seconds_total});
   } catch (const std::exception& error) {
     const auto* known = dynamic_cast<const pliant::Error*>(&error);
     if (known == nullptr || known->kind() != pliant::ErrorKind::interrupted) {
       note_ = error.what();
-      workshop_.is_playing = false;
-      workshop_.single_steps = 0;
+      context_.is_playing = false;
+      context_.single_steps = 0;
     }
   }
   step_began_ = 0;
   is_dirty_ = true;
 }
 
-void LiveScene::update_scenery() {
-  auto scenery =
-      std::make_shared<const pliant_render::Scenery>(pliant_render::make_scenery(session_.simulation().bodies()));
-  if (scenery_ == nullptr || !is_same(*scenery, *scenery_)) scenery_ = std::move(scenery);
+void LiveScene::update_render_mesh() {
+  auto render_mesh = std::make_shared<const pliant_render::RenderMesh>(
+      pliant_render::make_render_mesh(session_.simulation().bodies()));
+  if (render_mesh_ == nullptr || !is_same(*render_mesh, *render_mesh_)) render_mesh_ = std::move(render_mesh);
 }
 
-/// What the scene's own events change is shown a few times a second.
+/// Lists the parameters anew after commands, and a few times a second since the scene's own events change them too.
 void LiveScene::list_parameters() {
   const Clock::time_point now = Clock::now();
   if (commands_done_ == commands_listed_ && now - parameters_listed_ < Seconds(0.2)) return;
@@ -197,20 +197,20 @@ void LiveScene::list_parameters() {
 
 void LiveScene::publish() {
   const pliant::Simulation& simulation = session_.simulation();
-  back_.scenery = scenery_;
-  back_.frame = pliant_render::take_frame(simulation, *scenery_, workshop_.color);
-  back_.color = workshop_.color;
+  back_.render_mesh = render_mesh_;
+  back_.frame = pliant_render::capture_frame(simulation, *render_mesh_, context_.color);
+  back_.color = context_.color;
   back_.pins = pliant_render::pinned_vertices(simulation);
   back_.pull = session_.pull();
   list_parameters();
   back_.parameters = parameters_;
-  back_.pulse = pulse_.means(Clock::now());
+  back_.statistics = statistics_.means(Clock::now());
   back_.step = simulation.state().step;
   back_.time_step = simulation.settings().time_step;
-  back_.is_playing = workshop_.is_playing;
-  back_.is_behind = workshop_.is_playing && pacer_.steps_behind() > Pacer::most_behind - 1.5;
+  back_.is_playing = context_.is_playing;
+  back_.is_behind = context_.is_playing && pacer_.steps_behind() > Pacer::most_behind - 1.5;
   back_.note = !note_.empty() ? note_ : session_.note();
-  back_.restarts = workshop_.restarts;
+  back_.restarts = context_.restarts;
   back_.commands = commands_published_ = commands_done_;
   {
     const std::lock_guard lock(mutex_);

@@ -1,6 +1,6 @@
 #pragma once
-// A scene that is simulated in a thread of its own. The window sends it commands through one queue and takes over what
-// it shows last; neither waits for the other.
+// A scene that is simulated in a thread of its own. The window sends commands through one queue and takes the newest
+// snapshot; neither thread waits for the other.
 #include <atomic>
 #include <condition_variable>
 #include <deque>
@@ -8,40 +8,40 @@
 #include <mutex>
 #include <thread>
 
-#include "render/take.h"
-#include "viewer/pulse.h"
+#include "render/clip.h"
+#include "viewer/frame_statistics.h"
 #include "viewer/session.h"
 
 namespace pliant_viewer {
 
-/// What the window is shown: everything of one moment.
+/// Everything the window shows of one moment.
 struct Snapshot {
-  std::shared_ptr<const pliant_render::Scenery> scenery;
-  pliant_render::TakeFrame frame;
-  pliant::ColorBy color = pliant::ColorBy::none;  ///< that the values of the frame are for
-  std::vector<std::uint32_t> pins;                ///< vertices that can be taken hold of, ascending
+  std::shared_ptr<const pliant_render::RenderMesh> render_mesh;
+  pliant_render::ClipFrame frame;
+  pliant::ColorBy color = pliant::ColorBy::none;  ///< what the values of the frame mean
+  std::vector<std::uint32_t> pins;                ///< pinned vertices, which can be grabbed, ascending
   std::optional<Pull> pull;
   std::shared_ptr<const std::vector<Parameter>> parameters;
-  Pulse::Means pulse;
+  FrameStatistics::Means statistics;
   std::int64_t step = 0;
   double time_step = 0;
   bool is_playing = false;
-  bool is_behind = false;      ///< behind the clock by as much as it may be
-  std::string note;            ///< what went wrong last, or should be known; empty for nothing
-  std::uint64_t restarts = 0;  ///< how often the scene was begun anew
-  std::uint64_t commands = 0;  ///< how many of the commands have acted
+  bool is_behind = false;      ///< as far behind the clock as the pacer allows
+  std::string note;            ///< last error or warning; empty for none
+  std::uint64_t restarts = 0;  ///< number of restarts so far
+  std::uint64_t commands = 0;  ///< number of commands that have taken effect
 };
 
-/// What commands act on, in the thread of the simulation.
-struct Workshop {
+/// What commands act on, in the simulation's thread.
+struct CommandContext {
   Session& session;
   Pacer& pacer;
   bool is_playing = false;
-  std::int64_t single_steps = 0;  ///< to take although it is not playing
+  std::int64_t single_steps = 0;  ///< still to take while paused
   pliant::ColorBy color = pliant::ColorBy::none;
   std::uint64_t restarts = 0;
 
-  /// As Session::restart, and single steps that were asked for are forgotten.
+  /// As Session::restart; also drops single steps that were requested.
   void restart(bool keep_values) {
     session.restart(keep_values);
     single_steps = 0;
@@ -51,31 +51,32 @@ struct Workshop {
 
 class LiveScene {
  public:
-  using Command = std::function<void(Workshop&)>;
-  /// Steers: what follows the mouse, of which many come. Changes: all others; a step that takes long is given up for
-  /// them. Ends: a step is given up at once.
+  using Command = std::function<void(CommandContext&)>;
+  /// steers: follows the mouse, sent many times a second. changes: everything else; a slow step is abandoned for it.
+  /// ends: a step under way is abandoned at once.
   enum class Kind { steers, changes, ends };
 
-  /// Makes the scene on this thread, which throws what that throws, then simulates on another. `wake` is called there
-  /// when there is something new. Of threads the simulation takes as many as the scene says, or, where that leaves it
-  /// open, at most `threads`.
+  /// Makes the scene on the calling thread and lets its exceptions pass, then simulates on another thread, which calls
+  /// `wake` whenever a new snapshot is ready. The simulation uses as many threads as the scene says, or at most
+  /// `threads` where the scene leaves it open.
   LiveScene(MakeScene make, Index threads, bool is_playing, std::function<void()> wake);
   ~LiveScene();
   LiveScene(const LiveScene&) = delete;
   LiveScene& operator=(const LiveScene&) = delete;
 
-  /// Hands over a command; what it throws becomes the note of a snapshot. Returns its number, see Snapshot::commands.
+  /// Queues a command; if it throws, the message becomes the note of a snapshot. Returns its number, to be compared
+  /// with Snapshot::commands.
   std::uint64_t post(Command command, Kind kind = Kind::changes);
 
   /// The newest snapshot; it stays valid until the next call.
   const Snapshot& newest();
-  /// What newest() returned last.
+  /// The snapshot that newest() returned last.
   const Snapshot& shown() const { return front_; }
-  /// Whether there is one that newest() has not returned yet.
+  /// Whether there is a snapshot that newest() has not returned yet.
   bool has_news() const;
-  /// How long the step under way has taken; zero between steps.
+  /// How long the current step has been running; zero between steps.
   Seconds step_age() const;
-  const pliant::ViewSettings& look() const { return look_; }
+  const pliant::ViewSettings& appearance() const { return appearance_; }
   const std::string& name() const { return name_; }
   Real suggested_pull() const { return suggested_pull_; }
 
@@ -85,7 +86,7 @@ class LiveScene {
   void run_commands();
   void wait_for_work();
   void step();
-  void update_scenery();
+  void update_render_mesh();
   Seconds time_to_step();
   void publish();
   void list_parameters();
@@ -94,16 +95,16 @@ class LiveScene {
 
   Session session_;
   Pacer pacer_;
-  Workshop workshop_;
+  CommandContext context_;
   Index threads_;
   std::function<void()> wake_;
-  pliant::ViewSettings look_;
+  pliant::ViewSettings appearance_;
   std::string name_;
   Real suggested_pull_ = 1;
 
-  // Of the simulation's thread alone.
-  Pulse pulse_;
-  std::shared_ptr<const pliant_render::Scenery> scenery_;
+  // Used by the simulation's thread alone.
+  FrameStatistics statistics_;
+  std::shared_ptr<const pliant_render::RenderMesh> render_mesh_;
   std::string note_;
   Clock::time_point published_{};
   std::uint64_t commands_done_ = 0;
@@ -114,7 +115,7 @@ class LiveScene {
   std::uint64_t commands_listed_ = ~std::uint64_t{0};
   bool is_dirty_ = true;
 
-  // Of both.
+  // Shared by both threads.
   mutable std::mutex mutex_;
   std::condition_variable work_;
   std::deque<std::pair<Command, Kind>> queue_;
@@ -124,10 +125,10 @@ class LiveScene {
   std::atomic<int> ends_waiting_ = 0;
   std::atomic<bool> is_closing_ = false;
   bool has_news_ = false;
-  Snapshot middle_;  // handed from one to the other
+  Snapshot middle_;  // passed from one thread to the other
 
-  Snapshot back_;   // of the simulation's thread
-  Snapshot front_;  // of the window's
+  Snapshot back_;   // owned by the simulation's thread
+  Snapshot front_;  // owned by the window's thread
   std::thread thread_;
 };
 

@@ -1,11 +1,11 @@
 #pragma once
-// A mesh without a scene: simulated as what it most likely is.
+// A scene for a mesh that comes without one: it is simulated as what it most likely is.
 #include "pliant_io/mesh/mesh_file.h"
 #include "pliant_io/scene/scene.h"
 
 namespace pliant_viewer {
 
-/// Reads a mesh and makes a scene of it, of gravity and
+/// Reads a mesh and makes a scene of it with gravity and
 /// - tetrahedra: a soft solid,
 /// - a closed surface: a stiff skin; both stand on their lowest vertices, which are pinned,
 /// - an open surface: cloth that hangs by its highest vertices, or by its corners where it lies flat,

@@ -1,25 +1,25 @@
 #pragma once
-// A camera that is led by the mouse.
+// A camera that the mouse moves.
 #include "viewer/picking.h"
 
 namespace pliant_viewer {
 
 class OrbitCamera {
  public:
-  /// up: direction about which it orbits, and which stays upright.
+  /// up: the axis of the orbit, which stays upright in the picture.
   OrbitCamera(const pliant_render::Viewpoint& viewpoint, const Vec3f& up);
 
-  /// Turns about the target: `by` in shares of the height of the picture, to the right and down.
-  /// The eye does not go below `floor`, a height along the up direction, unless it is there already.
+  /// Orbits the target; `by` is the motion of the mouse to the right and down, in fractions of the picture height.
+  /// The eye does not go below `floor` [m], a height along the up direction, unless it is there already.
   void orbit(const Vec2f& by, std::optional<float> floor = {});
-  /// Moves sideways, so that what is at the depth of the target keeps under the mouse; in shares of the height.
+  /// Moves sideways, so that points at the depth of the target stay under the mouse; in fractions of the height.
   void pan(const Vec2f& by);
-  /// Goes to `factor` times the distance from the target, > 0.
+  /// Multiplies the distance from the target by `factor`, > 0.
   void zoom(float factor);
-  /// Goes to where the box fits into the picture.
+  /// Moves to where the box fits into the picture; `inset` as in Viewpoint.
   void frame(const pliant_render::Bounds& bounds, float aspect, float inset);
 
-  /// The viewpoint with near and far for a box, and room on the left or the right (Viewpoint::inset).
+  /// The viewpoint, with near and far planes chosen for the box; `inset` as in Viewpoint.
   pliant_render::Viewpoint viewpoint(const pliant_render::Bounds& bounds, float inset) const;
 
  private:

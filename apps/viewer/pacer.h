@@ -7,21 +7,21 @@ namespace pliant_viewer {
 using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
-/// Lets simulated time keep up with the clock where the machine can, and is at most `most_behind` steps behind where it
-/// cannot: what is beyond that is forgotten, so that it does not have to be made up for.
+/// Keeps simulated time in step with the clock where the machine is fast enough. Where it is not, the simulation falls
+/// at most `most_behind` steps behind: a longer lag is forgotten, so that it never has to be made up for.
 class Pacer {
  public:
   static constexpr double most_behind = 4;  // [steps]
-  static constexpr double unlimited = 1e6;  // speeds from here on: as fast as the machine can
+  static constexpr double unlimited = 1e6;  // speeds from here on mean: as fast as possible
 
-  /// Simulated seconds in a second, > 0.
+  /// Simulated seconds per second, > 0.
   void set_speed(double speed) { speed_ = speed; }
   double speed() const { return speed_; }
-  /// Begins anew: the first step is due now.
+  /// Starts over: the first step is due now.
   void start(Clock::time_point now);
-  /// How long to wait for the next step of length h [s]; zero: it is due.
+  /// How long to wait for the next step of length h [s]; zero when it is due.
   Seconds wait(Clock::time_point now, double h);
-  /// To be told after a step.
+  /// Call after each step.
   void took_step() { --steps_behind_; }
   /// Steps that are due [steps].
   double steps_behind() const { return steps_behind_; }

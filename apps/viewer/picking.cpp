@@ -96,13 +96,14 @@ std::uint32_t SurfacePoint::nearest_vertex(std::span<const Vec3f> positions) con
   return nearest;
 }
 
-std::optional<SurfacePoint> pick_surface(const pliant_render::Scenery& scenery, std::span<const Vec3f> positions,
+std::optional<SurfacePoint> pick_surface(const pliant_render::RenderMesh& render_mesh, std::span<const Vec3f> positions,
                                          const Screen& screen, const Vec2f& place, float reach) {
   std::optional<SurfacePoint> picked;
   double foremost = std::numeric_limits<double>::infinity();
   const Ray ray = screen.ray(place);
-  for (std::size_t t = 0; t + 2 < scenery.triangles.size(); t += 3) {
-    const std::uint32_t a = scenery.triangles[t], b = scenery.triangles[t + 1], c = scenery.triangles[t + 2];
+  for (std::size_t t = 0; t + 2 < render_mesh.triangles.size(); t += 3) {
+    const std::uint32_t a = render_mesh.triangles[t], b = render_mesh.triangles[t + 1],
+                        c = render_mesh.triangles[t + 2];
     const auto hit = meet(ray, positions[a], positions[b], positions[c]);
     if (!hit || hit->distance >= foremost) continue;
     foremost = hit->distance;
@@ -110,8 +111,8 @@ std::optional<SurfacePoint> pick_surface(const pliant_render::Scenery& scenery, 
     const double w = std::clamp(hit->w, 0.0, 1.0 - v);
     picked = SurfacePoint{{a, b, c}, Eigen::Vector3d(1 - v - w, v, w).cast<float>()};
   }
-  for (std::size_t r = 0; r + 1 < scenery.ropes.size(); r += 2) {
-    const std::uint32_t a = scenery.ropes[r], b = scenery.ropes[r + 1];
+  for (std::size_t r = 0; r + 1 < render_mesh.ropes.size(); r += 2) {
+    const std::uint32_t a = render_mesh.ropes[r], b = render_mesh.ropes[r + 1];
     const auto place_a = screen.place_of(positions[a]), place_b = screen.place_of(positions[b]);
     if (!place_a || !place_b) continue;
     const Nearest nearest = nearest_on(*place_a, *place_b, place);

@@ -2,25 +2,25 @@
 
 #include <algorithm>
 
-#include "render/quantities.h"
+#include "render/scalar_fields.h"
 
 namespace pliant_viewer {
 namespace {
 
-constexpr Seconds rest_at_end{0.5};  // before it begins again
+constexpr Seconds rest_at_end{0.5};  // before it starts over
 
 }  // namespace
 
-Playback::Playback(pliant_render::RunFrames frames, pliant::ViewSettings look, bool is_playing)
+Playback::Playback(pliant_render::RunFrames frames, pliant::ViewSettings appearance, bool is_playing)
     : frames_(std::move(frames)),
-      look_(std::move(look)),
-      scenery_(std::make_shared<const pliant_render::Scenery>(frames_.scenery())),
-      color_(knows(look_.color) ? look_.color : pliant::ColorBy::none),
+      appearance_(std::move(appearance)),
+      render_mesh_(std::make_shared<const pliant_render::RenderMesh>(frames_.render_mesh())),
+      color_(knows(appearance_.color) ? appearance_.color : pliant::ColorBy::none),
       is_playing_(is_playing && frames_.count() > 1),
       began_(Clock::now()),
       began_at_(frames_.time(0)) {
   for (std::size_t i = 0; i < frames_.count(); ++i) {
-    const pliant_render::TakeFrame frame = frames_.frame(i, pliant::ColorBy::none);
+    const pliant_render::ClipFrame frame = frames_.frame(i, pliant::ColorBy::none);
     for (const pliant_render::Vec3f& p : frame.content.positions) bounds_.add(p);
   }
   show(color_);
@@ -33,7 +33,7 @@ double Playback::run_time(Clock::time_point now) const {
 }
 
 bool Playback::refresh(Clock::time_point now) {
-  if (!has_begun_) began_ = now;  // whatever it took until somebody looked
+  if (!has_begun_) began_ = now;  // time spent before the first refresh does not count
   has_begun_ = true;
   if (is_playing_) {
     const double time = run_time(now);
@@ -70,7 +70,7 @@ void Playback::show(pliant::ColorBy color) {
     extremes.push_back(*least);
     extremes.push_back(*most);
   }
-  ranges_[color] = pliant_render::quantity_range(color, extremes);
+  ranges_[color] = pliant_render::field_range(color, extremes);
 }
 
 std::optional<std::array<float, 2>> Playback::range() const {

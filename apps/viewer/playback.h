@@ -1,21 +1,21 @@
 #pragma once
-// A run that was recorded, played with its own times.
+// A recorded run, played at its own times.
 #include <map>
 
-#include "viewer/stage.h"
+#include "viewer/view_source.h"
 
 namespace pliant_viewer {
 
-class Playback final : public Stage {
+class Playback final : public ViewSource {
  public:
-  Playback(pliant_render::RunFrames frames, pliant::ViewSettings look, bool is_playing);
+  Playback(pliant_render::RunFrames frames, pliant::ViewSettings appearance, bool is_playing);
 
   const std::string& name() const override { return frames_.name(); }
-  const pliant::ViewSettings& look() const override { return look_; }
+  const pliant::ViewSettings& appearance() const override { return appearance_; }
   bool refresh(Clock::time_point now) override;
   Seconds time_to_news(Clock::time_point now) const override;
-  const pliant_render::TakeFrame& frame() const override { return frame_; }
-  std::shared_ptr<const pliant_render::Scenery> scenery() const override { return scenery_; }
+  const pliant_render::ClipFrame& frame() const override { return frame_; }
+  std::shared_ptr<const pliant_render::RenderMesh> render_mesh() const override { return render_mesh_; }
   std::uint64_t restarts() const override { return 0; }
   bool knows(pliant::ColorBy color) const override { return color != pliant::ColorBy::energy; }
   void show(pliant::ColorBy color) override;
@@ -36,14 +36,14 @@ class Playback final : public Stage {
   void set_looping(bool on) { is_looping_ = on; }
 
  private:
-  /// Where it stands in the times of the run [s].
+  /// The current time of the run [s].
   double run_time(Clock::time_point now) const;
 
   pliant_render::RunFrames frames_;
-  pliant::ViewSettings look_;
-  std::shared_ptr<const pliant_render::Scenery> scenery_;
+  pliant::ViewSettings appearance_;
+  std::shared_ptr<const pliant_render::RenderMesh> render_mesh_;
   pliant_render::Bounds bounds_;
-  pliant_render::TakeFrame frame_;
+  pliant_render::ClipFrame frame_;
   std::map<pliant::ColorBy, std::array<float, 2>> ranges_;
   pliant::ColorBy color_;
   bool is_playing_;

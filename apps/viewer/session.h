@@ -1,5 +1,5 @@
 #pragma once
-// A scene that is played with: what a hand and the sliders do to it, without a window.
+// A scene that a user interacts with: what mouse and sliders do to it, without a window.
 #include <functional>
 #include <map>
 #include <optional>
@@ -22,43 +22,43 @@ struct Pull {
 
 class Session {
  public:
-  /// Makes the scene, now and at each restart. Throws what `make` throws.
+  /// Calls `make` now and at each restart. @throws whatever `make` throws.
   explicit Session(MakeScene make);
 
   const pliant::Simulation& simulation() const { return scene_.simulation; }
   const pliant::Scene& scene() const { return scene_; }
-  /// For a scene that leaves it open; see SolverSettings::threads.
+  /// For a scene that does not set it; see SolverSettings::threads.
   void set_threads(Index threads);
-  /// Asked whether a step is to be given up, see Simulation::set_stop.
+  /// `stop` is asked whether to abandon a step, see Simulation::set_stop.
   void set_stop(std::function<bool()> stop);
-  /// Takes a step. Where a hand has changed the scene so that an event of it can no longer act, those that are due are
-  /// left out. @throws pliant::Error as Scene::step does.
+  /// Takes a step. Events that are due but can no longer act, because the user removed what they act on, are skipped.
+  /// @throws pliant::Error as Scene::step does.
   pliant::StepReport step();
 
-  /// Makes the scene anew, with no pull. `keep_values`: what was set by set() is set again, else it is forgotten. When
-  /// this throws, nothing has changed.
+  /// Makes the scene again, without a pull. `keep_values`: values from set() are applied again; otherwise they are
+  /// forgotten. If this throws, nothing has changed.
   void restart(bool keep_values);
 
-  /// Lets a spring draw at a point, in place of an earlier one: implicit, hence stable at any stiffness.
+  /// Attaches a spring to a point, replacing an earlier one. It is implicit, hence stable at any stiffness.
   void grab(const Pull& pull);
-  /// Moves the end of the spring; without one nothing happens, as for the others.
+  /// Moves the end of the spring; does nothing without one, as do the next two.
   void pull_to(const Vec3f& target);
   void set_pull_stiffness(Real stiffness);
   void let_go();
   const std::optional<Pull>& pull() const { return pull_; }
-  /// What a user should know of the last step; empty for nothing.
+  /// A note on the last step for the user; empty for none.
   const std::string& note() const { return note_; }
 
-  /// Holds a vertex, by its index in the simulation, where it is now; nothing happens to one that is pinned.
+  /// Pins a vertex, by its index in the simulation, where it is now; does nothing if it is pinned already.
   void pin(Index vertex);
-  /// Lets it go, of whichever group the pin is.
+  /// Releases the vertex, whichever group its pin belongs to.
   void unpin(Index vertex);
   bool is_pinned(Index vertex) const { return find_pin(vertex).has_value(); }
-  /// Moves a pin; what moved it before no longer does.
+  /// Moves a pin to `target` [m]; motions of the scene no longer move it.
   void move_pin(Index vertex, const Vec3f& target);
 
   std::vector<Parameter> parameters() const { return list_parameters(simulation(), pull_group_); }
-  /// Sets a parameter by its key (Parameter::key). Throws Error(input) on a value out of its range.
+  /// Sets a parameter by its key (Parameter::key). @throws pliant::Error (input): a value out of range.
   void set(const std::string& key, const pliant::Vec3& value);
 
  private:
@@ -73,13 +73,13 @@ class Session {
   MakeScene make_;
   pliant::Scene scene_;
   std::function<bool()> stop_;
-  std::map<std::string, pliant::Vec3> values_;  // as set by set()
+  std::map<std::string, pliant::Vec3> values_;  // from set()
   std::optional<Pull> pull_;
   std::optional<pliant::GroupId> pull_group_;
   std::string note_;
 };
 
-/// A stiffness that lifts the scene's bodies without much stretch of the spring [N/m].
+/// A stiffness [N/m] with which the mouse can lift the scene's bodies while the spring stretches little.
 Real suggest_pull_stiffness(const pliant::Simulation& simulation);
 
 }  // namespace pliant_viewer

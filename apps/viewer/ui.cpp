@@ -76,7 +76,7 @@ bool Ui::takes_text() const {
   return context_->IO.WantTextInput;
 }
 
-pliant_render::SignSheet Ui::sheet(const Vec2f& picture) const {
+pliant_render::AnnotationCanvas Ui::canvas(const Vec2f& picture) const {
   return {*ImGui::GetBackgroundDrawList(), *font_, ink_, picture.x(), picture.y()};
 }
 

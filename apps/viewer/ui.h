@@ -1,6 +1,6 @@
 #pragma once
-// ImGui in a window: its context, its font, its frames.
-#include "render/signs.h"
+// ImGui in a window: context, font, frames.
+#include "render/annotations.h"
 #include "viewer/panels/panel_style.h"
 #include "viewer/window.h"
 
@@ -10,29 +10,29 @@ namespace pliant_viewer {
 
 class Ui {
  public:
-  /// For panels on a background like this one.
+  /// Chooses light or dark panels to suit the background.
   Ui(Window& window, const pliant::Color& background);
   ~Ui();
   Ui(const Ui&) = delete;
   Ui& operator=(const Ui&) = delete;
 
-  /// Between these two, panels and signs are put together; end() draws them onto the framebuffer that is bound.
+  /// Panels and annotations are built between these two; end() draws them onto the framebuffer that is bound.
   void begin();
   void end();
-  /// Whether a panel, and not the picture, is at a place; as of the last frame.
+  /// Whether a panel covered a place in the last frame.
   bool has_panel_at(const Vec2f& place) const;
-  /// Whether a panel holds the mouse, or takes what is typed.
+  /// Whether a panel is using the mouse, or the keyboard for text.
   bool holds_mouse() const;
   bool takes_text() const;
 
-  /// Where the mouse is, beyond the window's edges too.
+  /// Where the mouse is, also outside the window.
   Vec2f mouse() const;
-  /// Turns the arrow of the mouse into a hand, for this frame.
+  /// Shows the mouse cursor as a hand, for this frame.
   static void show_hand();
 
   const PanelStyle& style() const { return style_; }
-  /// What signs are drawn onto, behind the panels: a picture of this size at the left of the window.
-  pliant_render::SignSheet sheet(const Vec2f& picture) const;
+  /// The canvas for annotations, behind the panels: a picture of this size on the left of the window.
+  pliant_render::AnnotationCanvas canvas(const Vec2f& picture) const;
   pliant_render::Vec3f panel_color() const;
 
  private:

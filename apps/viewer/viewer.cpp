@@ -8,8 +8,8 @@
 #include <imgui.h>
 
 #include "pliant/core/error.h"
+#include "viewer/gizmos.h"
 #include "viewer/live_scene.h"
-#include "viewer/marks.h"
 
 namespace pliant_viewer {
 namespace {
@@ -20,18 +20,18 @@ using pliant_render::Viewpoint;
 constexpr double most_frames_a_second = 60;
 constexpr double idle_turn = 0.25;  // [s]
 
-Viewpoint first_viewpoint(const Stage& stage, const pliant::ViewSettings& look, const Vec2f& size) {
-  if (const auto known = stage.known_bounds()) return place_camera(look.camera, *known, size.x() / size.y());
-  Bounds bounds = pliant_render::bounds_of(stage.frame().content.positions);
+Viewpoint first_viewpoint(const ViewSource& source, const pliant::ViewSettings& appearance, const Vec2f& size) {
+  if (const auto known = source.known_bounds()) return place_camera(appearance.camera, *known, size.x() / size.y());
+  Bounds bounds = pliant_render::bounds_of(source.frame().content.positions);
   if (bounds.is_empty()) bounds.add(Vec3f::Zero());
-  // Room for what moves: nobody knows yet where to.
+  // Leave room for motion, whose direction is not known yet.
   const Vec3f room = Vec3f::Constant(0.12F * bounds.radius());
   bounds.add(bounds.low - room);
   bounds.add(bounds.high + room);
-  return place_camera(look.camera, bounds, size.x() / size.y());
+  return place_camera(appearance.camera, bounds, size.x() / size.y());
 }
 
-/// A magnitude that few are beyond: single vertices beside pins do not take the colors from all others.
+/// A magnitude that few values exceed, so that single vertices beside pins do not take the whole range of colors.
 float large_value(std::vector<float> values) {
   constexpr std::size_t one_of = 50;
   if (values.empty()) return 0;
@@ -43,19 +43,19 @@ float large_value(std::vector<float> values) {
 
 }  // namespace
 
-Viewer::Viewer(Window& window, Stage& stage, ViewerOptions options)
+Viewer::Viewer(Window& window, ViewSource& source, ViewerOptions options)
     : window_(window),
-      stage_(stage),
-      look_(options.look),
+      source_(source),
+      appearance_(options.appearance),
       samples_(options.samples.value_or(window.is_software() ? 1 : 4)),
       picture_folder_(std::move(options.picture_folder)),
-      ui_(window, look_.background),
-      camera_(first_viewpoint(stage, look_, picture_size()), look_.camera.up.cast<float>()),
+      ui_(window, appearance_.background),
+      camera_(first_viewpoint(source, appearance_, picture_size()), appearance_.camera.up.cast<float>()),
       first_camera_(camera_),
-      hand_(stage.live() != nullptr ? stage.live()->suggested_pull() : 1),
+      interaction_(source.live() != nullptr ? source.live()->suggested_pull() : 1),
       frame_interval_(1 / most_frames_a_second) {
-  if (!stage.knows(look_.color)) look_.color = pliant::ColorBy::none;
-  if (look_.color != stage.look().color) stage_.show(look_.color);
+  if (!source.knows(appearance_.color)) appearance_.color = pliant::ColorBy::none;
+  if (appearance_.color != source.appearance().color) source_.show(appearance_.color);
   update_bounds();
   place_screen();
 }
@@ -66,10 +66,10 @@ void Viewer::run(const std::function<bool()>& shall_end) {
 
 bool Viewer::turn(double most_wait) {
   const Clock::time_point now = Clock::now();
-  const double news = stage_.time_to_news(now).count();
+  const double news = source_.time_to_news(now).count();
   const double pause = frame_interval_ - Seconds(now - last_draw_).count();
   if (draws_left_ > 0 || news <= 0) {
-    // Pictures come evenly, and the processor is left to the simulation in between.
+    // Frames come evenly, and the processor is left to the simulation in between.
     if (pause > 0) std::this_thread::sleep_for(Seconds(std::min(pause, most_wait)));
     window_.wait(0);
   } else {
@@ -81,19 +81,19 @@ bool Viewer::turn(double most_wait) {
     message_.clear();
     draws_left_ = 1;
   }
-  // A step that takes long is told of, and counted.
-  const LiveScene* live = stage_.live();
+  // A message about a slow step counts its seconds.
+  const LiveScene* live = source_.live();
   if (live != nullptr && live->step_age() > Seconds(1) && Clock::now() - last_draw_ > Seconds(0.5)) draws_left_ = 1;
-  if (stage_.refresh(Clock::now())) is_frame_new_ = true;
-  if (stage_.restarts() != restarts_) {
-    restarts_ = stage_.restarts();
-    hand_.cancel();
+  if (source_.refresh(Clock::now())) is_frame_new_ = true;
+  if (source_.restarts() != restarts_) {
+    restarts_ = source_.restarts();
+    interaction_.cancel();
     has_ground_ = false;
   }
   if (!is_frame_new_ && draws_left_ == 0 && !wants_picture_) return false;
   draws_left_ = std::max(draws_left_ - 1, 0);
   if (!window_.is_visible()) {
-    std::this_thread::sleep_for(Seconds(frame_interval_));  // what cannot be seen is not drawn
+    std::this_thread::sleep_for(Seconds(frame_interval_));  // a hidden window is not drawn
     return false;
   }
   draw();
@@ -106,24 +106,24 @@ void Viewer::say(std::string message) {
   draws_left_ = 2;
 }
 
-void Viewer::update_scenery() {
-  if (stage_.scenery() == scenery_) return;
-  scenery_ = stage_.scenery();
-  renderer_.emplace(*scenery_);
+void Viewer::update_render_mesh() {
+  if (source_.render_mesh() == render_mesh_) return;
+  render_mesh_ = source_.render_mesh();
+  renderer_.emplace(*render_mesh_);
   is_frame_new_ = true;
 }
 
 void Viewer::update_bounds() {
-  bounds_ = pliant_render::bounds_of(stage_.frame().content.positions);
-  if (look_.ground_height) {
-    ground_height_ = static_cast<float>(*look_.ground_height);
+  bounds_ = pliant_render::bounds_of(source_.frame().content.positions);
+  if (appearance_.ground_height) {
+    ground_height_ = static_cast<float>(*appearance_.ground_height);
     return;
   }
-  if (const auto known = stage_.known_bounds()) {
+  if (const auto known = source_.known_bounds()) {
     ground_height_ = known->low.z() - 0.03F * known->radius();
     return;
   }
-  // A little below everything, and lower where something falls.
+  // A little below everything, and lower as something falls.
   if (bounds_.is_empty()) return;
   const float below = bounds_.low.z() - 0.03F * bounds_.radius();
   ground_height_ = has_ground_ ? std::min(ground_height_, below) : bounds_.low.z() - 0.10F * bounds_.radius();
@@ -131,7 +131,7 @@ void Viewer::update_bounds() {
 }
 
 float Viewer::panel_width() const {
-  constexpr float width = 316, least_window = 640;  // a smaller window is left to the picture
+  constexpr float width = 316, least_window = 640;  // a smaller window shows the picture alone
   const float unit = ui_.style().unit;
   return is_panel_open_ && window_.size().x() >= least_window * unit ? width * unit : 0;
 }
@@ -143,28 +143,28 @@ Vec2f Viewer::picture_size() const {
 
 void Viewer::place_screen() {
   screen_.size = picture_size();
-  const bool has_legend =
-      pliant_render::make_legend(look_, range_, static_cast<int>(screen_.size.x()), static_cast<int>(screen_.size.y()))
-          .has_value();
+  const bool has_legend = pliant_render::make_legend(appearance_, range_, static_cast<int>(screen_.size.x()),
+                                                     static_cast<int>(screen_.size.y()))
+                              .has_value();
   const float right = has_legend ? pliant_render::legend_width(static_cast<int>(screen_.size.y())) : 0;
   screen_.viewpoint = camera_.viewpoint(bounds_, right / screen_.size.x());
 }
 
 std::array<float, 2> Viewer::color_range() {
-  if (look_.color_range) {
-    return {static_cast<float>((*look_.color_range)[0]), static_cast<float>((*look_.color_range)[1])};
+  if (appearance_.color_range) {
+    return {static_cast<float>((*appearance_.color_range)[0]), static_cast<float>((*appearance_.color_range)[1])};
   }
-  if (const auto known = stage_.range()) return *known;
-  return auto_range_.update(stage_.color(), large_value(stage_.frame().content.values), Clock::now());
+  if (const auto known = source_.range()) return *known;
+  return auto_range_.update(source_.color(), large_value(source_.frame().content.values), Clock::now());
 }
 
 void Viewer::draw() {
   last_draw_ = Clock::now();
-  update_scenery();
+  update_render_mesh();
   if (is_frame_new_) {
     update_bounds();
     range_ = color_range();
-    renderer_->set_frame(stage_.frame().content, stage_.color());
+    renderer_->set_frame(source_.frame().content, source_.color());
     is_frame_new_ = false;
   }
   place_screen();
@@ -174,7 +174,7 @@ void Viewer::draw() {
   if (width <= 0 || height <= 0) return;
   if (wants_picture_) write_picture(width, height);
   ui_.begin();
-  draw_signs();
+  draw_annotations();
   draw_panels();
   const pliant_render::DrawOptions options{screen_.viewpoint, range_, ground_height_, static_cast<float>(height) / 720};
   draw_picture(options, width, height);
@@ -185,12 +185,12 @@ void Viewer::draw() {
   ++frame_count_;
 }
 
-/// Into the window's framebuffer, by way of one with several samples a pixel where these are wanted.
+/// Draws into the window's framebuffer, through a multisampled one where several samples per pixel are wanted.
 void Viewer::draw_picture(const pliant_render::DrawOptions& options, int width, int height) {
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   if (samples_ <= 1) {
     target_.reset();
-    renderer_->draw(look_, options, width, height);
+    renderer_->draw(appearance_, options, width, height);
     return;
   }
   if (!target_ || target_->width() != width || target_->height() != height || target_samples_ != samples_) {
@@ -202,17 +202,17 @@ void Viewer::draw_picture(const pliant_render::DrawOptions& options, int width, 
       say(error.what());
       samples_ = 1;
       glBindFramebuffer(GL_FRAMEBUFFER, 0);
-      renderer_->draw(look_, options, width, height);
+      renderer_->draw(appearance_, options, width, height);
       return;
     }
   }
   target_->begin();
-  renderer_->draw(look_, options, width, height);
+  renderer_->draw(appearance_, options, width, height);
   target_->resolve();
   target_->show();
 }
 
-/// Faster than by ImGui, whose every pixel is a texture's.
+/// Fills the area of the panel; faster than ImGui, which samples a texture for every pixel.
 void Viewer::fill_panel(int left, int width, int height) const {
   if (width <= 0) return;
   const Vec3f color = ui_.panel_color();
@@ -224,42 +224,44 @@ void Viewer::fill_panel(int left, int width, int height) const {
   glViewport(0, 0, left + width, height);
 }
 
-void Viewer::draw_signs() {
-  const pliant_render::SignSheet sheet = ui_.sheet(screen_.size);
+void Viewer::draw_annotations() {
+  const pliant_render::AnnotationCanvas canvas = ui_.canvas(screen_.size);
   const auto legend =
-      pliant_render::make_legend(look_, range_, static_cast<int>(sheet.width), static_cast<int>(sheet.height));
-  sheet.list.PushClipRect({0, 0}, {sheet.width, sheet.height});
-  draw_marks(sheet);
-  sheet.list.PopClipRect();
-  if (legend) draw_legend(*legend, sheet);
-  if (stage_.frame().wind) draw_wind(*stage_.frame().wind, screen_.viewpoint, sheet);
+      pliant_render::make_legend(appearance_, range_, static_cast<int>(canvas.width), static_cast<int>(canvas.height));
+  canvas.list.PushClipRect({0, 0}, {canvas.width, canvas.height});
+  draw_gizmos(canvas);
+  canvas.list.PopClipRect();
+  if (legend) draw_legend(*legend, canvas);
+  if (source_.frame().wind) draw_wind(*source_.frame().wind, screen_.viewpoint, canvas);
 }
 
-/// What the mouse holds, is about to take hold of, and has asked for.
-void Viewer::draw_marks(const pliant_render::SignSheet& sheet) {
-  LiveScene* live = stage_.live();
+/// Marks what the mouse holds or would grab, and pins that are about to change.
+void Viewer::draw_gizmos(const pliant_render::AnnotationCanvas& canvas) {
+  LiveScene* live = source_.live();
   if (live == nullptr) return;
-  const std::vector<Vec3f>& positions = stage_.frame().content.positions;
+  const std::vector<Vec3f>& positions = source_.frame().content.positions;
   const float unit = ui_.style().unit;
-  if (hand_.pull()) {
-    draw_spring(screen_, hand_.pull()->point.position(positions), hand_.pull()->target, unit, sheet.list);
+  if (interaction_.pull()) {
+    draw_spring(screen_, interaction_.pull()->point.position(positions), interaction_.pull()->target, unit,
+                canvas.list);
   }
-  if (const auto held = hand_.held_pin()) draw_ring(screen_, held->target, unit, sheet.list);
-  for (const std::uint32_t vertex : hand_.pending(live->shown())) {
-    draw_ring(screen_, positions[vertex], unit, sheet.list);
+  if (const auto held = interaction_.grabbed_pin()) draw_ring(screen_, held->target, unit, canvas.list);
+  for (const std::uint32_t vertex : interaction_.pending(live->shown())) {
+    draw_ring(screen_, positions[vertex], unit, canvas.list);
   }
   const Vec2f mouse = ui_.mouse();
-  if (hand_.is_busy() || ui_.has_panel_at(mouse) || (mouse.array() < 0).any() || mouse.x() > screen_.size.x()) return;
-  const Hand::Aim aim = Hand::aim(mouse, place_of_mouse());
-  if (aim.pin) draw_ring(screen_, positions[*aim.pin], unit, sheet.list);
-  if (aim.pin || aim.point) Ui::show_hand();
+  const bool is_in_picture = (mouse.array() >= 0).all() && mouse.x() <= screen_.size.x() && !ui_.has_panel_at(mouse);
+  if (interaction_.is_busy() || !is_in_picture) return;
+  const MouseInteraction::PickTarget under = MouseInteraction::pick(mouse, mouse_view());
+  if (under.pin) draw_ring(screen_, positions[*under.pin], unit, canvas.list);
+  if (under.pin || under.point) Ui::show_hand();
 }
 
-/// Draws the picture and the signs as they are, without panels, and reads it back.
+/// Draws the picture and its annotations without panels, and saves it.
 void Viewer::write_picture(int width, int height) {
   wants_picture_ = false;
   ui_.begin();
-  draw_signs();
+  draw_annotations();
   draw_picture({screen_.viewpoint, range_, ground_height_, static_cast<float>(height) / 720}, width, height);
   ui_.end();
   glBindFramebuffer(GL_FRAMEBUFFER, 0);

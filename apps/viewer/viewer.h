@@ -1,55 +1,55 @@
 #pragma once
-// The window as a whole: takes what people do, shows a stage.
+// The window as a whole: handles input and shows a source.
 #include <filesystem>
 #include <optional>
 
 #include "render/render_target.h"
 #include "render/renderer.h"
 #include "viewer/auto_range.h"
-#include "viewer/hand.h"
-#include "viewer/pulse.h"
-#include "viewer/stage.h"
+#include "viewer/frame_statistics.h"
+#include "viewer/mouse_interaction.h"
 #include "viewer/ui.h"
+#include "viewer/view_source.h"
 
 namespace pliant_viewer {
 
 struct ViewerOptions {
-  pliant::ViewSettings look;     ///< to begin with; its size is that of the window
-  std::optional<int> samples{};  ///< of a pixel; default: 4 on a graphics card, 1 where the processor draws
-  std::filesystem::path picture_folder = ".";  ///< of saved pictures
+  pliant::ViewSettings appearance;  ///< initial appearance; its size is ignored in favor of the window's
+  std::optional<int> samples{};     ///< per pixel; default: 4 on a graphics card, 1 where the processor draws
+  std::filesystem::path picture_folder = ".";  ///< where the key P saves pictures
 };
 
 class Viewer {
  public:
-  Viewer(Window& window, Stage& stage, ViewerOptions options);
+  Viewer(Window& window, ViewSource& source, ViewerOptions options);
 
-  /// Until the window is closed, or `shall_end` says so, which is asked several times a second.
+  /// Runs until the window is closed or `shall_end`, asked several times a second, returns true.
   void run(const std::function<bool()>& shall_end);
-  /// Waits, at most that long [s], until there is something to be drawn, and draws it. Returns whether it has drawn.
+  /// Waits at most `most_wait` [s] until there is something to draw, and draws it. Returns whether it has drawn.
   bool turn(double most_wait);
 
-  /// The picture as it was drawn last, for the mouse.
+  /// The picture as last drawn, in units of the mouse.
   const Screen& screen() const { return screen_; }
-  const Hand& hand() const { return hand_; }
-  const pliant::ViewSettings& look() const { return look_; }
-  /// Pictures that were drawn.
+  const MouseInteraction& interaction() const { return interaction_; }
+  const pliant::ViewSettings& appearance() const { return appearance_; }
+  /// Number of pictures drawn so far.
   std::uint64_t frame_count() const { return frame_count_; }
   bool is_help_open() const { return is_help_open_; }
-  /// Writes what is seen, without the panels, to the next free pliant-0001.png, and says so in the window.
+  /// Saves the picture without panels under the next free name like pliant-0001.png, and says so in the window.
   void save_picture() { wants_picture_ = true; }
 
  private:
   // viewer_input.cpp
   void take_input();
   void take_key(const KeyEvent& event);
-  Hand::Place place_of_mouse();
+  MouseInteraction::View mouse_view();
   void toggle_color();
   void change_color();
   void frame_everything();
   void view_as_at_first();
 
   void draw();
-  void update_scenery();
+  void update_render_mesh();
   void update_bounds();
   void place_screen();
   float panel_width() const;
@@ -57,8 +57,8 @@ class Viewer {
   void fill_panel(int left, int width, int height) const;
   std::array<float, 2> color_range();
   void draw_picture(const pliant_render::DrawOptions& options, int width, int height);
-  void draw_signs();
-  void draw_marks(const pliant_render::SignSheet& sheet);
+  void draw_annotations();
+  void draw_gizmos(const pliant_render::AnnotationCanvas& canvas);
   void draw_panels();
   void draw_main_panel();
   void draw_message();
@@ -66,34 +66,34 @@ class Viewer {
   void say(std::string message);
 
   Window& window_;
-  Stage& stage_;
-  pliant::ViewSettings look_;
+  ViewSource& source_;
+  pliant::ViewSettings appearance_;
   int samples_;
   std::filesystem::path picture_folder_;
   Ui ui_;
   bool is_panel_open_ = true;
   OrbitCamera camera_;
   OrbitCamera first_camera_;
-  Hand hand_;
+  MouseInteraction interaction_;
   AutoRange auto_range_;
   std::optional<pliant_render::Renderer> renderer_;
   std::optional<pliant_render::RenderTarget> target_;
   int target_samples_ = 1;
-  std::shared_ptr<const pliant_render::Scenery> scenery_;
+  std::shared_ptr<const pliant_render::RenderMesh> render_mesh_;
   std::uint64_t restarts_ = 0;
 
-  pliant_render::Bounds bounds_;  // of the frame that is shown
+  pliant_render::Bounds bounds_;  // of the current frame
   std::array<float, 2> range_ = {0, 1};
   float ground_height_ = 0;
-  bool has_ground_ = false;  // at a height that suits what is shown
+  bool has_ground_ = false;  // whether ground_height_ suits the current scene
   Screen screen_;
   bool is_frame_new_ = true;
-  int draws_left_ = 0;  // after something was touched: the panels need one or two more to settle
+  int draws_left_ = 0;  // after input: the panels need one or two more frames to settle
   double frame_interval_;
   Clock::time_point last_draw_{};
   Clock::time_point last_message_{};
   std::string message_;
-  Pulse frames_;
+  FrameStatistics frames_;
   std::uint64_t frame_count_ = 0;
   bool is_help_open_ = false;
   bool wants_picture_ = false;

@@ -1,4 +1,4 @@
-// What keys and the mouse do in the window.
+// What keys and mouse do in the window.
 #include <algorithm>
 
 #define GLFW_INCLUDE_NONE
@@ -9,13 +9,13 @@
 namespace pliant_viewer {
 namespace {
 
-constexpr double stiffer = 1.5;  // a key
+constexpr double stiffer = 1.5;  // per key press
 
 }  // namespace
 
-Hand::Place Viewer::place_of_mouse() {
-  LiveScene* live = stage_.live();
-  const bool has_floor = look_.ground && look_.camera.up.normalized().z() > 0.999;
+MouseInteraction::View Viewer::mouse_view() {
+  LiveScene* live = source_.live();
+  const bool has_floor = appearance_.ground && appearance_.camera.up.normalized().z() > 0.999;
   return {screen_,
           camera_,
           live,
@@ -30,40 +30,41 @@ void Viewer::take_input() {
   }
   for (const MouseEvent& event : window_.take_mouse_events()) {
     const bool begins = event.kind == MouseEvent::Kind::press || event.kind == MouseEvent::Kind::wheel;
-    if (begins && !hand_.is_busy() && (ui_.has_panel_at(event.place) || ui_.holds_mouse())) continue;
-    hand_.handle(event, place_of_mouse());
+    if (begins && !interaction_.is_busy() && (ui_.has_panel_at(event.place) || ui_.holds_mouse())) continue;
+    interaction_.handle(event, mouse_view());
     screen_.viewpoint = camera_.viewpoint(bounds_, screen_.viewpoint.inset);
   }
-  hand_.flush(place_of_mouse());
+  interaction_.flush(mouse_view());
 }
 
 void Viewer::take_key(const KeyEvent& event) {
-  LiveScene* live = stage_.live();
-  if (event.key == GLFW_KEY_RIGHT || (event.key == GLFW_KEY_S && !event.control)) return stage_.step(1);
-  if (event.key == GLFW_KEY_LEFT) return stage_.step(-1);
+  LiveScene* live = source_.live();
+  if (event.key == GLFW_KEY_RIGHT || (event.key == GLFW_KEY_S && !event.control)) return source_.step(1);
+  if (event.key == GLFW_KEY_LEFT) return source_.step(-1);
   if (event.key == GLFW_KEY_EQUAL || event.key == GLFW_KEY_KP_ADD || event.key == GLFW_KEY_RIGHT_BRACKET) {
-    if (live != nullptr) hand_.set_stiffness(std::min(hand_.stiffness() * stiffer, 1e9), *live);
+    if (live != nullptr) interaction_.set_stiffness(std::min(interaction_.stiffness() * stiffer, 1e9), *live);
     return;
   }
   if (event.key == GLFW_KEY_MINUS || event.key == GLFW_KEY_KP_SUBTRACT || event.key == GLFW_KEY_SLASH) {
-    if (live != nullptr) hand_.set_stiffness(std::max(hand_.stiffness() / stiffer, 1e-3), *live);
+    if (live != nullptr) interaction_.set_stiffness(std::max(interaction_.stiffness() / stiffer, 1e-3), *live);
     return;
   }
   if (event.is_repeated) return;
   switch (event.key) {
     case GLFW_KEY_SPACE:
-      return stage_.play(!stage_.is_playing());
+      return source_.play(!source_.is_playing());
     case GLFW_KEY_R:
-      return stage_.restart(!event.shift);
+      return source_.restart(!event.shift);
     case GLFW_KEY_F:
       return event.shift ? view_as_at_first() : frame_everything();
     case GLFW_KEY_C:
       return toggle_color();
     case GLFW_KEY_W:
-      look_.wireframe = !look_.wireframe;
+      appearance_.wireframe = !appearance_.wireframe;
       return;
     case GLFW_KEY_L:
-      look_.shading = look_.shading == pliant::Shading::flat ? pliant::Shading::smooth : pliant::Shading::flat;
+      appearance_.shading =
+          appearance_.shading == pliant::Shading::flat ? pliant::Shading::smooth : pliant::Shading::flat;
       return;
     case GLFW_KEY_P:
       return save_picture();
@@ -98,13 +99,13 @@ void Viewer::frame_everything() {
 void Viewer::toggle_color() {
   const auto count = static_cast<int>(choice_names(pliant::ColorBy{}).size());
   do {
-    look_.color = static_cast<pliant::ColorBy>((static_cast<int>(look_.color) + 1) % count);
-  } while (!stage_.knows(look_.color));
+    appearance_.color = static_cast<pliant::ColorBy>((static_cast<int>(appearance_.color) + 1) % count);
+  } while (!source_.knows(appearance_.color));
   change_color();
 }
 
 void Viewer::change_color() {
-  stage_.show(look_.color);
+  source_.show(appearance_.color);
   is_frame_new_ = true;
 }
 

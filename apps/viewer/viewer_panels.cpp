@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "viewer/panels/appearance_panel.h"
 #include "viewer/panels/help_panel.h"
-#include "viewer/panels/look_panel.h"
 #include "viewer/panels/time_bar.h"
 #include "viewer/viewer.h"
 
@@ -18,10 +18,10 @@ constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlag
 
 void Viewer::draw_panels() {
   if (panel_width() > 0) draw_main_panel();
-  if (auto* playback = dynamic_cast<Playback*>(&stage_)) {
+  if (auto* playback = dynamic_cast<Playback*>(&source_)) {
     draw_time_bar(*playback, screen_.size, ui_.style());
   }
-  if (is_help_open_) is_help_open_ = draw_help(stage_.live() != nullptr, screen_.size, ui_.style());
+  if (is_help_open_) is_help_open_ = draw_help(source_.live() != nullptr, screen_.size, ui_.style());
   draw_message();
 }
 
@@ -33,30 +33,30 @@ void Viewer::draw_main_panel() {
   ImGui::Begin("panel", nullptr, (fixed & ~ImGuiWindowFlags_AlwaysAutoResize) | ImGuiWindowFlags_NoBackground);
   ImGui::PopStyleVar();
   const float third = (ImGui::GetContentRegionAvail().x - 2 * ImGui::GetStyle().ItemSpacing.x) / 3;
-  if (ImGui::Button(stage_.is_playing() ? "Pause" : "Play", {third, 0})) stage_.play(!stage_.is_playing());
+  if (ImGui::Button(source_.is_playing() ? "Pause" : "Play", {third, 0})) source_.play(!source_.is_playing());
   explain("Space");
   ImGui::SameLine();
-  if (ImGui::Button("Step", {third, 0})) stage_.step(1);
+  if (ImGui::Button("Step", {third, 0})) source_.step(1);
   explain("S");
   ImGui::SameLine();
-  if (ImGui::Button("Restart", {third, 0})) stage_.restart(true);
-  explain(stage_.live() != nullptr ? "R: from the start, with the scene's pins and the values that are set here\n"
-                                     "Shift + R: all values as the scene's file has them"
-                                   : "R: to the first frame");
+  if (ImGui::Button("Restart", {third, 0})) source_.restart(true);
+  explain(source_.live() != nullptr ? "R: from the start, with the scene's pins and the values that are set here\n"
+                                      "Shift + R: all values as the scene's file has them"
+                                    : "R: to the first frame");
   ImGui::Spacing();
-  if (LiveScene* live = stage_.live()) {
+  if (LiveScene* live = source_.live()) {
     row_label("pull", "+ and −: stiffness of the spring by which the mouse pulls");
-    double stiffness = hand_.stiffness();
+    double stiffness = interaction_.stiffness();
     const double low = live->suggested_pull() / 1e3, high = live->suggested_pull() * 1e6;
     if (ImGui::SliderScalar("##pull", ImGuiDataType_Double, &stiffness, &low, &high,
                             number_format(stiffness, "N/m").c_str(),
                             ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat) &&
         stiffness > 0) {
-      hand_.set_stiffness(stiffness, *live);
+      interaction_.set_stiffness(stiffness, *live);
     }
   }
-  stage_.draw_panel();
-  if (section_header("Picture") && draw_look_panel(look_, samples_, stage_)) change_color();
+  source_.draw_panel();
+  if (section_header("Picture") && draw_appearance_panel(appearance_, samples_, source_)) change_color();
   ImGui::Separator();
   ImGui::Spacing();
   if (ImGui::Button("Help", {third, 0})) is_help_open_ = !is_help_open_;
@@ -68,10 +68,10 @@ void Viewer::draw_main_panel() {
   ImGui::End();
 }
 
-/// What was done, or went wrong, at the upper edge.
+/// Shows the latest message or error at the upper edge.
 void Viewer::draw_message() {
   std::string text = message_;
-  if (const LiveScene* live = stage_.live(); text.empty() && live != nullptr) {
+  if (const LiveScene* live = source_.live(); text.empty() && live != nullptr) {
     const double age = live->step_age().count();
     text = age > 1 ? fmt::format("a step has taken {:.0f} s so far; fewer iterations end it", age) : live->shown().note;
   }

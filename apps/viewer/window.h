@@ -1,5 +1,5 @@
 #pragma once
-// A window of the desktop with OpenGL in it, and what people do in it.
+// A desktop window with OpenGL, and the input events it receives.
 #include <array>
 #include <string>
 #include <vector>
@@ -14,17 +14,17 @@ using pliant_render::Vec2f;
 
 enum class MouseButton { left, right, middle };
 
-/// In the order in which they happened, with the places at which they did.
+/// Mouse events come in the order in which they happened, each with its place.
 struct MouseEvent {
   enum class Kind { press, release, move, wheel };
   Kind kind = Kind::move;
-  MouseButton button = MouseButton::left;  ///< of press and release
-  Vec2f place = {0, 0};                    ///< from the upper left corner, in the units of the window
-  float wheel = 0;                         ///< notches, away from the user positive
+  MouseButton button = MouseButton::left;  ///< for press and release
+  Vec2f place = {0, 0};                    ///< from the upper left corner, in window units
+  float wheel = 0;                         ///< notches, positive away from the user
   bool shift = false;
 };
 
-/// A key that was pressed, or is held and repeats itself.
+/// A key that was pressed, or is held down and repeats.
 struct KeyEvent {
   int key = 0;  ///< GLFW_KEY_...
   bool shift = false;
@@ -34,9 +34,10 @@ struct KeyEvent {
 
 class Window {
  public:
-  /// @throws pliant::Error (input): there is no display
+  /// @throws pliant::Error (input) if there is no display
   static void require_display();
-  /// Opens a window of this size at most. Throws Error(input) where there is no display, or no OpenGL 3.3 in it.
+  /// Opens a window of at most this size.
+  /// @throws pliant::Error (input) if there is no display, or none with OpenGL 3.3.
   Window(const std::string& title, int width, int height);
   ~Window();
   Window(const Window&) = delete;
@@ -46,20 +47,20 @@ class Window {
   bool wants_to_close() const;
   void close();
 
-  Vec2f size() const;                           ///< in units of the mouse
+  Vec2f size() const;                           ///< in window units, as the mouse is measured
   std::array<int, 2> framebuffer_size() const;  ///< in pixels; 0 while it is minimized
-  float content_scale() const;                  ///< of letters, as the desktop is set
+  float content_scale() const;                  ///< of fonts, from the settings of the desktop
   bool is_visible() const;
 
-  /// What the driver calls itself, and whether the processor draws.
+  /// The name of the OpenGL driver, and whether it draws with the processor.
   const std::string& driver() const { return driver_; }
   bool is_software() const;
 
-  /// Waits until something happens, wake() is called or the time [s] is over.
+  /// Waits until an event arrives, wake() is called or the time [s] is over.
   void wait(double seconds);
-  /// Ends a wait; from any thread.
+  /// Ends a wait; may be called from any thread.
   static void wake();
-  /// What has happened since the last call; `was_touched`: anything at all, as resizing.
+  /// Events since the last call; was_touched() reports any event at all, such as resizing.
   std::vector<MouseEvent> take_mouse_events();
   std::vector<KeyEvent> take_key_events();
   bool was_touched();

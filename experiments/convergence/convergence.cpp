@@ -63,17 +63,17 @@ double largest_rise(std::span<const Real> history) {
   return rise;
 }
 
-Case measure(const Lab& lab, int size, double stiffness, int most_iterations) {
-  lab.say(fmt::format("{0} × {0} vertices, k = {1:g} N/m", size, stiffness));
-  Scene scene =
-      lab.scene("convergence/trampoline",
-                {fmt::format("bodies[sheet].mesh.columns={}", size), fmt::format("bodies[sheet].mesh.rows={}", size),
-                 fmt::format("bodies[sheet].constraints[springs].stiffness={}", stiffness),
-                 fmt::format("forces[0].force=[0,0,{}]", -pull_per_stiffness * stiffness)});
-  const StepReport set_up = lab.step(scene);
-  Case result{size, stiffness, problem_after(lab, std::move(scene), steps_before - 1)};
+Case measure(const ExperimentContext& context, int size, double stiffness, int most_iterations) {
+  context.say(fmt::format("{0} × {0} vertices, k = {1:g} N/m", size, stiffness));
+  Scene scene = context.scene(
+      "convergence/trampoline",
+      {fmt::format("bodies[sheet].mesh.columns={}", size), fmt::format("bodies[sheet].mesh.rows={}", size),
+       fmt::format("bodies[sheet].constraints[springs].stiffness={}", stiffness),
+       fmt::format("forces[0].force=[0,0,{}]", -pull_per_stiffness * stiffness)});
+  const StepReport set_up = context.step(scene);
+  Case result{size, stiffness, problem_after(context, std::move(scene), steps_before - 1)};
   result.set_up = set_up;
-  result.projective = descend(lab, result.problem, counts_up_to(most_iterations), repeats);
+  result.projective = descend(context, result.problem, counts_up_to(most_iterations), repeats);
   result.rise = largest_rise(result.problem.scene.simulation.objective_history());
   result.watched = result.problem.scene.simulation.objective_history().size();
   result.newton = descend_by_newton(result.problem, repeats);
@@ -303,11 +303,11 @@ void add_plots(Chapter& chapter, const std::vector<const Case*>& small_sheets,
 
 }  // namespace
 
-Chapter run_convergence(const Lab& lab) {
-  const Case soft_small = measure(lab, small, soft_springs, 20000);
-  const Case stiff_small = measure(lab, small, stiff_springs, 200000);
-  const Case soft_large = measure(lab, large, soft_springs, 2000);
-  const Case stiff_large = measure(lab, large, stiff_springs, 2000);
+Chapter run_convergence(const ExperimentContext& context) {
+  const Case soft_small = measure(context, small, soft_springs, 20000);
+  const Case stiff_small = measure(context, small, stiff_springs, 200000);
+  const Case soft_large = measure(context, large, soft_springs, 2000);
+  const Case stiff_large = measure(context, large, stiff_springs, 2000);
   const std::vector<const Case*> small_sheets = {&soft_small, &stiff_small};
   const std::vector<const Case*> large_sheets = {&soft_large, &stiff_large};
   const std::vector<const Case*> all = {&soft_small, &stiff_small, &soft_large, &stiff_large};

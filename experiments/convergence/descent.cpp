@@ -40,8 +40,8 @@ double Problem::position_error(const Positions& q) const {
   return distance(model, q, minimum) / first_distance;
 }
 
-Problem problem_after(const Lab& lab, Scene scene, int steps) {
-  for (int i = 0; i < steps; ++i) lab.step(scene);
+Problem problem_after(const ExperimentContext& context, Scene scene, int steps) {
+  for (int i = 0; i < steps; ++i) context.step(scene);
   State start = scene.simulation.state();
   MassSpring model = mass_spring(scene.simulation);
   EulerStep step = next_step(scene.simulation, model);
@@ -73,7 +73,7 @@ double Descent::objective_error_at(double time) const {
   return objective_errors.back();
 }
 
-Descent descend(const Lab& lab, Problem& problem, const std::vector<int>& iterations, int repeats) {
+Descent descend(const ExperimentContext& context, Problem& problem, const std::vector<int>& iterations, int repeats) {
   Simulation& simulation = problem.scene.simulation;
   Descent descent;
   for (const int count : iterations) {
@@ -81,7 +81,7 @@ Descent descend(const Lab& lab, Problem& problem, const std::vector<int>& iterat
     const Stopwatch watch;
     for (int i = 0; i < repeats && (i == 0 || watch.seconds() < most_repeat_seconds); ++i) {
       take(simulation, problem.start, count);
-      const StepReport report = lab.step(problem.scene);
+      const StepReport report = context.step(problem.scene);
       seconds.push_back(report.seconds_local + report.seconds_global);
     }
     descent.iterations.push_back(count);

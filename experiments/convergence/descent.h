@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "lab.h"
+#include "experiment_context.h"
 #include "support/newton.h"
 
 namespace pliant_experiments {
@@ -28,7 +28,7 @@ struct Problem {
 };
 
 /// Takes the scene as far as it is asked to, and finds the minimum of the step after.
-Problem problem_after(const Lab& lab, pliant::Scene scene, int steps);
+Problem problem_after(const ExperimentContext& context, pliant::Scene scene, int steps);
 
 /// Errors after some numbers of iterations, ascending, and the time that these took.
 struct Descent {
@@ -46,7 +46,7 @@ struct Descent {
 
 /// By Pliant: a step with each of these numbers of iterations, at most so many times, long ones once; times are
 /// medians, without the set-up.
-Descent descend(const Lab& lab, Problem& problem, const std::vector<int>& iterations, int repeats);
+Descent descend(const ExperimentContext& context, Problem& problem, const std::vector<int>& iterations, int repeats);
 
 /// By Newton's method, until the objective falls no further; every iteration, with all its parts but the analysis.
 Descent descend_by_newton(const Problem& problem, int repeats);

@@ -56,23 +56,23 @@ Sets sets_of(double stiffness, int iterations) {
   return sets;
 }
 
-pliant::Scene without_pull(const Lab& lab, double stiffness, int iterations) {
-  pliant::Scene scene = lab.scene("damping/curtain", sets_of(stiffness, iterations));
+pliant::Scene without_pull(const ExperimentContext& context, double stiffness, int iterations) {
+  pliant::Scene scene = context.scene("damping/curtain", sets_of(stiffness, iterations));
   scene.simulation.remove(scene.simulation.find_force("pull").value());
   return scene;
 }
 
-pliant::State equilibrium(const Lab& lab, double stiffness) {
-  pliant::Scene scene = without_pull(lab, stiffness, 1);
-  settle(lab, scene, 1e-8);
+pliant::State equilibrium(const ExperimentContext& context, double stiffness) {
+  pliant::Scene scene = without_pull(context, stiffness, 1);
+  settle(context, scene, 1e-8);
   return scene.simulation.state();
 }
 
 /// Largest way of a vertex from the equilibrium in 60 frames without the pull [m].
-double drift(const Lab& lab, const pliant::State& begin, double stiffness, int iterations) {
-  pliant::Scene scene = without_pull(lab, stiffness, iterations);
+double drift(const ExperimentContext& context, const pliant::State& begin, double stiffness, int iterations) {
+  pliant::Scene scene = without_pull(context, stiffness, iterations);
   scene.simulation.restore(begin);
-  lab.step(scene, 60);
+  context.step(scene, 60);
   return (scene.simulation.state().positions - begin.positions).rowwise().norm().maxCoeff();
 }
 
@@ -82,26 +82,27 @@ std::string label(int iterations) {
 }
 
 /// Mean Σ‖v‖ of the late frames with one iteration, in runs whose start is moved by a thousand millionth of a meter.
-std::vector<double> late_of_others(const Lab& lab, const pliant::State& begin, double stiffness) {
+std::vector<double> late_of_others(const ExperimentContext& context, const pliant::State& begin, double stiffness) {
   std::vector<double> values;
   for (int run = 1; run <= 8; ++run) {
-    pliant::Scene scene = lab.scene("damping/curtain", sets_of(stiffness, 1));
+    pliant::Scene scene = context.scene("damping/curtain", sets_of(stiffness, 1));
     pliant::State moved = begin;
     for (pliant::Index i = 0; i < moved.vertex_count(); ++i) moved.positions(i, 1) += 1e-9 * std::sin(run * (i + 1.0));
     scene.simulation.restore(moved);
-    values.push_back(mean(record(lab, scene, frames).speed_sum, 600, 900));
+    values.push_back(mean(record(context, scene, frames).speed_sum, 600, 900));
   }
   return values;
 }
 
-Swings swings_at(const Lab& lab, const pliant::State& begin, double stiffness, const std::vector<int>& iterations) {
+Swings swings_at(const ExperimentContext& context, const pliant::State& begin, double stiffness,
+                 const std::vector<int>& iterations) {
   Swings swings;
   for (const int count : iterations) {
-    lab.say(fmt::format("k = {:.0e} N/m, {}", stiffness, label(count)));
-    pliant::Scene scene = lab.scene("damping/curtain", sets_of(stiffness, count));
+    context.say(fmt::format("k = {:.0e} N/m, {}", stiffness, label(count)));
+    pliant::Scene scene = context.scene("damping/curtain", sets_of(stiffness, count));
     scene.simulation.restore(begin);
-    swings[count].trace = record(lab, scene, frames);
-    if (count == 1) swings[count].late_of_others = late_of_others(lab, begin, stiffness);
+    swings[count].trace = record(context, scene, frames);
+    if (count == 1) swings[count].late_of_others = late_of_others(context, begin, stiffness);
   }
   return swings;
 }
@@ -245,21 +246,21 @@ void judge(Chapter& chapter, const Swings& soft, const Swings& stiff) {
           range.min, range.max)));
 }
 
-void draw(const Lab& lab, Chapter& chapter, const pliant::State& begin) {
-  pliant::Scene scene = lab.scene("damping/curtain", sets_of(1e4, 20));
+void draw(const ExperimentContext& context, Chapter& chapter, const pliant::State& begin) {
+  pliant::Scene scene = context.scene("damping/curtain", sets_of(1e4, 20));
   scene.simulation.restore(begin);
-  std::vector<pliant_render::Image> pictures = {lab.picture(scene)};
+  std::vector<pliant_render::Image> pictures = {context.picture(scene)};
   for (const std::int64_t more : {30, 40}) {
-    lab.step(scene, more);
-    pictures.push_back(lab.picture(scene));
+    context.step(scene, more);
+    pictures.push_back(context.picture(scene));
   }
-  lab.show(chapter, pictures, 3,
-           "The curtain in equilibrium, at the end of the force, and 40 frames later; 1e4 N/m, 20 iterations.");
+  context.show(chapter, pictures, 3,
+               "The curtain in equilibrium, at the end of the force, and 40 frames later; 1e4 N/m, 20 iterations.");
 }
 
 }  // namespace
 
-Chapter run_damping(const Lab& lab) {
+Chapter run_damping(const ExperimentContext& context) {
   Chapter chapter;
   chapter.question =
       "A curtain of 16 x 16 vertices of 1 kg, 1.5 m wide, hangs by two corners in equilibrium. A force of 2000 N draws "
@@ -269,13 +270,13 @@ Chapter run_damping(const Lab& lab) {
   Comparison comparison(0.1);
   double most_drift = 0;
   for (const double stiffness : {1e4, 5e4}) {
-    lab.say(fmt::format("equilibrium at k = {:.0e} N/m", stiffness));
-    const pliant::State begin = equilibrium(lab, stiffness);
+    context.say(fmt::format("equilibrium at k = {:.0e} N/m", stiffness));
+    const pliant::State begin = equilibrium(context, stiffness);
     std::vector<int> iterations = {from_positions, 1, 5, 20};
     if (stiffness == 5e4) iterations.push_back(100);
-    all[stiffness] = swings_at(lab, begin, stiffness, iterations);
-    for (const int count : {1, 5, 20}) most_drift = std::max(most_drift, drift(lab, begin, stiffness, count));
-    if (stiffness == 1e4) draw(lab, chapter, begin);
+    all[stiffness] = swings_at(context, begin, stiffness, iterations);
+    for (const int count : {1, 5, 20}) most_drift = std::max(most_drift, drift(context, begin, stiffness, count));
+    if (stiffness == 1e4) draw(context, chapter, begin);
     add_known(comparison, stiffness, all[stiffness]);
   }
   judge(chapter, all[1e4], all[5e4]);

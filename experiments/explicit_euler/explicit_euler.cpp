@@ -60,14 +60,14 @@ Growth explicit_growth(const MassSpring& model, const Positions& equilibrium, do
 }
 
 /// Largest speed over the first, in as many seconds or 1000 steps of implicit Euler.
-double implicit_ratio(const Lab& lab, const Positions& equilibrium, double h, double seconds) {
-  pliant::Scene scene = lab.scene("explicit_euler/curtain", {fmt::format("settings.time_step={}", h)});
+double implicit_ratio(const ExperimentContext& context, const Positions& equilibrium, double h, double seconds) {
+  pliant::Scene scene = context.scene("explicit_euler/curtain", {fmt::format("settings.time_step={}", h)});
   scene.simulation.set_state(equilibrium, disturbed_velocities(scene.simulation.state().vertex_count()));
   const double first = scene.simulation.state().velocities.norm();
   double largest = 0;
   const auto steps = static_cast<std::int64_t>(std::min(1000.0, std::ceil(seconds / h)));
   for (std::int64_t i = 0; i < std::max<std::int64_t>(steps, 10); ++i) {
-    lab.step(scene);
+    context.step(scene);
     largest = std::max(largest, scene.simulation.state().velocities.norm());
   }
   return largest / first;
@@ -96,14 +96,14 @@ Plot growth_plot(const std::vector<Growth>& growths, double frequency) {
 
 }  // namespace
 
-Chapter run_explicit_euler(const Lab& lab) {
+Chapter run_explicit_euler(const ExperimentContext& context) {
   Chapter chapter;
   chapter.question =
       "The same springs in explicit Euler, undamped: a curtain of 16 x 16 vertices of 1 kg hangs in equilibrium and is "
       "disturbed in its plane by speeds of 1e-6 m/s. How fast does the disturbance grow, over the time step?";
-  pliant::Scene scene = lab.scene("explicit_euler/curtain");
-  lab.say("equilibrium");
-  settle(lab, scene, 1e-8);
+  pliant::Scene scene = context.scene("explicit_euler/curtain");
+  context.say("equilibrium");
+  settle(context, scene, 1e-8);
   const Positions equilibrium = scene.simulation.state().positions;
   const double frequency = scene.simulation.system_info().fastest_frequency;
   const MassSpring model = mass_spring(scene.simulation);
@@ -114,9 +114,9 @@ Chapter run_explicit_euler(const Lab& lab) {
   bool grows = true;
   bool implicit_stays = true;
   for (const double h : {1.0 / 60, 1e-2, 1e-3, 1e-4, 3e-5, 1e-5}) {
-    lab.say(fmt::format("explicit Euler, h = {:.0e} s", h));
+    context.say(fmt::format("explicit Euler, h = {:.0e} s", h));
     Growth growth = explicit_growth(model, equilibrium, h, 2);
-    growth.implicit_ratio = implicit_ratio(lab, equilibrium, h, growth.seconds);
+    growth.implicit_ratio = implicit_ratio(context, equilibrium, h, growth.seconds);
     grows = grows && growth.rate > 0;
     implicit_stays = implicit_stays && growth.implicit_ratio <= 1 + 1e-6;
     table.rows.push_back({fmt::format("{:.2g}", h), fmt::format("{:.3g}", h * frequency),

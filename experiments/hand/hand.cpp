@@ -51,9 +51,9 @@ double distance(const pliant::Simulation& simulation) {
   return (simulation.state().positions - rest).rowwise().norm().mean() / length;
 }
 
-Return pull(const Lab& lab, double force, Bend bend) {
-  lab.say(fmt::format("{} N, {}", force, name_of(bend)));
-  pliant::Scene scene = lab.scene("hand/hand");
+Return pull(const ExperimentContext& context, double force, Bend bend) {
+  context.say(fmt::format("{} N, {}", force, name_of(bend)));
+  pliant::Scene scene = context.scene("hand/hand");
   pliant::Simulation& simulation = scene.simulation;
   add_bending(scene, bend, bending);
   // Each tip is drawn another way: forwards, backwards, across and down.
@@ -64,12 +64,12 @@ Return pull(const Lab& lab, double force, Bend bend) {
     simulation.add_force(std::make_unique<pliant::TestForce>(std::vector<Index>{tips[i]}, pull_force, 0, pull_frames));
   }
   Return result;
-  result.is_finite = lab.try_steps(scene, pull_frames);
+  result.is_finite = context.try_steps(scene, pull_frames);
   result.pulled = distance(simulation);
-  result.during = lab.picture(scene);
-  result.is_finite = result.is_finite && lab.try_steps(scene, home_frames);
+  result.during = context.picture(scene);
+  result.is_finite = result.is_finite && context.try_steps(scene, home_frames);
   result.left = distance(simulation);
-  result.after = lab.picture(scene);
+  result.after = context.picture(scene);
   return result;
 }
 
@@ -101,20 +101,20 @@ void judge(Chapter& chapter, const Returns& all) {
           100 * recognizable, absolute, with_sign, none)));
 }
 
-void draw(const Lab& lab, Chapter& chapter, Returns& all) {
+void draw(const ExperimentContext& context, Chapter& chapter, Returns& all) {
   std::vector<pliant_render::Image> pictures;
   for (const Bend bend : bends) {
     pictures.push_back(std::move(all[bend][1].during));
     for (const std::size_t i : {1U, 2U, 4U}) pictures.push_back(std::move(all[bend][i].after));
   }
-  lab.show(chapter, pictures, 4,
-           "Under 10 N on each tip, and after 10, 100 and 10,000 N: above without bending, in the middle with "
-           "absolute, below with signed bending.");
+  context.show(chapter, pictures, 4,
+               "Under 10 N on each tip, and after 10, 100 and 10,000 N: above without bending, in the middle with "
+               "absolute, below with signed bending.");
 }
 
 }  // namespace
 
-Chapter run_hand(const Lab& lab) {
+Chapter run_hand(const ExperimentContext& context) {
   Chapter chapter;
   chapter.question = fmt::format(
       "A hollow hand of 348 vertices and half a kilogram, skin of 2000 N/m, is held at the wrist. Each of its five "
@@ -136,7 +136,7 @@ Chapter run_hand(const Lab& lab) {
     const std::string name = name_of(bend);
     pliant_report::Series series{.name = name, .mark = Mark::line_and_points};
     for (const double force : forces) {
-      Return result = pull(lab, force, bend);
+      Return result = pull(context, force, bend);
       series.x.push_back(force);
       series.y.push_back(result.left);
       table.rows.push_back({fmt::format("{:.0f}", force), name, fmt::format("{:.4f}", result.pulled),
@@ -146,7 +146,7 @@ Chapter run_hand(const Lab& lab) {
     plot.series.push_back(std::move(series));
   }
   judge(chapter, all);
-  draw(lab, chapter, all);
+  draw(context, chapter, all);
   chapter.blocks.emplace_back(std::move(plot));
   chapter.blocks.emplace_back(std::move(table));
   return chapter;

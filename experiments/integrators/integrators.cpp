@@ -18,8 +18,8 @@ using pliant_report::Plot;
 using pliant_report::Series;
 using pliant_report::Table;
 
-void measure_losses(const Lab& lab, Chapter& chapter) {
-  lab.say("losses of the oscillator");
+void measure_losses(const ExperimentContext& context, Chapter& chapter) {
+  context.say("losses of the oscillator");
   Plot plot{
       .title = "Loss of amplitude in a period",
       .caption =
@@ -41,7 +41,7 @@ void measure_losses(const Lab& lab, Chapter& chapter) {
   for (const Method& method : methods()) {
     Series series{.name = method.name, .mark = Mark::line_and_points, .color = method.color};
     for (const double h_omega : {0.01, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 1.0}) {
-      const double loss = loss_a_period(lab, method, h_omega);
+      const double loss = loss_a_period(context, method, h_omega);
       series.x.push_back(h_omega);
       series.y.push_back(loss);
       if (h_omega == 0.3) at_03.push_back(loss);
@@ -57,9 +57,9 @@ void measure_losses(const Lab& lab, Chapter& chapter) {
           100 * at_03.back(), 100 * at_03.front(), 100 * at_03[2])));
   double projected = 0;
   for (const Method& method : projected_methods()) {
-    add_row(method, loss_a_period(lab, method, 0.3));
+    add_row(method, loss_a_period(context, method, 0.3));
     for (const double h_omega : {0.01, 0.1, 0.3, 1.0}) {
-      projected = std::max(projected, std::abs(loss_a_period(lab, method, h_omega)));
+      projected = std::max(projected, std::abs(loss_a_period(context, method, h_omega)));
     }
   }
   chapter.claims.push_back(
@@ -69,8 +69,8 @@ void measure_losses(const Lab& lab, Chapter& chapter) {
   chapter.blocks.emplace_back(std::move(table));
 }
 
-void measure_order(const Lab& lab, Chapter& chapter) {
-  lab.say("order of the integrators");
+void measure_order(const ExperimentContext& context, Chapter& chapter) {
+  context.say("order of the integrators");
   Plot plot{.title = "Error of the oscillator",
             .caption =
                 "Root mean square of the error over two periods, over the time step: implicit Euler is of first order, "
@@ -84,7 +84,7 @@ void measure_order(const Lab& lab, Chapter& chapter) {
     Series series{.name = method.name, .mark = Mark::line_and_points, .color = method.color};
     double last = 0;
     for (const int steps : {100, 200, 400, 800, 1600}) {
-      const double error = error_of(lab, method, steps);
+      const double error = error_of(context, method, steps);
       series.x.push_back(1.0 / steps);
       series.y.push_back(error);
       if (method.integrator == pliant::Integrator::bdf2 && last > 0) {
@@ -101,13 +101,13 @@ void measure_order(const Lab& lab, Chapter& chapter) {
   chapter.blocks.emplace_back(std::move(plot));
 }
 
-void measure_stability(const Lab& lab, Chapter& chapter) {
-  lab.say("large steps");
+void measure_stability(const ExperimentContext& context, Chapter& chapter) {
+  context.say("large steps");
   const auto largest_of = [&](const std::vector<Method>& list) {
     double largest = 0;
     for (const Method& method : list) {
       for (const double h_omega : {0.1, 1.0, 3.0, 10.0, 30.0, 100.0}) {
-        largest = std::max(largest, largest_extension(lab, method, h_omega));
+        largest = std::max(largest, largest_extension(context, method, h_omega));
       }
     }
     return largest;
@@ -121,8 +121,8 @@ void measure_stability(const Lab& lab, Chapter& chapter) {
                         largest, projected)));
 }
 
-void measure_damping(const Lab& lab, Chapter& chapter) {
-  lab.say("damping");
+void measure_damping(const ExperimentContext& context, Chapter& chapter) {
+  context.say("damping");
   Table table{
       "Decay of the oscillator's amplitude by the setting “damping”: the rate measured with it less the one without, ω "
       "= 2π/s, h = 0.01 s.",
@@ -131,7 +131,7 @@ void measure_damping(const Lab& lab, Chapter& chapter) {
   double worst = 0;
   for (const double damping : {0.1, 0.5, 1.0}) {
     for (const Method& method : {methods().front(), methods().back()}) {
-      const double rate = decay_rate(lab, method, 0.01, damping) - decay_rate(lab, method, 0.01, 0);
+      const double rate = decay_rate(context, method, 0.01, damping) - decay_rate(context, method, 0.01, 0);
       const double difference = std::abs(rate / damping - 1);
       worst = std::max(worst, difference);
       table.rows.push_back({fmt::format("{}", damping), method.name, fmt::format("{:.5f}", rate),
@@ -140,7 +140,7 @@ void measure_damping(const Lab& lab, Chapter& chapter) {
   }
   chapter.claims.push_back(claim("Damping c lets an oscillation decay as e^(−ct), besides what the integrator takes",
                                  "", worst < 0.01, fmt::format("the rate is met within {:.2f} %", 100 * worst)));
-  const DampedFlight flight = measure_damped_flight(lab);
+  const DampedFlight flight = measure_damped_flight(context);
   chapter.claims.push_back(claim(
       "Damping leaves momentum, angular momentum and free fall alone", "",
       std::max({flight.momentum, flight.angular_momentum, flight.fall}) < 1e-9,
@@ -153,20 +153,20 @@ void measure_damping(const Lab& lab, Chapter& chapter) {
 
 }  // namespace
 
-Chapter run_integrators(const Lab& lab) {
+Chapter run_integrators(const ExperimentContext& context) {
   Chapter chapter;
   chapter.question =
       "Implicit Euler damps, which more iterations cannot mend. BDF2 and substeps use the same factor of a constant "
       "matrix: how much less do they lose, on an oscillator whose motion is known and on the curtain of the damping "
       "experiment? Does energy projection, which gives back what a step has lost, stay calm, and move bodies as it "
       "should? And does the setting “damping”, for those who want more of it, do what it says?";
-  measure_losses(lab, chapter);
-  measure_order(lab, chapter);
-  measure_stability(lab, chapter);
-  measure_curtain(lab, chapter);
-  measure_liveliness(lab, chapter);
-  measure_builtin_scenes(lab, chapter);
-  measure_damping(lab, chapter);
+  measure_losses(context, chapter);
+  measure_order(context, chapter);
+  measure_stability(context, chapter);
+  measure_curtain(context, chapter);
+  measure_liveliness(context, chapter);
+  measure_builtin_scenes(context, chapter);
+  measure_damping(context, chapter);
   return chapter;
 }
 

@@ -1,9 +1,9 @@
 #pragma once
-#include "lab.h"
+#include "experiment_context.h"
 
 namespace pliant_experiments {
 
 /// Beyond the thesis: integrators and damping that answer its main complaint.
-pliant_report::Chapter run_integrators(const Lab& lab);
+pliant_report::Chapter run_integrators(const ExperimentContext& context);
 
 }  // namespace pliant_experiments

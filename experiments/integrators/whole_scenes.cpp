@@ -47,17 +47,17 @@ Sets settings_of(const Method& method) {
           fmt::format("settings.energy_projection={}", method.energy_projection)};
 }
 
-Loss swing(const Lab& lab, const pliant::State& begin, const Variant& variant) {
-  lab.say(variant.name());
+Loss swing(const ExperimentContext& context, const pliant::State& begin, const Variant& variant) {
+  context.say(variant.name());
   Sets sets = settings_of(variant.method);
   sets.push_back(fmt::format("settings.iterations={}", variant.iterations));
-  pliant::Scene scene = lab.scene("damping/curtain", sets);
+  pliant::Scene scene = context.scene("damping/curtain", sets);
   scene.simulation.restore(begin);
   Loss loss{variant, {}, 0};
   loss.trace.add(measure(scene.simulation, {}));
   std::vector<double> seconds;
   for (int frame = 0; frame < 900; ++frame) {
-    const pliant::StepReport report = lab.step(scene);
+    const pliant::StepReport report = context.step(scene);
     seconds.push_back(report.seconds_total);
     loss.trace.add(measure(scene.simulation, report));
   }
@@ -117,13 +117,13 @@ struct Outcome {
   std::string text() const { return has_ended ? fmt::format("{:.3g}", most) : "diverged"; }
 };
 
-Outcome run_scene(const Lab& lab, std::string_view name, const Method& method, std::int64_t steps) {
-  lab.say(fmt::format("{} with {}", name, method.name));
-  pliant::Scene scene = lab.builtin_scene(name, settings_of(method));
+Outcome run_scene(const ExperimentContext& context, std::string_view name, const Method& method, std::int64_t steps) {
+  context.say(fmt::format("{} with {}", name, method.name));
+  pliant::Scene scene = context.builtin_scene(name, settings_of(method));
   Outcome outcome;
   try {
     for (std::int64_t step = 0; step < steps; ++step) {
-      lab.step(scene);
+      context.step(scene);
       const double energy = kinetic_energy(scene.simulation.state());
       outcome.most = std::max(outcome.most, energy);
       outcome.mean += energy / static_cast<double>(steps);
@@ -147,10 +147,10 @@ std::pair<Vec3, Vec3> momenta(const pliant::State& state) {
   return {linear, angular};
 }
 
-pliant::Scene flying_torus(const Lab& lab, double damping) {
+pliant::Scene flying_torus(const ExperimentContext& context, double damping) {
   pliant::Scene scene =
-      lab.scene("torus/torus", {"gravity=[0,0,-9.81]", "settings.precision=double", "settings.iterations=200",
-                                fmt::format("settings.damping={}", damping)});
+      context.scene("torus/torus", {"gravity=[0,0,-9.81]", "settings.precision=double", "settings.iterations=200",
+                                    fmt::format("settings.damping={}", damping)});
   scene.simulation.remove(scene.simulation.find_group("hands").value());
   const pliant::Positions& x = scene.simulation.state().positions;
   pliant::Positions v(x.rows(), 3);
@@ -174,13 +174,13 @@ Vec3 center(const pliant::State& state) {
 
 }  // namespace
 
-void measure_curtain(const Lab& lab, Chapter& chapter) {
-  pliant::Scene resting = lab.scene("damping/curtain");
+void measure_curtain(const ExperimentContext& context, Chapter& chapter) {
+  pliant::Scene resting = context.scene("damping/curtain");
   resting.simulation.remove(resting.simulation.find_force("pull").value());
-  lab.say("equilibrium");
-  settle(lab, resting, 1e-8);
+  context.say("equilibrium");
+  settle(context, resting, 1e-8);
   std::vector<Loss> losses;
-  for (const Variant& variant : variants()) losses.push_back(swing(lab, resting.simulation.state(), variant));
+  for (const Variant& variant : variants()) losses.push_back(swing(context, resting.simulation.state(), variant));
   judge_curtain(chapter, losses);
   Plot plot{
       .title = "Energy of the curtain at equal cost",
@@ -214,7 +214,7 @@ void measure_curtain(const Lab& lab, Chapter& chapter) {
   chapter.blocks.emplace_back(std::move(table));
 }
 
-void measure_liveliness(const Lab& lab, Chapter& chapter) {
+void measure_liveliness(const ExperimentContext& context, Chapter& chapter) {
   const Method fine{"BDF2, 25 substeps", Integrator::bdf2, 25};
   constexpr std::int64_t steps = 240;
   Table table{
@@ -226,10 +226,10 @@ void measure_liveliness(const Lab& lab, Chapter& chapter) {
   for (const Method& method : compared) table.columns.push_back(method.name);
   std::vector<double> farthest(compared.size(), 0);
   for (const char* name : {"curtain", "chain", "bar"}) {
-    const double reference = run_scene(lab, name, fine, steps).mean;
+    const double reference = run_scene(context, name, fine, steps).mean;
     table.rows.push_back({name, fmt::format("{:.3g}", reference)});
     for (std::size_t i = 0; i < compared.size(); ++i) {
-      const double share = run_scene(lab, name, compared[i], steps).mean / reference;
+      const double share = run_scene(context, name, compared[i], steps).mean / reference;
       farthest[i] = std::max(farthest[i], std::abs(share - 1));
       table.rows.back().push_back(fmt::format("{:.0f} %", 100 * share));
     }
@@ -243,7 +243,7 @@ void measure_liveliness(const Lab& lab, Chapter& chapter) {
   chapter.blocks.emplace_back(std::move(table));
 }
 
-void measure_builtin_scenes(const Lab& lab, Chapter& chapter) {
+void measure_builtin_scenes(const ExperimentContext& context, Chapter& chapter) {
   constexpr std::array<double, 2> most_times = {10, 5};  // kinetic energies past what less damping explains
   const std::vector<Method> tried = {methods()[0],
                                      methods()[3],
@@ -262,11 +262,11 @@ void measure_builtin_scenes(const Lab& lab, Chapter& chapter) {
       table.rows.back().resize(table.columns.size(), "–");
       continue;
     }
-    const std::int64_t steps = lab.builtin_scene(builtin.name).steps;
+    const std::int64_t steps = context.builtin_scene(builtin.name).steps;
     table.rows.back().push_back(std::to_string(steps));
     std::vector<Outcome> outcomes;
     for (const Method& method : tried) {
-      outcomes.push_back(run_scene(lab, builtin.name, method, steps));
+      outcomes.push_back(run_scene(context, builtin.name, method, steps));
       table.rows.back().push_back(outcomes.back().text());
     }
     const auto is_calm = [&](std::size_t i, double times, std::size_t against) {
@@ -288,15 +288,15 @@ void measure_builtin_scenes(const Lab& lab, Chapter& chapter) {
   chapter.blocks.emplace_back(std::move(table));
 }
 
-DampedFlight measure_damped_flight(const Lab& lab) {
-  pliant::Scene damped = flying_torus(lab, 5);
-  pliant::Scene step_without = flying_torus(lab, 0);
-  pliant::Scene free = flying_torus(lab, 0);
+DampedFlight measure_damped_flight(const ExperimentContext& context) {
+  pliant::Scene damped = flying_torus(context, 5);
+  pliant::Scene step_without = flying_torus(context, 0);
+  pliant::Scene free = flying_torus(context, 0);
   const Vec3 begin = center(free.simulation.state());
   DampedFlight flight;
   for (int i = 0; i < 60; ++i) {
     step_without.simulation.restore(damped.simulation.state());
-    for (pliant::Scene* scene : {&damped, &step_without, &free}) lab.step(*scene);
+    for (pliant::Scene* scene : {&damped, &step_without, &free}) context.step(*scene);
     const auto with = momenta(damped.simulation.state());
     const auto without = momenta(step_without.simulation.state());
     flight.momentum = std::max(flight.momentum, (with.first - without.first).norm() / without.first.norm());

@@ -1,17 +1,17 @@
 #pragma once
 // The integrators on whole scenes.
-#include "lab.h"
+#include "experiment_context.h"
 
 namespace pliant_experiments {
 
 /// The curtain of the damping experiment, at equal iterations and at equal cost.
-void measure_curtain(const Lab& lab, pliant_report::Chapter& chapter);
+void measure_curtain(const ExperimentContext& context, pliant_report::Chapter& chapter);
 
 /// How large the kinetic energy of some scenes is, against fine substeps.
-void measure_liveliness(const Lab& lab, pliant_report::Chapter& chapter);
+void measure_liveliness(const ExperimentContext& context, pliant_report::Chapter& chapter);
 
 /// Every built-in scene with BDF2, and with energy projection, to its end.
-void measure_builtin_scenes(const Lab& lab, pliant_report::Chapter& chapter);
+void measure_builtin_scenes(const ExperimentContext& context, pliant_report::Chapter& chapter);
 
 /// By what shares damping changes what it should leave alone.
 struct DampedFlight {
@@ -19,6 +19,6 @@ struct DampedFlight {
   double angular_momentum = 0;  ///< the same
   double fall = 0;              ///< of the center's way in all steps
 };
-DampedFlight measure_damped_flight(const Lab& lab);
+DampedFlight measure_damped_flight(const ExperimentContext& context);
 
 }  // namespace pliant_experiments

@@ -60,12 +60,12 @@ struct Strip {
   }
 };
 
-std::vector<Method> methods(const Lab& lab, double stiffness) {
-  const auto projective = [&lab, stiffness](Start start) {
-    return [&lab, stiffness, start](int n) { return by_projective_dynamics(lab, stiffness, n, start); };
+std::vector<Method> methods(const ExperimentContext& context, double stiffness) {
+  const auto projective = [&context, stiffness](Start start) {
+    return [&context, stiffness, start](int n) { return by_projective_dynamics(context, stiffness, n, start); };
   };
-  const auto xpbd = [&lab, stiffness](const XpbdOptions& options) {
-    return by_position_based_dynamics(lab, stiffness, options);
+  const auto xpbd = [&context, stiffness](const XpbdOptions& options) {
+    return by_position_based_dynamics(context, stiffness, options);
   };
   return {
       {"Projective Dynamics", 0, false, projective(Start::prediction)},
@@ -76,13 +76,13 @@ std::vector<Method> methods(const Lab& lab, double stiffness) {
        [xpbd](int n) { return xpbd({.iterations = n, .pbd_share = pbd_share}); }}};
 }
 
-Strip measure(const Lab& lab, double stiffness) {
-  const Scene rest = strip(lab, stiffness);
-  Strip result{stiffness, stretch_at_rest(lab, stiffness), fall(rest, by_newton(lab, stiffness), fall_steps),
-               methods(lab, stiffness)};
+Strip measure(const ExperimentContext& context, double stiffness) {
+  const Scene rest = strip(context, stiffness);
+  Strip result{stiffness, stretch_at_rest(context, stiffness), fall(rest, by_newton(context, stiffness), fall_steps),
+               methods(context, stiffness)};
   for (Method& method : result.methods) {
     for (const int iterations : iteration_counts) {
-      lab.say(fmt::format("{}, {}, {} iterations", result.name(), method.name, iterations));
+      context.say(fmt::format("{}, {}, {} iterations", result.name(), method.name, iterations));
       method.falls.push_back(fall(rest, method.make(iterations), steps));
     }
   }
@@ -173,18 +173,19 @@ Table rest_table(const Strip& of) {
 }
 
 /// Strips at rest side by side, from their last positions.
-void add_pictures(const Lab& lab, Chapter& chapter, const Strip& of) {
+void add_pictures(const ExperimentContext& context, Chapter& chapter, const Strip& of) {
   std::vector<pliant_render::Image> pictures;
   for (const Fall* each : {&of.projective().fall_of(1), &of.projective().fall_of(few), &of.xpbd().fall_of(1),
                            &of.xpbd().fall_of(few), &of.pbd().fall_of(few)}) {
-    Scene scene = strip(lab, of.stiffness);
+    Scene scene = strip(context, of.stiffness);
     scene.simulation.set_state(each->last, Positions::Zero(each->last.rows(), 3));
-    pictures.push_back(lab.picture(scene));
+    pictures.push_back(context.picture(scene));
   }
-  lab.show(chapter, pictures, static_cast<int>(pictures.size()),
-           fmt::format("After {0} s, {1}, from the left: Projective Dynamics with 1 and {2} iterations, XPBD with 1 "
-                       "and {2}, PBD with {2}.",
-                       steps / 60, of.name(), few));
+  context.show(
+      chapter, pictures, static_cast<int>(pictures.size()),
+      fmt::format("After {0} s, {1}, from the left: Projective Dynamics with 1 and {2} iterations, XPBD with 1 "
+                  "and {2}, PBD with {2}.",
+                  steps / 60, of.name(), few));
 }
 
 // ---- claims
@@ -291,9 +292,9 @@ Claim pbd_has_no_stiffness(const Strips& strips) {
 
 }  // namespace
 
-Chapter run_iterations(const Lab& lab) {
-  const Strip softer = measure(lab, soft_stiffness);
-  const Strip stiffer = measure(lab, stiff_stiffness);
+Chapter run_iterations(const ExperimentContext& context) {
+  const Strip softer = measure(context, soft_stiffness);
+  const Strip stiffer = measure(context, stiff_stiffness);
   const Strips strips = {&softer, &stiffer};
 
   Chapter chapter;
@@ -310,7 +311,7 @@ Chapter run_iterations(const Lab& lab) {
                     xpbd_is_soft(strips),
                     xpbd_converges(strips),
                     pbd_has_no_stiffness(strips)};
-  add_pictures(lab, chapter, softer);
+  add_pictures(context, chapter, softer);
   for (const Strip* of : strips) chapter.blocks.emplace_back(rest_plot(*of));
   for (const Strip* of : strips) chapter.blocks.emplace_back(rest_table(*of));
   for (const Strip* of : strips) chapter.blocks.emplace_back(cost_plot(*of));

@@ -22,8 +22,8 @@ constexpr int most_long_steps = 1000;
 
 }  // namespace
 
-Scene strip(const Lab& lab, double stiffness) {
-  return lab.scene("iterations/strip", {fmt::format("bodies[strip].constraints[springs].stiffness={}", stiffness)});
+Scene strip(const ExperimentContext& context, double stiffness) {
+  return context.scene("iterations/strip", {fmt::format("bodies[strip].constraints[springs].stiffness={}", stiffness)});
 }
 
 double stretch(const Scene& rest, const Positions& positions) {
@@ -39,28 +39,28 @@ double stretch(const Scene& rest, const Positions& positions) {
   return sum / count / (at_rest.col(2).maxCoeff() - lowest);
 }
 
-Mover by_projective_dynamics(const Lab& lab, double stiffness, int iterations, Start start) {
-  const auto scene = std::make_shared<Scene>(strip(lab, stiffness));
+Mover by_projective_dynamics(const ExperimentContext& context, double stiffness, int iterations, Start start) {
+  const auto scene = std::make_shared<Scene>(strip(context, stiffness));
   SolverSettings settings = scene->simulation.settings();
   settings.iterations = iterations;
   settings.start = start;
   scene->simulation.set_settings(settings);
-  return [scene, &lab]() -> const Positions& {
-    lab.step(*scene);
+  return [scene, &context]() -> const Positions& {
+    context.step(*scene);
     return scene->simulation.state().positions;
   };
 }
 
-Mover by_position_based_dynamics(const Lab& lab, double stiffness, const XpbdOptions& options) {
-  const auto xpbd = std::make_shared<Xpbd>(strip(lab, stiffness).simulation, options);
+Mover by_position_based_dynamics(const ExperimentContext& context, double stiffness, const XpbdOptions& options) {
+  const auto xpbd = std::make_shared<Xpbd>(strip(context, stiffness).simulation, options);
   return [xpbd]() -> const Positions& {
     xpbd->step();
     return xpbd->positions();
   };
 }
 
-Mover by_newton(const Lab& lab, double stiffness) {
-  const auto scene = std::make_shared<Scene>(strip(lab, stiffness));
+Mover by_newton(const ExperimentContext& context, double stiffness) {
+  const auto scene = std::make_shared<Scene>(strip(context, stiffness));
   const auto newton = std::make_shared<Newton>(mass_spring(scene->simulation));
   const MassSpring model = mass_spring(scene->simulation);
   return [scene, newton, model]() -> const Positions& {
@@ -74,8 +74,8 @@ Mover by_newton(const Lab& lab, double stiffness) {
   };
 }
 
-double stretch_at_rest(const Lab& lab, double stiffness) {
-  Scene scene = strip(lab, stiffness);
+double stretch_at_rest(const ExperimentContext& context, double stiffness) {
+  Scene scene = strip(context, stiffness);
   Simulation& simulation = scene.simulation;
   SolverSettings settings = simulation.settings();
   settings.time_step = long_step;

@@ -3,14 +3,14 @@
 #include <functional>
 #include <vector>
 
-#include "lab.h"
+#include "experiment_context.h"
 #include "support/newton.h"
 #include "support/xpbd.h"
 
 namespace pliant_experiments {
 
 /// The strip of the scene with springs of this constant [N/m].
-pliant::Scene strip(const Lab& lab, double stiffness);
+pliant::Scene strip(const ExperimentContext& context, double stiffness);
 
 /// How much longer the strip is than without a load, of its length: the mean over its lower edge, downwards.
 double stretch(const pliant::Scene& rest, const pliant::Positions& positions);
@@ -18,13 +18,13 @@ double stretch(const pliant::Scene& rest, const pliant::Positions& positions);
 /// Takes one step and returns where the vertices are then.
 using Mover = std::function<const pliant::Positions&()>;
 
-Mover by_projective_dynamics(const Lab& lab, double stiffness, int iterations, pliant::Start start);
-Mover by_position_based_dynamics(const Lab& lab, double stiffness, const XpbdOptions& options);
+Mover by_projective_dynamics(const ExperimentContext& context, double stiffness, int iterations, pliant::Start start);
+Mover by_position_based_dynamics(const ExperimentContext& context, double stiffness, const XpbdOptions& options);
 /// Each step to the minimum of its objective.
-Mover by_newton(const Lab& lab, double stiffness);
+Mover by_newton(const ExperimentContext& context, double stiffness);
 
 /// The stretch at rest, by Newton's method alone: no step, no inertia is left in it.
-double stretch_at_rest(const Lab& lab, double stiffness);
+double stretch_at_rest(const ExperimentContext& context, double stiffness);
 
 /// The strip after each step, the start first, and what a step costs.
 struct Fall {

@@ -20,15 +20,15 @@ constexpr std::array<Index, 5> counts = {1, 2, 5, 10, 20};
 constexpr Index thesis_side = 32;  // 1024 vertices
 
 /// Median of the time of a step [s], after some that warm up.
-double seconds_a_step(const Lab& lab, Index side, Index iterations) {
-  pliant::Scene scene = lab.scene("performance/curtain", {fmt::format("bodies[curtain].mesh.columns={}", side),
-                                                          fmt::format("bodies[curtain].mesh.rows={}", side),
-                                                          fmt::format("settings.iterations={}", iterations)});
-  lab.step(scene, 3);
+double seconds_a_step(const ExperimentContext& context, Index side, Index iterations) {
+  pliant::Scene scene = context.scene("performance/curtain", {fmt::format("bodies[curtain].mesh.columns={}", side),
+                                                              fmt::format("bodies[curtain].mesh.rows={}", side),
+                                                              fmt::format("settings.iterations={}", iterations)});
+  context.step(scene, 3);
   std::vector<double> seconds;
   double sum = 0;
   while (seconds.size() < 5 || (sum < 0.4 && seconds.size() < 500)) {
-    seconds.push_back(lab.step(scene).seconds_total);
+    seconds.push_back(context.step(scene).seconds_total);
     sum += seconds.back();
   }
   return median(std::move(seconds));
@@ -36,7 +36,7 @@ double seconds_a_step(const Lab& lab, Index side, Index iterations) {
 
 }  // namespace
 
-Chapter run_performance(const Lab& lab) {
+Chapter run_performance(const ExperimentContext& context) {
   Chapter chapter;
   chapter.question =
       "A curtain of springs with bending at every interior vertex: how many steps a second, over its vertices, with 1 "
@@ -60,8 +60,8 @@ Chapter run_performance(const Lab& lab) {
   for (const Index side : sides) {
     std::vector<std::string> row = {std::to_string(side * side)};
     for (std::size_t i = 0; i < counts.size(); ++i) {
-      lab.say(fmt::format("{} vertices, {} iterations", side * side, counts[i]));
-      const double seconds = seconds_a_step(lab, side, counts[i]);
+      context.say(fmt::format("{} vertices, {} iterations", side * side, counts[i]));
+      const double seconds = seconds_a_step(context, side, counts[i]);
       series[i].x.push_back(static_cast<double>(side) * side);
       series[i].y.push_back(1 / seconds);
       row.push_back(fmt::format("{:.3g}", 1e3 * seconds));

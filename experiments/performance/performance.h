@@ -1,9 +1,9 @@
 #pragma once
-#include "lab.h"
+#include "experiment_context.h"
 
 namespace pliant_experiments {
 
 /// Thesis, Sec. 6.5.
-pliant_report::Chapter run_performance(const Lab& lab);
+pliant_report::Chapter run_performance(const ExperimentContext& context);
 
 }  // namespace pliant_experiments

@@ -31,12 +31,12 @@ struct Hanging {
   std::array<std::array<Drop, sizes.size()>, diagonals.size()> drops{};
 };
 
-Hanging hang(const Lab& lab, const Material& material) {
+Hanging hang(const ExperimentContext& context, const Material& material) {
   Hanging hanging{material};
   for (std::size_t cut = 0; cut < diagonals.size(); ++cut) {
     for (std::size_t size = 0; size < sizes.size(); ++size) {
-      lab.say(fmt::format("{}, {} diagonals, {} vertices a side", material.name, diagonals[cut], sizes[size]));
-      hanging.drops[cut][size] = drop(hung(lab, material, {sizes[size], std::string(diagonals[cut])}));
+      context.say(fmt::format("{}, {} diagonals, {} vertices a side", material.name, diagonals[cut], sizes[size]));
+      hanging.drops[cut][size] = drop(hung(context, material, {sizes[size], std::string(diagonals[cut])}));
     }
   }
   return hanging;
@@ -68,8 +68,8 @@ Extent finest_sags(const Hanging& hanging) {
 }
 
 /// The sag of a continuum whose stress is k (stretch − 1): its weight times its height over 2 k times its width.
-double continuum_sag(const Lab& lab) {
-  const Scene scene = lab.scene("resolution/strain");
+double continuum_sag(const ExperimentContext& context) {
+  const Scene scene = context.scene("resolution/strain");
   const Simulation& simulation = scene.simulation;
   const State& state = simulation.state();
   Positions forces = Positions::Zero(state.vertex_count(), 3);
@@ -91,12 +91,13 @@ struct Pulling {
   std::vector<double> elongations{};
 };
 
-Pulling pull(const Lab& lab, const Material& material, const Tessellation& tessellation) {
-  lab.say(fmt::format("{}, {} diagonals, pulled in all directions", material.name, tessellation.diagonals));
+Pulling pull(const ExperimentContext& context, const Material& material, const Tessellation& tessellation) {
+  context.say(fmt::format("{}, {} diagonals, pulled in all directions", material.name, tessellation.diagonals));
   Pulling pulling{material, tessellation};
   for (double degrees = 0; degrees <= 180; degrees += angle_step) {
     pulling.degrees.push_back(degrees);
-    pulling.elongations.push_back(elongation(pulled(lab, material, tessellation, degrees, pulling_tension), degrees));
+    pulling.elongations.push_back(
+        elongation(pulled(context, material, tessellation, degrees, pulling_tension), degrees));
   }
   return pulling;
 }
@@ -163,18 +164,19 @@ Table sag_table(const std::vector<Hanging>& all) {
   return table;
 }
 
-void add_pictures(const Lab& lab, Chapter& chapter) {
-  const auto picture = [&lab](const Material& material, const Tessellation& tessellation) {
-    return lab.picture(hung(lab, material, tessellation));
+void add_pictures(const ExperimentContext& context, Chapter& chapter) {
+  const auto picture = [&context](const Material& material, const Tessellation& tessellation) {
+    return context.picture(hung(context, material, tessellation));
   };
-  lab.show(chapter,
-           {picture(spring_material, {21, "forward"}), picture(spring_material, {21, "backward"}),
-            picture(strain, {21, "forward"}), picture(strain, {21, "backward"})},
-           2,
-           "Above, springs of one constant: with diagonals from the lower left to the upper right the cloth goes one "
-           "way, with the others the other way. Below, triangle strain on the same two meshes.");
-  lab.show(chapter, {picture(fibres, {11, "forward"}), picture(fibres, {41, "forward"})}, 2,
-           "Fibres of one cross-section on 11 × 11 and on 41 × 41 vertices.");
+  context.show(
+      chapter,
+      {picture(spring_material, {21, "forward"}), picture(spring_material, {21, "backward"}),
+       picture(strain, {21, "forward"}), picture(strain, {21, "backward"})},
+      2,
+      "Above, springs of one constant: with diagonals from the lower left to the upper right the cloth goes one "
+      "way, with the others the other way. Below, triangle strain on the same two meshes.");
+  context.show(chapter, {picture(fibres, {11, "forward"}), picture(fibres, {41, "forward"})}, 2,
+               "Fibres of one cross-section on 11 × 11 and on 41 × 41 vertices.");
 }
 
 // ---- claims
@@ -269,11 +271,12 @@ Claim fibres_halve(const Hanging& hanging) {
 
 }  // namespace
 
-Chapter run_resolution(const Lab& lab) {
-  const std::vector<Hanging> hanging = {hang(lab, spring_material), hang(lab, strain), hang(lab, fibres)};
-  const std::vector<Pulling> pullings = {
-      pull(lab, spring_material, {pulled_size, "forward"}), pull(lab, spring_material, {pulled_size, "alternating"}),
-      pull(lab, strain, {pulled_size, "forward"}), pull(lab, strain, {pulled_size, "crossed"})};
+Chapter run_resolution(const ExperimentContext& context) {
+  const std::vector<Hanging> hanging = {hang(context, spring_material), hang(context, strain), hang(context, fibres)};
+  const std::vector<Pulling> pullings = {pull(context, spring_material, {pulled_size, "forward"}),
+                                         pull(context, spring_material, {pulled_size, "alternating"}),
+                                         pull(context, strain, {pulled_size, "forward"}),
+                                         pull(context, strain, {pulled_size, "crossed"})};
 
   Chapter chapter;
   chapter.question =
@@ -281,13 +284,13 @@ Chapter run_resolution(const Lab& lab) {
       "resolutions and with its cells cut in three ways, and a sheet without weight is pulled by one tension in every "
       "direction. Both stay flat, and are solved until they rest. Compared are springs of one constant k, fibres of "
       "one cross-section EA, and triangle strain.";
-  chapter.claims = {strain_is_one_cloth(hanging[1], pullings), strain_is_continuum(hanging[1], continuum_sag(lab)),
+  chapter.claims = {strain_is_one_cloth(hanging[1], pullings), strain_is_continuum(hanging[1], continuum_sag(context)),
                     springs_depend_on_mesh(hanging[0]),        springs_converge(hanging[0]),
                     springs_depend_on_direction(pullings),     fibres_halve(hanging[2])};
   chapter.blocks.emplace_back(sag_plot(hanging));
   chapter.blocks.emplace_back(sag_table(hanging));
   chapter.blocks.emplace_back(pull_plot(pullings));
-  add_pictures(lab, chapter);
+  add_pictures(context, chapter);
   return chapter;
 }
 

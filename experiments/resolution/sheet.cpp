@@ -17,19 +17,19 @@ using namespace pliant;
 constexpr double resting_speed = 1e-9;  // [m/s]; a step of 8 s then moves no vertex by more than 8e-9 m
 constexpr int most_steps = 200;
 
-void bring_to_rest(const Lab& lab, Scene& scene) {
+void bring_to_rest(const ExperimentContext& context, Scene& scene) {
   for (int i = 0; i < most_steps; ++i) {
-    lab.step(scene);
+    context.step(scene);
     if (scene.simulation.state().velocities.rowwise().norm().maxCoeff() < resting_speed) return;
   }
   throw Error(ErrorKind::diverged, fmt::format("{}: not at rest after {} steps", scene.place(), most_steps));
 }
 
-Scene sheet(const Lab& lab, const Material& material, const Tessellation& tessellation, Sets sets) {
+Scene sheet(const ExperimentContext& context, const Material& material, const Tessellation& tessellation, Sets sets) {
   sets.push_back(fmt::format("bodies[sheet].mesh.columns={}", tessellation.vertices_a_side));
   sets.push_back(fmt::format("bodies[sheet].mesh.rows={}", tessellation.vertices_a_side));
   sets.push_back(fmt::format("bodies[sheet].mesh.diagonals={}", tessellation.diagonals));
-  return lab.scene("resolution/" + material.scene, sets);
+  return context.scene("resolution/" + material.scene, sets);
 }
 
 /// In the plane of the sheet, xz.
@@ -59,9 +59,9 @@ std::vector<Vec3> border_forces(const Mesh& mesh, const Vec3& along, double tens
 
 }  // namespace
 
-Scene hung(const Lab& lab, const Material& material, const Tessellation& tessellation) {
-  Scene scene = sheet(lab, material, tessellation, {});
-  bring_to_rest(lab, scene);
+Scene hung(const ExperimentContext& context, const Material& material, const Tessellation& tessellation) {
+  Scene scene = sheet(context, material, tessellation, {});
+  bring_to_rest(context, scene);
   return scene;
 }
 
@@ -80,16 +80,16 @@ Drop drop(const Scene& scene) {
   return {sum.aside / count, sum.down / count};
 }
 
-Scene pulled(const Lab& lab, const Material& material, const Tessellation& tessellation, double degrees,
-             double tension) {
-  Scene scene = sheet(lab, material, tessellation, {"gravity=null"});
+Scene pulled(const ExperimentContext& context, const Material& material, const Tessellation& tessellation,
+             double degrees, double tension) {
+  Scene scene = sheet(context, material, tessellation, {"gravity=null"});
   Simulation& simulation = scene.simulation;
   simulation.remove(simulation.find_group("rail").value());
   const Mesh& mesh = rest_of(scene);
   std::vector<Index> vertices(static_cast<std::size_t>(mesh.vertex_count()));
   for (std::size_t i = 0; i < vertices.size(); ++i) vertices[i] = static_cast<Index>(i);
   simulation.add_force(std::make_unique<TestForce>(vertices, border_forces(mesh, direction(degrees), tension)));
-  bring_to_rest(lab, scene);
+  bring_to_rest(context, scene);
   return scene;
 }
 

@@ -2,7 +2,7 @@
 // One sheet of the experiment, brought to rest.
 #include <string>
 
-#include "lab.h"
+#include "experiment_context.h"
 
 namespace pliant_experiments {
 
@@ -20,7 +20,7 @@ struct Tessellation {
 };
 
 /// The scene, hung by its upper edge, at rest.
-pliant::Scene hung(const Lab& lab, const Material& material, const Tessellation& tessellation);
+pliant::Scene hung(const ExperimentContext& context, const Material& material, const Tessellation& tessellation);
 
 /// Where the middle of the lower edge has come: x aside, and z down, both from its place without a load [m].
 struct Drop {
@@ -32,8 +32,8 @@ Drop drop(const pliant::Scene& scene);
 /// The sheet without weight and rail, pulled at its whole border by a tension in one direction, at rest. It then has
 /// the same tension everywhere, so that every mesh of one and the same continuum has one and the same strain.
 /// `degrees` from the first axis to the second, tension in N/m.
-pliant::Scene pulled(const Lab& lab, const Material& material, const Tessellation& tessellation, double degrees,
-                     double tension);
+pliant::Scene pulled(const ExperimentContext& context, const Material& material, const Tessellation& tessellation,
+                     double degrees, double tension);
 
 /// The mean strain of the sheet along that direction: how much longer it is there, of its length.
 double elongation(const pliant::Scene& scene, double degrees);

@@ -15,8 +15,8 @@ using pliant_report::Plot;
 constexpr std::array<double, 4> bendings = {0, 1, 10, 100};  // [N m]
 constexpr std::int64_t release = 120;
 
-pliant::Scene scene_of(const Lab& lab, double bending) {
-  pliant::Scene scene = lab.scene("sheet_metal/curtain");
+pliant::Scene scene_of(const ExperimentContext& context, double bending) {
+  pliant::Scene scene = context.scene("sheet_metal/curtain");
   if (bending > 0) scene.simulation.add(pliant::BodyId{0}, pliant::Bending{.stiffness = bending});
   return scene;
 }
@@ -24,8 +24,8 @@ pliant::Scene scene_of(const Lab& lab, double bending) {
 /// ∫ ‖Δq‖² dA of a sheet, from the energy of a bending of 1 N m: twice that.
 class CurvatureMeter {
  public:
-  explicit CurvatureMeter(const Lab& lab)
-      : scene_(lab.scene("sheet_metal/curtain")),
+  explicit CurvatureMeter(const ExperimentContext& context)
+      : scene_(context.scene("sheet_metal/curtain")),
         group_(scene_.simulation.add(pliant::BodyId{0}, pliant::Bending{.stiffness = 1})) {}
 
   double measure(const pliant::Simulation& sheet) {
@@ -41,14 +41,14 @@ class CurvatureMeter {
 
 }  // namespace
 
-Chapter run_sheet_metal(const Lab& lab) {
+Chapter run_sheet_metal(const ExperimentContext& context) {
   Chapter chapter;
   chapter.question =
       "The middle of a sheet of 16 x 16 vertices that hangs by two corners is drawn by 4000 N for 120 frames, with a "
       "bending of 0, 1, 10 and 100 N m (edges of 5e4 N/m, 20 iterations). How much does it wrinkle? Measured is the "
       "square of its mean curvature vector over its area, ∫‖Δq‖².";
   const std::array<double, 4> known = {142, 79, 22, 5.3};
-  CurvatureMeter meter(lab);
+  CurvatureMeter meter(context);
   Comparison comparison(0.1);
   Plot plot{
       .title = "Wrinkles",
@@ -60,16 +60,16 @@ Chapter run_sheet_metal(const Lab& lab) {
   std::vector<double> at_release;
   std::vector<pliant_render::Image> pictures;
   for (std::size_t i = 0; i < bendings.size(); ++i) {
-    lab.say(fmt::format("bending of {} N m", bendings[i]));
-    pliant::Scene scene = scene_of(lab, bendings[i]);
+    context.say(fmt::format("bending of {} N m", bendings[i]));
+    pliant::Scene scene = scene_of(context, bendings[i]);
     pliant_report::Series series{.name = fmt::format("{} N m", bendings[i])};
     for (std::int64_t frame = 1; frame <= 240; ++frame) {
-      lab.step(scene);
+      context.step(scene);
       series.x.push_back(static_cast<double>(frame));
       series.y.push_back(meter.measure(scene.simulation));
       if (frame == release) at_release.push_back(series.y.back());
       const bool is_end = bendings[i] == 0 || bendings[i] == 100;
-      if (is_end && (frame == release || frame == release + 8)) pictures.push_back(lab.picture(scene));
+      if (is_end && (frame == release || frame == release + 8)) pictures.push_back(context.picture(scene));
     }
     comparison.add(fmt::format("bending of {} N m, frame 120", bendings[i]), at_release.back(), known[i]);
     plot.series.push_back(std::move(series));
@@ -81,7 +81,7 @@ Chapter run_sheet_metal(const Lab& lab) {
             fmt::format("∫‖Δq‖² at the end of the force falls as {:.3g}, {:.3g}, {:.3g}, {:.3g} with 0, 1, 10, 100 N m",
                         at_release[0], at_release[1], at_release[2], at_release[3])));
   chapter.claims.push_back(comparison.claim("The figures are those of an independent solver, within 10 %"));
-  lab.show(
+  context.show(
       chapter, pictures, 2,
       "Left at the end of the force, right 8 frames later (Fig. 6.7 of the thesis). Above without bending: folds run "
       "from the middle to the corners, and the disturbance has not yet spread to the edges; below with 100 N m.");

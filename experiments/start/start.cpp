@@ -28,13 +28,13 @@ class Steps {
   explicit Steps(pliant::Scene& scene) : scene_(scene) {}
 
   /// The state after one step from the given one.
-  pliant::State from(const Lab& lab, const pliant::State& state, Start start, Index iterations) {
+  pliant::State from(const ExperimentContext& context, const pliant::State& state, Start start, Index iterations) {
     pliant::SolverSettings settings = scene_.simulation.settings();
     settings.start = start;
     settings.iterations = iterations;
     scene_.simulation.set_settings(settings);
     scene_.simulation.restore(state);
-    lab.step(scene_);
+    context.step(scene_);
     return scene_.simulation.state();
   }
 
@@ -43,17 +43,18 @@ class Steps {
 };
 
 /// `residual` becomes the largest force [N] that any of the steps taken for exact leaves.
-std::map<Start, Errors> measure(const Lab& lab, pliant::Scene& scene, const pliant::State& begin, double& residual) {
+std::map<Start, Errors> measure(const ExperimentContext& context, pliant::Scene& scene, const pliant::State& begin,
+                                double& residual) {
   std::map<Start, Errors> errors;
   Steps steps(scene);
   pliant::State state = begin;
   for (int frame = 0; frame < start_frames; ++frame) {
-    lab.say(fmt::format("frame {} of {}", frame + 1, start_frames));
-    const pliant::State exact = steps.from(lab, state, Start::prediction, converged);
+    context.say(fmt::format("frame {} of {}", frame + 1, start_frames));
+    const pliant::State exact = steps.from(context, state, Start::prediction, converged);
     residual = std::max(residual, scene.simulation.evaluate().residual);
     for (const Start start : {Start::prediction, Start::positions}) {
       for (const Index count : start_counts) {
-        const pliant::State found = steps.from(lab, state, start, count);
+        const pliant::State found = steps.from(context, state, start, count);
         errors[start][count] += (found.positions - exact.positions).rowwise().norm().maxCoeff() / start_frames;
       }
     }
@@ -64,19 +65,19 @@ std::map<Start, Errors> measure(const Lab& lab, pliant::Scene& scene, const plia
 
 }  // namespace
 
-Chapter run_start(const Lab& lab) {
+Chapter run_start(const ExperimentContext& context) {
   Chapter chapter;
   chapter.question =
       "A curtain of 16 x 16 vertices of 1 kg (edges of 5e4 N/m) is drawn from its equilibrium by 2000 N for 30 frames. "
       "From each of the frames one step is taken from the prediction s and one from the last positions qₙ, with 1 to "
       "100 iterations. How far are they from the converged step?";
-  pliant::Scene resting = lab.scene("start/curtain");
+  pliant::Scene resting = context.scene("start/curtain");
   resting.simulation.remove(resting.simulation.find_force("pull").value());
-  lab.say("equilibrium");
-  settle(lab, resting, 1e-8);
-  pliant::Scene scene = lab.scene("start/curtain");
+  context.say("equilibrium");
+  settle(context, resting, 1e-8);
+  pliant::Scene scene = context.scene("start/curtain");
   double residual = 0;
-  const std::map<Start, Errors> errors = measure(lab, scene, resting.simulation.state(), residual);
+  const std::map<Start, Errors> errors = measure(context, scene, resting.simulation.state(), residual);
   Plot plot{
       .title = "Error of a step by where its iterations begin",
       .caption = fmt::format("Distance of the vertex that is farthest from the converged step, mean of 30 frames. What "

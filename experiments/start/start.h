@@ -1,9 +1,9 @@
 #pragma once
-#include "lab.h"
+#include "experiment_context.h"
 
 namespace pliant_experiments {
 
 /// Thesis, Sec. 6.4: where the iterations begin.
-pliant_report::Chapter run_start(const Lab& lab);
+pliant_report::Chapter run_start(const ExperimentContext& context);
 
 }  // namespace pliant_experiments

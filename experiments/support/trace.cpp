@@ -20,11 +20,11 @@ void Trace::add(const pliant::Measurements& row) {
   total.push_back(row.total);
 }
 
-Trace record(const Lab& lab, pliant::Scene& scene, std::int64_t steps) {
+Trace record(const ExperimentContext& context, pliant::Scene& scene, std::int64_t steps) {
   Trace trace;
   trace.add(measure(scene.simulation, {}));
   for (std::int64_t i = 0; i < steps; ++i) {
-    const pliant::StepReport report = lab.step(scene);
+    const pliant::StepReport report = context.step(scene);
     trace.add(measure(scene.simulation, report));
   }
   return trace;
@@ -37,7 +37,7 @@ double mean(const std::vector<double>& values, std::size_t begin, std::size_t en
          static_cast<double>(end - begin);
 }
 
-void settle(const Lab& lab, pliant::Scene& scene, double tolerance) {
+void settle(const ExperimentContext& context, pliant::Scene& scene, double tolerance) {
   pliant::Simulation& simulation = scene.simulation;
   const pliant::SolverSettings given = simulation.settings();
   pliant::State begin = simulation.state();
@@ -55,7 +55,7 @@ void settle(const Lab& lab, pliant::Scene& scene, double tolerance) {
     throw pliant::Error(pliant::ErrorKind::diverged, fmt::format("{}: found no equilibrium", scene.name));
   };
   for (int i = 0; i < most_steps && !is_at_rest; ++i) {
-    lab.step(scene);
+    context.step(scene);
     is_at_rest = simulation.evaluate().residual <= tolerance;  // inertia has no part in it: m/h² is next to nothing
     simulation.set_state(simulation.state().positions, pliant::Positions::Zero(simulation.state().vertex_count(), 3));
   }
@@ -67,7 +67,7 @@ void settle(const Lab& lab, pliant::Scene& scene, double tolerance) {
   settings.iterations = 5;
   settings.tolerance = 0;
   simulation.set_settings(settings);
-  lab.step(scene, small_steps);
+  context.step(scene, small_steps);
   is_at_rest = simulation.evaluate().residual <= tolerance;
   fail_unless_at_rest();
   begin.positions = simulation.state().positions;

@@ -1,6 +1,6 @@
 #pragma once
 // What is measured of a scene step by step.
-#include "lab.h"
+#include "experiment_context.h"
 #include "pliant_io/recorder/measurements.h"
 
 namespace pliant_experiments {
@@ -21,7 +21,7 @@ struct Trace {
 };
 
 /// Takes so many steps and measures each, and the start.
-Trace record(const Lab& lab, pliant::Scene& scene, std::int64_t steps);
+Trace record(const ExperimentContext& context, pliant::Scene& scene, std::int64_t steps);
 
 /// Mean of the values [begin, end).
 double mean(const std::vector<double>& values, std::size_t begin, std::size_t end);
@@ -29,7 +29,7 @@ double mean(const std::vector<double>& values, std::size_t begin, std::size_t en
 /// Brings the scene to its static equilibrium: large steps with many iterations, in double precision, until no vertex
 /// has a larger force than `tolerance` [N], then small ones, which take what rounding has left; it stands still at step
 /// 0 in the end. The scene has no forces that end. Throws Error(diverged) where it does not come to rest.
-void settle(const Lab& lab, pliant::Scene& scene, double tolerance);
+void settle(const ExperimentContext& context, pliant::Scene& scene, double tolerance);
 
 /// Largest share by which an edge of the simulation's bodies is longer than at rest.
 double largest_stretch(const pliant::Simulation& simulation);

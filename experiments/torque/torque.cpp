@@ -60,8 +60,8 @@ struct Turn {
   pliant_render::Image picture;
 };
 
-Turn turn(const Lab& lab, double stiffness, pliant::Index iterations, const char* start) {
-  pliant::Scene scene = lab.scene(
+Turn turn(const ExperimentContext& context, double stiffness, pliant::Index iterations, const char* start) {
+  pliant::Scene scene = context.scene(
       "torque/sheet", {fmt::format("bodies[sheet].constraints[threads].stiffness={}", stiffness),
                        fmt::format("settings.iterations={}", iterations), fmt::format("settings.start={}", start)});
   pliant::Simulation& simulation = scene.simulation;
@@ -71,13 +71,13 @@ Turn turn(const Lab& lab, double stiffness, pliant::Index iterations, const char
   simulation.add_force(std::make_unique<Couple>(acceleration * inertia / arm));
   double turned = 0;
   for (int frame = 0; frame < frames; ++frame) {
-    lab.step(scene);
+    context.step(scene);
     turned = angle(rest, simulation.state().positions, turned);
   }
   // What a rigid body has turned by in as many steps, each with the velocity at its end.
   const double h = simulation.settings().time_step;
   const double rigid = acceleration * h * h * frames * (frames + 1) / 2;
-  return {turned / rigid, lab.picture(scene)};
+  return {turned / rigid, context.picture(scene)};
 }
 
 using Key = std::pair<double, std::string>;  // stiffness, start
@@ -106,7 +106,7 @@ Comparison compare(const Turns& turns) {
 
 }  // namespace
 
-Chapter run_torque(const Lab& lab) {
+Chapter run_torque(const ExperimentContext& context) {
   Chapter chapter;
   chapter.question =
       "A free sheet of 11 x 11 vertices of 1 kg, 1 m wide, without gravity, is turned by a couple at the middles of "
@@ -127,8 +127,8 @@ Chapter run_torque(const Lab& lab) {
                                    .mark = pliant_report::Mark::line_and_points,
                                    .is_dashed = std::string_view(start) == "positions"};
       for (const Index iterations : {1, 2, 3, 5, 10, 20, 50, 100}) {
-        lab.say(fmt::format("k = {} N/m, {} iterations from the {}", stiffness, iterations, start));
-        Turn turned = turn(lab, stiffness, iterations, start);
+        context.say(fmt::format("k = {} N/m, {} iterations from the {}", stiffness, iterations, start));
+        Turn turned = turn(context, stiffness, iterations, start);
         series.x.push_back(iterations);
         series.y.push_back(turned.share);
         turns[{stiffness, start}][iterations] = std::move(turned);
@@ -150,9 +150,10 @@ Chapter run_torque(const Lab& lab) {
   const Comparison comparison = compare(turns);
   chapter.claims.push_back(comparison.claim("The figures are those of an independent solver, within 10 %"));
   chapter.blocks.emplace_back(std::move(plot));
-  lab.show(chapter, {stiff.at(1).picture, stiff.at(20).picture, stiff.at(100).picture, predicted.at(1).picture}, 4,
-           "The sheet of 5e4 N/m after 60 frames, seen from above: 1, 20 and 100 iterations from the last positions, "
-           "and 1 from the prediction.");
+  context.show(
+      chapter, {stiff.at(1).picture, stiff.at(20).picture, stiff.at(100).picture, predicted.at(1).picture}, 4,
+      "The sheet of 5e4 N/m after 60 frames, seen from above: 1, 20 and 100 iterations from the last positions, "
+      "and 1 from the prediction.");
   chapter.blocks.emplace_back(comparison.table("Share of the rigid angle."));
   return chapter;
 }

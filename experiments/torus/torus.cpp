@@ -26,8 +26,8 @@ constexpr std::int64_t jump_every = 20;
 constexpr std::int64_t jumping = 300;
 constexpr std::int64_t home = 300;
 
-pliant::Scene scene_of(const Lab& lab, Bend bend) {
-  pliant::Scene scene = lab.scene("torus/torus");
+pliant::Scene scene_of(const ExperimentContext& context, Bend bend) {
+  pliant::Scene scene = context.scene("torus/torus");
   add_bending(scene, bend, bending);
   return scene;
 }
@@ -46,7 +46,7 @@ double volume(const pliant::Mesh& mesh, const Positions& x) {
 }
 
 /// How a torus has come home: against its rest state.
-struct Homecoming {
+struct ReturnError {
   bool is_finite = true;
   double shortest = 1;  // edge
   double longest = 1;
@@ -55,10 +55,10 @@ struct Homecoming {
   bool is_intact() const { return is_finite && shortest > 0.91 && longest < 1.07 && std::abs(volume - 1) < 0.02; }
 };
 
-Homecoming come_home(const pliant::Simulation& simulation) {
+ReturnError return_error(const pliant::Simulation& simulation) {
   const pliant::Mesh& mesh = simulation.bodies()[0].mesh;
   const Positions& x = simulation.state().positions;
-  Homecoming result;
+  ReturnError result;
   result.volume = volume(mesh, x) / volume(mesh, mesh.vertices);
   result.shortest = 1e300;
   result.longest = 0;
@@ -74,7 +74,7 @@ Homecoming come_home(const pliant::Simulation& simulation) {
 }
 
 /// Two vertices jump by up to `jump` in each coordinate every 20 frames, for 300; then they are home for 300.
-Homecoming jerk(const Lab& lab, pliant::Scene& scene, double jump, unsigned seed) {
+ReturnError jerk(const ExperimentContext& context, pliant::Scene& scene, double jump, unsigned seed) {
   pliant::Simulation& simulation = scene.simulation;
   const pliant::GroupId hands = simulation.find_group("hands").value();
   const std::array<Vec3, 2> homes = {simulation.target(hands, 0), simulation.target(hands, 1)};
@@ -85,18 +85,18 @@ Homecoming jerk(const Lab& lab, pliant::Scene& scene, double jump, unsigned seed
       for (double& coordinate : offset) coordinate = jump * random_share(random);
       simulation.set_target(hands, hand, homes[static_cast<std::size_t>(hand)] + offset);
     }
-    if (!lab.try_steps(scene, 1)) return {.is_finite = false};
+    if (!context.try_steps(scene, 1)) return {.is_finite = false};
   }
   for (pliant::Index hand = 0; hand < 2; ++hand) {
     simulation.set_target(hands, hand, homes[static_cast<std::size_t>(hand)]);
   }
-  if (!lab.try_steps(scene, home)) return {.is_finite = false};
-  return come_home(simulation);
+  if (!context.try_steps(scene, home)) return {.is_finite = false};
+  return return_error(simulation);
 }
 
 /// Energy of the bending of a torus that is turned inside out by a mirror, and as it is [J].
-std::array<double, 2> mirror_energies(const Lab& lab, Bend bend) {
-  pliant::Scene scene = scene_of(lab, bend);
+std::array<double, 2> mirror_energies(const ExperimentContext& context, Bend bend) {
+  pliant::Scene scene = scene_of(context, bend);
   pliant::Simulation& simulation = scene.simulation;
   const Positions rest = simulation.state().positions;
   Positions mirrored = rest;
@@ -112,41 +112,41 @@ std::array<double, 2> mirror_energies(const Lab& lab, Bend bend) {
 
 /// The runs of all seeds with one jump and one kind of bending.
 struct Series {
-  std::vector<Homecoming> runs;
-  std::ptrdiff_t intact() const { return std::ranges::count_if(runs, &Homecoming::is_intact); }
+  std::vector<ReturnError> runs;
+  std::ptrdiff_t intact() const { return std::ranges::count_if(runs, &ReturnError::is_intact); }
   std::ptrdiff_t inside_out() const {
-    return std::ranges::count_if(runs, [](const Homecoming& run) { return run.volume < -0.5; });
+    return std::ranges::count_if(runs, [](const ReturnError& run) { return run.volume < -0.5; });
   }
-  std::ptrdiff_t finite() const { return std::ranges::count_if(runs, &Homecoming::is_finite); }
+  std::ptrdiff_t finite() const { return std::ranges::count_if(runs, &ReturnError::is_finite); }
 };
 
-Series jerk_all(const Lab& lab, Chapter& chapter, double jump, Bend bend, Table& table) {
+Series jerk_all(const ExperimentContext& context, Chapter& chapter, double jump, Bend bend, Table& table) {
   Series series;
   std::vector<pliant_render::Image> pictures;
-  Homecoming extremes{true, 1e300, 0, 1e300};
+  ReturnError extremes{true, 1e300, 0, 1e300};
   double largest_volume = -1e300;
   for (unsigned seed = 1; seed <= seeds; ++seed) {
-    lab.say(fmt::format("jumps of {} m, {}, run {} of {}", jump, name_of(bend), seed, seeds));
-    pliant::Scene scene = scene_of(lab, bend);
-    const Homecoming run = jerk(lab, scene, jump, seed);
+    context.say(fmt::format("jumps of {} m, {}, run {} of {}", jump, name_of(bend), seed, seeds));
+    pliant::Scene scene = scene_of(context, bend);
+    const ReturnError run = jerk(context, scene, jump, seed);
     series.runs.push_back(run);
     extremes.shortest = std::min(extremes.shortest, run.shortest);
     extremes.longest = std::max(extremes.longest, run.longest);
     extremes.volume = std::min(extremes.volume, run.volume);
     largest_volume = std::max(largest_volume, run.volume);
-    if (seed <= 4) pictures.push_back(lab.picture(scene));
+    if (seed <= 4) pictures.push_back(context.picture(scene));
   }
   const std::string name = fmt::format("{} m, {}", jump, name_of(bend));
   table.rows.push_back({name, fmt::format("{} of {}", series.intact(), seeds), fmt::format("{}", series.inside_out()),
                         fmt::format("{:.3f} to {:.3f}", extremes.shortest, extremes.longest),
                         fmt::format("{:.3f} to {:.3f}", extremes.volume, largest_volume)});
-  lab.show(chapter, pictures, 4, fmt::format("The first four runs after they have come home: jumps of {}.", name));
+  context.show(chapter, pictures, 4, fmt::format("The first four runs after they have come home: jumps of {}.", name));
   return series;
 }
 
-void judge_mirror(const Lab& lab, Chapter& chapter) {
-  const std::array<double, 2> absolute = mirror_energies(lab, Bend::absolute);
-  const std::array<double, 2> with_sign = mirror_energies(lab, Bend::signed_);
+void judge_mirror(const ExperimentContext& context, Chapter& chapter) {
+  const std::array<double, 2> absolute = mirror_energies(context, Bend::absolute);
+  const std::array<double, 2> with_sign = mirror_energies(context, Bend::signed_);
   chapter.claims.push_back(
       claim("Inside out costs nothing in the absolute bending energy; the signed one sees it", "",
             absolute[0] < 1e-9 * with_sign[0] && with_sign[0] > 0 && with_sign[1] < 1e-9 * with_sign[0],
@@ -156,7 +156,7 @@ void judge_mirror(const Lab& lab, Chapter& chapter) {
 
 }  // namespace
 
-Chapter run_torus(const Lab& lab) {
+Chapter run_torus(const ExperimentContext& context) {
   Chapter chapter;
   chapter.question = fmt::format(
       "A torus of 24 x 12 vertices and 1 kg (edges of 200 N/m) is held by two vertices (1000 N/m), which jump every 20 "
@@ -172,7 +172,7 @@ Chapter run_torus(const Lab& lab) {
   std::ptrdiff_t finite = 0;
   for (const double jump : {0.3, 1.0}) {
     for (const Bend bend : bends) {
-      Series series = jerk_all(lab, chapter, jump, bend, table);
+      Series series = jerk_all(context, chapter, jump, bend, table);
       finite += series.finite();
       all.emplace(std::pair{jump, bend}, std::move(series));
     }
@@ -191,7 +191,7 @@ Chapter run_torus(const Lab& lab) {
                   intact(1, Bend::absolute), seeds, intact(1, Bend::signed_), intact(1, Bend::none),
                   all.at({1, Bend::absolute}).inside_out(), all.at({1, Bend::signed_}).inside_out(),
                   all.at({1, Bend::none}).inside_out())));
-  judge_mirror(lab, chapter);
+  judge_mirror(context, chapter);
   chapter.blocks.emplace_back(std::move(table));
   return chapter;
 }

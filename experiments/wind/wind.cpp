@@ -31,23 +31,23 @@ double ratio(double wind) {
   return wind * cell_area / (stiffness * edge_length);
 }
 
-struct Gale {
+struct StrongWind {
   std::vector<double> stretch;               // largest, after each step
   std::optional<std::int64_t> refused_step;  // whose positions would not be finite
   double largest() const { return *std::max_element(stretch.begin(), stretch.end()); }
 };
 
-pliant::Scene scene_of(const Lab& lab, double wind, double time_step, const char* area) {
-  return lab.scene("wind/curtain",
-                   {fmt::format("forces[gale].velocity=[0,{},{}]", wind, 0.3 * wind),
-                    fmt::format("settings.time_step={}", time_step), fmt::format("forces[gale].area={}", area)});
+pliant::Scene scene_of(const ExperimentContext& context, double wind, double time_step, const char* area) {
+  return context.scene("wind/curtain",
+                       {fmt::format("forces[gale].velocity=[0,{},{}]", wind, 0.3 * wind),
+                        fmt::format("settings.time_step={}", time_step), fmt::format("forces[gale].area={}", area)});
 }
 
-Gale blow(const Lab& lab, pliant::Scene scene, std::int64_t count) {
-  Gale gale{{1}, {}};
+StrongWind blow(const ExperimentContext& context, pliant::Scene scene, std::int64_t count) {
+  StrongWind gale{{1}, {}};
   for (std::int64_t i = 1; i <= count; ++i) {
     try {
-      lab.step(scene);
+      context.step(scene);
     } catch (const pliant::Error& error) {
       if (error.kind() != pliant::ErrorKind::diverged) throw;
       gale.refused_step = i;
@@ -59,10 +59,10 @@ Gale blow(const Lab& lab, pliant::Scene scene, std::int64_t count) {
 }
 
 /// The strongest of a wind that rises by a hundredth every 20 steps that the curtain still stands [N/m²].
-double limit_of_rise(const Lab& lab, double time_step) {
+double limit_of_rise(const ExperimentContext& context, double time_step) {
   constexpr std::int64_t steps_of_a_rise = 20;
   double wind = 1e5;
-  pliant::Scene scene = scene_of(lab, wind, time_step, "current");
+  pliant::Scene scene = scene_of(context, wind, time_step, "current");
   const pliant::ForceId gale = scene.simulation.find_force("gale").value();
   for (;; wind *= 1.01) {
     const auto& now = dynamic_cast<const pliant::Wind&>(*scene.simulation.forces().at(gale));
@@ -70,7 +70,7 @@ double limit_of_rise(const Lab& lab, double time_step) {
     options.velocity = {0, wind, 0.3 * wind};
     scene.simulation.replace(gale, now.with(options));
     try {
-      lab.step(scene, steps_of_a_rise);
+      context.step(scene, steps_of_a_rise);
     } catch (const pliant::Error& error) {
       if (error.kind() != pliant::ErrorKind::diverged) throw;
       return wind / 1.01;
@@ -79,17 +79,17 @@ double limit_of_rise(const Lab& lab, double time_step) {
 }
 
 /// The same for a wind that sets in at once and blows for 1000 steps, to two parts in a thousand [N/m²].
-double limit_of_gust(const Lab& lab, double time_step) {
+double limit_of_gust(const ExperimentContext& context, double time_step) {
   double holds = 1e5;
   double overflows = 1e6;
   while (overflows > 1.002 * holds) {
     const double wind = std::sqrt(holds * overflows);
-    (blow(lab, scene_of(lab, wind, time_step, "current"), 1000).refused_step ? overflows : holds) = wind;
+    (blow(context, scene_of(context, wind, time_step, "current"), 1000).refused_step ? overflows : holds) = wind;
   }
   return holds;
 }
 
-Plot stretch_plot(const Lab& lab, double limit) {
+Plot stretch_plot(const ExperimentContext& context, double limit) {
   Plot plot{.title = "Largest stretch of an edge",
             .caption =
                 "Largest stretch in 300 steps over the wind, as W a/(k L), the wind's force on a cell over that of an "
@@ -104,7 +104,7 @@ Plot stretch_plot(const Lab& lab, double limit) {
     pliant_report::Series series{.name = fmt::format("h = {}", time_step_names[i]),
                                  .mark = pliant_report::Mark::line_and_points};
     for (const double wind : {1e3, 3e3, 1e4, 3e4, 1e5, 2e5, 3e5, 4e5}) {
-      const Gale gale = blow(lab, scene_of(lab, wind, time_steps[i], "current"), steps);
+      const StrongWind gale = blow(context, scene_of(context, wind, time_steps[i], "current"), steps);
       series.x.push_back(ratio(wind));
       series.y.push_back(gale.refused_step ? std::nan("") : gale.largest());
     }
@@ -113,7 +113,7 @@ Plot stretch_plot(const Lab& lab, double limit) {
   return plot;
 }
 
-void compare_stretch(const Lab& lab, Chapter& chapter) {
+void compare_stretch(const ExperimentContext& context, Chapter& chapter) {
   const std::array<std::pair<double, std::array<double, 3>>, 2> known = {
       {{1e3, {1.34, 1.94, 1.98}}, {1e4, {2.28, 2.04, 2.05}}}};
   Comparison comparison(0.1);
@@ -121,8 +121,8 @@ void compare_stretch(const Lab& lab, Chapter& chapter) {
   double largest = 0;
   for (const auto& [wind, stretches] : known) {
     for (std::size_t i = 0; i < time_steps.size(); ++i) {
-      lab.say(fmt::format("W = {:.0e}, h = {}", wind, time_step_names[i]));
-      const Gale gale = blow(lab, scene_of(lab, wind, time_steps[i], "current"), steps);
+      context.say(fmt::format("W = {:.0e}, h = {}", wind, time_step_names[i]));
+      const StrongWind gale = blow(context, scene_of(context, wind, time_steps[i], "current"), steps);
       is_intact = is_intact && !gale.refused_step;
       largest = std::max(largest, gale.largest());
       comparison.add(fmt::format("W = {:.0e} N/m², h = {}", wind, time_step_names[i]), gale.largest(), stretches[i]);
@@ -139,27 +139,28 @@ void compare_stretch(const Lab& lab, Chapter& chapter) {
 
 /// What a time step makes of winds that are too strong.
 struct Limits {
-  double rise = 0;  // the strongest of a slowly rising wind that the curtain stands [N/m²]
-  double gust = 0;  // of one that sets in at once
-  Gale overflow;    // 1e6 N/m² on the current area
-  Gale at_rest;     // 1e6 N/m² on the area at rest
-  Gale far_beyond;  // 1e9 N/m² on the area at rest
+  double rise = 0;        // the strongest of a slowly rising wind that the curtain stands [N/m²]
+  double gust = 0;        // of one that sets in at once
+  StrongWind overflow;    // 1e6 N/m² on the current area
+  StrongWind at_rest;     // 1e6 N/m² on the area at rest
+  StrongWind far_beyond;  // 1e9 N/m² on the area at rest
 
   bool is_bounded() const { return !at_rest.refused_step && !far_beyond.refused_step; }
 };
 
-Limits find_limits(const Lab& lab, std::size_t i) {
-  lab.say(fmt::format("limit at h = {}", time_step_names[i]));
+Limits find_limits(const ExperimentContext& context, std::size_t i) {
+  context.say(fmt::format("limit at h = {}", time_step_names[i]));
   const double h = time_steps[i];
-  return {limit_of_rise(lab, h), limit_of_gust(lab, h), blow(lab, scene_of(lab, 1e6, h, "current"), steps),
-          blow(lab, scene_of(lab, 1e6, h, "rest"), steps), blow(lab, scene_of(lab, 1e9, h, "rest"), steps)};
+  return {
+      limit_of_rise(context, h), limit_of_gust(context, h), blow(context, scene_of(context, 1e6, h, "current"), steps),
+      blow(context, scene_of(context, 1e6, h, "rest"), steps), blow(context, scene_of(context, 1e9, h, "rest"), steps)};
 }
 
-std::string step_text(const Gale& gale) {
+std::string step_text(const StrongWind& gale) {
   return gale.refused_step ? std::to_string(*gale.refused_step) : "none";
 }
 
-std::string stretch_text(const Gale& gale) {
+std::string stretch_text(const StrongWind& gale) {
   return gale.refused_step ? "refused" : fmt::format("{:.3g}", gale.largest());
 }
 
@@ -188,8 +189,8 @@ void judge_limits(Chapter& chapter, const std::array<Limits, 3>& found) {
                   stretch_text(found[2].at_rest), stretch_text(found[2].far_beyond))));
 }
 
-void measure_limits(const Lab& lab, Chapter& chapter) {
-  const std::array<Limits, 3> found = {find_limits(lab, 0), find_limits(lab, 1), find_limits(lab, 2)};
+void measure_limits(const ExperimentContext& context, Chapter& chapter) {
+  const std::array<Limits, 3> found = {find_limits(context, 0), find_limits(context, 1), find_limits(context, 2)};
   judge_limits(chapter, found);
   Table table{
       "Limits of the wind as the thesis prints it, and the largest stretch with the area at rest in place of the "
@@ -203,28 +204,28 @@ void measure_limits(const Lab& lab, Chapter& chapter) {
                           step_text(found[i].overflow), stretch_text(found[i].at_rest),
                           stretch_text(found[i].far_beyond)});
   }
-  chapter.blocks.emplace_back(stretch_plot(lab, found[0].rise));
+  chapter.blocks.emplace_back(stretch_plot(context, found[0].rise));
   chapter.blocks.emplace_back(std::move(table));
 }
 
 }  // namespace
 
-Chapter run_wind(const Lab& lab) {
+Chapter run_wind(const ExperimentContext& context) {
   Chapter chapter;
   chapter.question =
       "A curtain of 16 x 16 vertices of 1 kg (edges of 5e4 N/m, two corners held, 5 iterations) in the wind as the "
       "thesis prints it, F = A (n·d) n with d = (0, W, .3 W), in steps of 1/60, 1 and 8 s. How far do its edges "
       "stretch, and is there a limit?";
-  compare_stretch(lab, chapter);
-  measure_limits(lab, chapter);
+  compare_stretch(context, chapter);
+  measure_limits(context, chapter);
   std::vector<pliant_render::Image> pictures;
   for (const double time_step : time_steps) {
-    pliant::Scene scene = scene_of(lab, 1e4, time_step, "current");
-    lab.step(scene, steps);
-    pictures.push_back(lab.picture(scene));
+    pliant::Scene scene = scene_of(context, 1e4, time_step, "current");
+    context.step(scene, steps);
+    pictures.push_back(context.picture(scene));
   }
-  lab.show(chapter, pictures, 3,
-           "The curtain after 300 steps of 1/60 s, 1 s and 8 s in a wind of 1e4 N/m² (Fig. 6.1 of the thesis).");
+  context.show(chapter, pictures, 3,
+               "The curtain after 300 steps of 1/60 s, 1 s and 8 s in a wind of 1e4 N/m² (Fig. 6.1 of the thesis).");
   return chapter;
 }
 

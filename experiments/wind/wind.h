@@ -1,9 +1,9 @@
 #pragma once
-#include "lab.h"
+#include "experiment_context.h"
 
 namespace pliant_experiments {
 
 /// Thesis, Sec. 6.1 and Fig. 6.1.
-pliant_report::Chapter run_wind(const Lab& lab);
+pliant_report::Chapter run_wind(const ExperimentContext& context);
 
 }  // namespace pliant_experiments

@@ -7,7 +7,7 @@
 #include "pliant/mesh/geometry.h"
 #include "pliant/mesh/shapes.h"
 #include "render/picture_maker.h"
-#include "render/quantities.h"
+#include "render/scalar_fields.h"
 
 namespace test_pictures {
 
@@ -19,13 +19,13 @@ namespace {
 using Rgb = std::array<int, 3>;
 
 /// A square of 1 m that stands upright, its normals towards -y, and a camera before it.
-struct Stage {
+struct Studio {
   std::vector<pliant::Body> bodies;
   PictureOptions options;
   FrameContent frame;
-  std::optional<WindSign> wind;
+  std::optional<WindAnnotation> wind;
 
-  Stage() {
+  Studio() {
     pliant::Mesh mesh = pliant::grid({.columns = 9, .rows = 9, .size = {1, 1}});
     for (pliant::Index i = 0; i < mesh.vertex_count(); ++i) {
       const pliant::Vec3 x = mesh.vertices.row(i).transpose();
@@ -36,17 +36,17 @@ struct Stage {
     for (pliant::Index i = 0; i < mesh.vertex_count(); ++i) {
       frame.positions.push_back(mesh.vertices.row(i).transpose().cast<float>());
     }
-    options.look.size = {320, 240};
-    options.look.camera.position = pliant::Vec3(0, -3, 0);
-    options.look.camera.target = pliant::Vec3(0, 0, 0);
-    options.look.shadow = options.look.ground = false;
+    options.appearance.size = {320, 240};
+    options.appearance.camera.position = pliant::Vec3(0, -3, 0);
+    options.appearance.camera.target = pliant::Vec3(0, 0, 0);
+    options.appearance.shadow = options.appearance.ground = false;
     options.bounds = bounds_of(frame.positions);
   }
 
   /// None where the machine has no OpenGL.
   std::optional<Image> draw() const {
     try {
-      PictureMaker maker(make_scenery(bodies), options);
+      PictureMaker maker(make_render_mesh(bodies), options);
       return maker.draw(frame, wind);
     } catch (const pliant::Error& error) {
       MESSAGE("skipped: ", std::string(error.what()));
@@ -90,12 +90,12 @@ const double edge_v = 0.5 / 3 / std::tan(20 * 3.14159265358979 / 180);
 }  // namespace
 
 TEST_CASE("a square stands where it is projected to, before the background") {
-  const Stage stage;
-  const std::optional<Image> image = stage.draw();
+  const Studio studio;
+  const std::optional<Image> image = studio.draw();
   if (!image) return;
   CHECK(image->width == 320);
   CHECK(image->height == 240);
-  const Rgb background = rgb(stage.options.look.background);
+  const Rgb background = rgb(studio.options.appearance.background);
   CHECK(distance(at(*image, 0, edge_v + 0.03), background) < 4);
   CHECK(distance(at(*image, 0, -edge_v - 0.03), background) < 4);
   CHECK(distance(at(*image, 0, edge_v - 0.03), background) > 60);
@@ -104,14 +104,14 @@ TEST_CASE("a square stands where it is projected to, before the background") {
 }
 
 TEST_CASE("the two sides have their own tones") {
-  Stage stage;
-  stage.options.look.front = {0.9, 0.1, 0.1};
-  stage.options.look.back = {0.1, 0.1, 0.9};
-  const std::optional<Image> one = stage.draw();
-  stage.options.look.camera.position = pliant::Vec3(0, 3, 0);
-  const std::optional<Image> other = stage.draw();
+  Studio studio;
+  studio.options.appearance.front = {0.9, 0.1, 0.1};
+  studio.options.appearance.back = {0.1, 0.1, 0.9};
+  const std::optional<Image> one = studio.draw();
+  studio.options.appearance.camera.position = pliant::Vec3(0, 3, 0);
+  const std::optional<Image> other = studio.draw();
   if (!one || !other) return;
-  const pliant::Mesh& mesh = stage.bodies[0].mesh;
+  const pliant::Mesh& mesh = studio.bodies[0].mesh;
   const pliant::Vec3 normal = pliant::triangle_normals(mesh.vertices, mesh.triangles).row(0).transpose();
   REQUIRE(std::abs(normal.y()) > 0.99);
   const Rgb before = at(*one, 0.1, 0.1), behind = at(*other, 0.1, 0.1);
@@ -122,33 +122,33 @@ TEST_CASE("the two sides have their own tones") {
 }
 
 TEST_CASE("markers are red, edges are drawn when asked for, and both have the size of the picture") {
-  Stage stage;
-  stage.options.look.front = stage.options.look.back = {0.3, 0.6, 0.4};
-  const std::optional<Image> plain = stage.draw();
+  Studio studio;
+  studio.options.appearance.front = studio.options.appearance.back = {0.3, 0.6, 0.4};
+  const std::optional<Image> plain = studio.draw();
   if (!plain) return;
-  stage.frame.markers = {40};  // the middle of 9 x 9
-  const std::optional<Image> marked = stage.draw();
+  studio.frame.markers = {40};  // the middle of 9 x 9
+  const std::optional<Image> marked = studio.draw();
   const Rgb red = at(*marked, 0, 0);
   CHECK(red[0] > 2 * red[1]);
   CHECK(red[0] > 2 * red[2]);
   CHECK(difference(*plain, *marked) < 0.003);
-  stage.frame.markers.clear();
-  stage.options.look.wireframe = true;
-  const std::optional<Image> wired = stage.draw();
+  studio.frame.markers.clear();
+  studio.options.appearance.wireframe = true;
+  const std::optional<Image> wired = studio.draw();
   CHECK(difference(*plain, *wired) > 0.02);
   CHECK(difference(*plain, *wired) < 0.2);
 }
 
 TEST_CASE("values are told by the colors of the map, with a legend beside") {
-  Stage stage;
-  stage.options.look.color = pliant::ColorBy::speed;
-  stage.options.look.legend = false;
-  stage.options.range = {0, 2};
+  Studio studio;
+  studio.options.appearance.color = pliant::ColorBy::speed;
+  studio.options.appearance.legend = false;
+  studio.options.range = {0, 2};
   const auto map = color_map(pliant::ColorBy::speed);
   int last = -1;
   for (const float value : {0.0F, 1.0F, 2.0F}) {
-    stage.frame.values.assign(stage.frame.positions.size(), value);
-    const std::optional<Image> image = stage.draw();
+    studio.frame.values.assign(studio.frame.positions.size(), value);
+    const std::optional<Image> image = studio.draw();
     if (!image) return;
     const Rgb seen = at(*image, 0.1, 0.1);
     CHECK(seen[0] + seen[1] + seen[2] > last);
@@ -159,9 +159,9 @@ TEST_CASE("values are told by the colors of the map, with a legend beside") {
     CHECK(ratio > 0.6);
     CHECK(ratio < 1.25);
   }
-  const std::optional<Image> without = stage.draw();
-  stage.options.look.legend = true;
-  const std::optional<Image> with = stage.draw();
+  const std::optional<Image> without = studio.draw();
+  studio.options.appearance.legend = true;
+  const std::optional<Image> with = studio.draw();
   CHECK(difference(*without, *with) > 0.01);
   // The upper end of the bar has the last color of the map, unlit.
   const Rgb top = at(*with, 1 - 2.0 * 30 * 0.65 / 320, 1 - 2 * 0.32);
@@ -169,16 +169,16 @@ TEST_CASE("values are told by the colors of the map, with a legend beside") {
 }
 
 TEST_CASE("a body throws its shadow on the ground, on the side that is away from the light") {
-  Stage stage;
-  stage.options.look.camera.position = pliant::Vec3(0, -3, 3);
-  stage.options.look.camera.target = pliant::Vec3(0, 0, -0.6);
-  stage.options.look.light = pliant::Vec3(-1, 0, 1);
-  stage.options.look.ground = true;
-  stage.options.ground_height = -0.6F;
-  for (Vec3f& p : stage.frame.positions) p = {0.2F * p.x(), p.z(), 0.2F * p.x()};  // lies along y, low
-  const std::optional<Image> bare = stage.draw();
-  stage.options.look.shadow = true;
-  const std::optional<Image> shaded = stage.draw();
+  Studio studio;
+  studio.options.appearance.camera.position = pliant::Vec3(0, -3, 3);
+  studio.options.appearance.camera.target = pliant::Vec3(0, 0, -0.6);
+  studio.options.appearance.light = pliant::Vec3(-1, 0, 1);
+  studio.options.appearance.ground = true;
+  studio.options.ground_height = -0.6F;
+  for (Vec3f& p : studio.frame.positions) p = {0.2F * p.x(), p.z(), 0.2F * p.x()};  // lies along y, low
+  const std::optional<Image> bare = studio.draw();
+  studio.options.appearance.shadow = true;
+  const std::optional<Image> shaded = studio.draw();
   if (!bare || !shaded) return;
   CHECK(difference(*bare, *shaded) > 0.01);
   int darker_left = 0, darker_right = 0;
@@ -193,59 +193,59 @@ TEST_CASE("a body throws its shadow on the ground, on the side that is away from
 }
 
 TEST_CASE("flat shading has an edge where smooth shading has none, and samples soften the outline") {
-  Stage stage;
-  for (Vec3f& p : stage.frame.positions) p.y() = 0.6F * std::abs(p.x());  // a fold in the middle
-  const std::optional<Image> smooth = stage.draw();
-  stage.options.look.shading = pliant::Shading::flat;
-  const std::optional<Image> flat = stage.draw();
+  Studio studio;
+  for (Vec3f& p : studio.frame.positions) p.y() = 0.6F * std::abs(p.x());  // a fold in the middle
+  const std::optional<Image> smooth = studio.draw();
+  studio.options.appearance.shading = pliant::Shading::flat;
+  const std::optional<Image> flat = studio.draw();
   if (!smooth || !flat) return;
   const auto step = [](const Image& image) { return distance(at(image, -0.012, 0.1), at(image, 0.012, 0.1)); };
   CHECK(step(*flat) > 2 * step(*smooth) + 10);
-  stage.options.samples = 1;
-  const std::optional<Image> hard = stage.draw();
+  studio.options.samples = 1;
+  const std::optional<Image> hard = studio.draw();
   CHECK(difference(*flat, *hard) > 0);
 }
 
 TEST_CASE("ropes are drawn, the wind has its arrow, and a frame of nothing is the background") {
-  Stage stage;
+  Studio studio;
   pliant::Mesh rope;
   rope.vertices.resize(2, 3);
   rope.vertices << -0.5, 0, 0, 0.5, 0, 0;
   rope.edges = {{0, 1}};
-  stage.bodies = {{"rope", rope, 0}};
-  stage.frame.positions = {{-0.5F, 0, 0}, {0.5F, 0, 0}};
-  const std::optional<Image> image = stage.draw();
+  studio.bodies = {{"rope", rope, 0}};
+  studio.frame.positions = {{-0.5F, 0, 0}, {0.5F, 0, 0}};
+  const std::optional<Image> image = studio.draw();
   if (!image) return;
-  const Rgb background = rgb(stage.options.look.background);
+  const Rgb background = rgb(studio.options.appearance.background);
   CHECK(distance(at(*image, 0.1, 0), background) > 60);
   CHECK(distance(at(*image, 0.1, 0.05), background) < 4);
-  stage.options.look.color = pliant::ColorBy::speed;
-  stage.options.look.legend = false;
-  stage.options.look.ground = stage.options.look.shadow = true;  // whose shadow is a texture as well
-  stage.options.ground_height = -2;
-  stage.frame.values = {0, 0};
-  const Rgb slow = at(*stage.draw(), 0.1, 0);
+  studio.options.appearance.color = pliant::ColorBy::speed;
+  studio.options.appearance.legend = false;
+  studio.options.appearance.ground = studio.options.appearance.shadow = true;  // whose shadow is a texture as well
+  studio.options.ground_height = -2;
+  studio.frame.values = {0, 0};
+  const Rgb slow = at(*studio.draw(), 0.1, 0);
   CHECK(slow[2] > slow[0]);
-  stage.frame.values = {1, 1};
-  const Rgb fast = at(*stage.draw(), 0.1, 0);
+  studio.frame.values = {1, 1};
+  const Rgb fast = at(*studio.draw(), 0.1, 0);
   CHECK(fast[0] > fast[2]);
   CHECK(fast[1] > fast[2]);
-  stage.options.look.color = pliant::ColorBy::none;
-  stage.options.look.ground = stage.options.look.shadow = false;
-  stage.wind = WindSign{{1, 0, 0}, "wind 1 m/s"};
-  CHECK(difference(*image, *stage.draw()) > 0.002);
-  stage.wind.reset();
-  stage.bodies.clear();
-  stage.frame.positions.clear();
-  const std::optional<Image> nothing = stage.draw();
+  studio.options.appearance.color = pliant::ColorBy::none;
+  studio.options.appearance.ground = studio.options.appearance.shadow = false;
+  studio.wind = WindAnnotation{{1, 0, 0}, "wind 1 m/s"};
+  CHECK(difference(*image, *studio.draw()) > 0.002);
+  studio.wind.reset();
+  studio.bodies.clear();
+  studio.frame.positions.clear();
+  const std::optional<Image> nothing = studio.draw();
   for (const double u : {-0.9, 0.0, 0.9}) CHECK(distance(at(*nothing, u, 0.3), background) < 4);
 }
 
 TEST_CASE("a size past what the driver draws is refused") {
-  Stage stage;
-  stage.options.look.size = {1 << 20, 16};
+  Studio studio;
+  studio.options.appearance.size = {1 << 20, 16};
   try {
-    PictureMaker maker(make_scenery(stage.bodies), stage.options);
+    PictureMaker maker(make_render_mesh(studio.bodies), studio.options);
     FAIL("a picture of a million columns");
   } catch (const pliant::Error& error) {
     const std::string message = error.what();

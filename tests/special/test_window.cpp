@@ -12,7 +12,7 @@
 #include "pliant/core/error.h"
 #include "pliant/pliant.h"
 #include "pliant_io/export/animation.h"
-#include "viewer/live_stage.h"
+#include "viewer/live_source.h"
 #include "viewer/playback.h"
 #include "viewer/viewer.h"
 
@@ -42,16 +42,17 @@ void xdotool(const std::string& arguments) {
   REQUIRE(std::system(("xdotool " + arguments).c_str()) == 0);
 }
 
-/// A window with a stage, and hands on mouse and keys.
+/// A window with a source, and hands on mouse and keys.
 struct Desk {
   pliant_tests::TemporaryFolder folder;
   Window window{"Pliant test", 1000, 640};
-  LiveStage stage;
+  LiveSource source;
   Viewer viewer;
 
   explicit Desk(MakeScene make = make_sheet, int samples = 1)
-      : stage(std::move(make), 1, true, Window::wake),
-        viewer(window, stage, {.look = stage.look(), .samples = samples, .picture_folder = folder.path()}) {
+      : source(std::move(make), 1, true, Window::wake),
+        viewer(window, source,
+               {.appearance = source.appearance(), .samples = samples, .picture_folder = folder.path()}) {
     turn_until([&] { return viewer.frame_count() > 3; });
     xdotool("search --sync --name 'Pliant test' windowfocus");
     turns(3);
@@ -89,7 +90,7 @@ struct Desk {
     move(from + 0.3F * (to - from));
     move(to);
   }
-  const Snapshot& shown() { return stage.snapshot(); }
+  const Snapshot& shown() { return source.snapshot(); }
   Vec3f position(std::uint32_t vertex) { return shown().frame.content.positions[vertex]; }
   Vec2f place(std::uint32_t vertex) { return viewer.screen().place_of(position(vertex)).value(); }
   bool is_pinned(std::uint32_t vertex) { return std::ranges::binary_search(shown().pins, vertex); }
@@ -101,9 +102,9 @@ struct Desk {
   }
   /// Lets the sheet hang still; it goes on in real time.
   void settle() {
-    stage.live()->post([](Workshop& workshop) { workshop.pacer.set_speed(Pacer::unlimited); });
+    source.live()->post([](CommandContext& context) { context.pacer.set_speed(Pacer::unlimited); });
     turn_until([&] { return shown().step > 1500; });
-    stage.live()->post([](Workshop& workshop) { workshop.pacer.set_speed(1); });
+    source.live()->post([](CommandContext& context) { context.pacer.set_speed(1); });
   }
   struct Picture {
     int width = 0, height = 0;
@@ -150,8 +151,8 @@ TEST_CASE("the surface follows the mouse that pulls at it, and comes back") {
   const float depth = desk.viewer.screen().depth_of(home);
   for (int i = 0; i < 8; ++i) desk.key("plus");
   desk.drag(from, to);
-  REQUIRE(desk.viewer.hand().pull().has_value());
-  const Vec3f target = desk.viewer.hand().pull()->target;
+  REQUIRE(desk.viewer.interaction().pull().has_value());
+  const Vec3f target = desk.viewer.interaction().pull()->target;
   // The mouse counts whole pixels; the target is under it, at the depth of what was taken hold of.
   CHECK((desk.viewer.screen().place_of(target).value() - to).norm() < 1);
   CHECK(std::abs(desk.viewer.screen().depth_of(target) - depth) < 0.02F);
@@ -194,10 +195,10 @@ TEST_CASE("keys play, step, start over, color and help") {
   desk.key("r");
   desk.turn_until([&] { return desk.shown().step == 0 && desk.shown().restarts == 1; });
   desk.key("c");
-  CHECK(desk.viewer.look().color == pliant::ColorBy::stretch);
+  CHECK(desk.viewer.appearance().color == pliant::ColorBy::stretch);
   desk.turn_until([&] { return desk.shown().frame.content.values.size() == side * side; });
   desk.key("w");
-  CHECK(desk.viewer.look().wireframe);
+  CHECK(desk.viewer.appearance().wireframe);
   desk.key("h");
   CHECK(desk.viewer.is_help_open());
   desk.key("Escape");
@@ -212,7 +213,7 @@ TEST_CASE("a slider changes what it stands for, and a restart keeps that") {
   Desk desk;
   const std::string name = "settings.iterations";
   CHECK(desk.parameter(name) == 20);
-  const auto rect = desk.stage.parameter_panel().place_of(name);
+  const auto rect = desk.source.parameter_panel().place_of(name);
   REQUIRE(rect.has_value());
   const float y = ((*rect)[1] + (*rect)[3]) / 2;
   desk.click({(*rect)[2] - 3, y});
@@ -295,7 +296,7 @@ TEST_CASE("yanking the mouse across the screen explodes nothing") {
   }
   desk.release();
   for (const Vec3f& p : desk.shown().frame.content.positions) REQUIRE(p.allFinite());
-  desk.stage.live()->post([](Workshop& workshop) { workshop.pacer.set_speed(Pacer::unlimited); });
+  desk.source.live()->post([](CommandContext& context) { context.pacer.set_speed(Pacer::unlimited); });
   // It may have passed through itself and hang in other folds, but it hangs from its hooks again.
   const auto reach = [&] {
     float farthest = 0;
@@ -317,45 +318,45 @@ TEST_CASE("a run is played at its own times, frame by frame, and from where the 
     frames.push_back(mesh.vertices.rowwise() + Eigen::RowVector3d(0.02 * i, 0, 0));
     times.push_back(0.01 * i);
   }
-  Playback stage(pliant_render::RunFrames(pliant::animate(mesh, "run", pliant::PointCache::from_frames(frames, times))),
-                 {}, true);
-  stage.set_looping(false);
+  Playback source(
+      pliant_render::RunFrames(pliant::animate(mesh, "run", pliant::PointCache::from_frames(frames, times))), {}, true);
+  source.set_looping(false);
   Window window("Pliant test", 1000, 640);
-  Viewer viewer(window, stage, {});
+  Viewer viewer(window, source, {});
   const auto turn_until = [&](const std::function<bool()>& is_so) {
     while (!is_so()) viewer.turn(0.05);
   };
-  const auto x = [&] { return stage.frame().content.positions[0].x(); };
+  const auto x = [&] { return source.frame().content.positions[0].x(); };
   const float start = static_cast<float>(mesh.vertices(0, 0));
-  turn_until([&] { return !stage.is_playing(); });  // to its end, where it stops
-  CHECK(stage.place() == 40);
+  turn_until([&] { return !source.is_playing(); });  // to its end, where it stops
+  CHECK(source.place() == 40);
   CHECK(x() == doctest::Approx(start + 0.8F));
   xdotool("search --sync --name 'Pliant test' windowfocus key Left key Left");
-  turn_until([&] { return stage.place() == 38; });
+  turn_until([&] { return source.place() == 38; });
   viewer.turn(0.05);
   CHECK(x() == doctest::Approx(start + 0.76F));
   xdotool("key r");
-  turn_until([&] { return stage.place() == 0; });
-  stage.set_looping(true);
-  stage.play(true);
-  turn_until([&] { return stage.place() > 20; });
-  turn_until([&] { return stage.place() < 10; });
-  stage.step(-1);
+  turn_until([&] { return source.place() == 0; });
+  source.set_looping(true);
+  source.play(true);
+  turn_until([&] { return source.place() > 20; });
+  turn_until([&] { return source.place() < 10; });
+  source.step(-1);
   // The bar lies at the lower edge; its slider begins behind the button.
   xdotool("mousemove 390 615");
   for (int i = 0; i < 3; ++i) viewer.turn(0.05);
   xdotool("mousedown 1");
-  turn_until([&] { return stage.place() > 10; });
+  turn_until([&] { return source.place() > 10; });
   xdotool("mouseup 1");
   for (int i = 0; i < 3; ++i) viewer.turn(0.05);
-  CHECK(stage.place() < 30);
+  CHECK(source.place() < 30);
   xdotool("key c");
-  turn_until([&] { return viewer.look().color == pliant::ColorBy::stretch; });
+  turn_until([&] { return viewer.appearance().color == pliant::ColorBy::stretch; });
   xdotool("key c");
-  turn_until([&] { return viewer.look().color == pliant::ColorBy::speed; });  // energy is not known of a run
+  turn_until([&] { return viewer.appearance().color == pliant::ColorBy::speed; });  // energy is not known of a run
   viewer.turn(0.05);
-  CHECK(stage.frame().content.values.front() == doctest::Approx(2));
-  CHECK(stage.range().value()[1] == doctest::Approx(2));
+  CHECK(source.frame().content.values.front() == doctest::Approx(2));
+  CHECK(source.range().value()[1] == doctest::Approx(2));
 }
 
 int main(int argc, char** argv) {

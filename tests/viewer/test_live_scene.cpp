@@ -37,18 +37,18 @@ TEST_CASE("it plays, pauses, takes single steps, and shows the last of them") {
   LiveScene live([] { return make_scene(); }, 1, false, [] {});
   CHECK(live.newest().step == 0);
   CHECK_FALSE(live.shown().is_playing);
-  const auto one_step = [](Workshop& workshop) { workshop.single_steps = 1; };
+  const auto one_step = [](CommandContext& context) { context.single_steps = 1; };
   live.post(one_step);
   wait_until([&] { return live.newest().step == 1; });
   live.post(one_step);
   wait_until([&] { return live.newest().step == 2; });
-  live.post([](Workshop& workshop) { workshop.is_playing = true; });
+  live.post([](CommandContext& context) { context.is_playing = true; });
   wait_until([&] { return live.newest().step > 10; });
-  const Snapshot& paused = wait_for(live, live.post([](Workshop& workshop) { workshop.is_playing = false; }));
+  const Snapshot& paused = wait_for(live, live.post([](CommandContext& context) { context.is_playing = false; }));
   CHECK_FALSE(paused.is_playing);
   const std::int64_t step = paused.step;
   std::int64_t seen = -1;
-  wait_for(live, live.post([&](Workshop& workshop) { seen = workshop.session.simulation().state().step; }));
+  wait_for(live, live.post([&](CommandContext& context) { seen = context.session.simulation().state().step; }));
   CHECK(seen == step);  // what is shown is where it stands
   CHECK(live.shown().frame.content.positions.size() == 100);
 }
@@ -56,12 +56,12 @@ TEST_CASE("it plays, pauses, takes single steps, and shows the last of them") {
 TEST_CASE("commands act in their order, and what one throws is told") {
   LiveScene live([] { return make_scene(); }, 1, true, [] {});
   std::vector<int> order;
-  for (int i = 0; i < 100; ++i) live.post([&order, i](Workshop&) { order.push_back(i); });
+  for (int i = 0; i < 100; ++i) live.post([&order, i](CommandContext&) { order.push_back(i); });
   wait_for(live, 100);
   CHECK(order.size() == 100);
   CHECK(std::ranges::is_sorted(order));
-  const Snapshot& shown = wait_for(live, live.post([](Workshop& workshop) {
-    workshop.session.set("settings.time_step", {-1, 0, 0});
+  const Snapshot& shown = wait_for(live, live.post([](CommandContext& context) {
+    context.session.set("settings.time_step", {-1, 0, 0});
   }));
   CHECK(shown.note.find("time_step") != std::string::npos);
   CHECK(shown.is_playing);
@@ -69,11 +69,11 @@ TEST_CASE("commands act in their order, and what one throws is told") {
 
 TEST_CASE("a step that would last for hours is given up for a change, and for the end") {
   LiveScene live([] { return make_scene("settings.iterations=1000000000"); }, 1, true, [] {});
-  live.post([](Workshop& workshop) { workshop.session.set("settings.iterations", {5, 0, 0}); });
+  live.post([](CommandContext& context) { context.session.set("settings.iterations", {5, 0, 0}); });
   wait_until([&] { return live.newest().step > 3; });
-  live.post([](Workshop& workshop) { workshop.session.set("settings.iterations", {1e9, 0, 0}); });
+  live.post([](CommandContext& context) { context.session.set("settings.iterations", {1e9, 0, 0}); });
   wait_for(live, 2);
-  live.post([](Workshop& workshop) { workshop.restart(false); }, LiveScene::Kind::ends);
+  live.post([](CommandContext& context) { context.restart(false); }, LiveScene::Kind::ends);
   wait_until([&] { return live.newest().restarts == 1; });
   CHECK(live.shown().step == 0);
 }  // the destructor does not wait for a thousand million iterations
@@ -86,15 +86,15 @@ TEST_CASE("a simulation that diverges pauses and says so; starting over helps") 
             "\"anchor\":[0,0,5],\"stiffness\":1e9}]");
       },
       1, true, [] {});
-  live.post([](Workshop& workshop) { workshop.pacer.set_speed(Pacer::unlimited); });
+  live.post([](CommandContext& context) { context.pacer.set_speed(Pacer::unlimited); });
   wait_until([&] { return !live.newest().is_playing; });
   CHECK_FALSE(live.shown().note.empty());
   bool is_finite = false;
-  wait_for(live, live.post([&](Workshop& workshop) {
-    is_finite = workshop.session.simulation().state().positions.allFinite();
+  wait_for(live, live.post([&](CommandContext& context) {
+    is_finite = context.session.simulation().state().positions.allFinite();
   }));
   CHECK(is_finite);
-  live.post([](Workshop& workshop) { workshop.restart(false); }, LiveScene::Kind::ends);
+  live.post([](CommandContext& context) { context.restart(false); }, LiveScene::Kind::ends);
   wait_until([&] { return live.newest().restarts == 1; });
   CHECK(live.shown().step == 0);
   CHECK(live.shown().note.empty());
@@ -109,14 +109,14 @@ TEST_CASE("a mesh that is another one after a restart is shown as what it is") {
         return scene;
       },
       1, false, [] {});
-  const auto restart = [&] { wait_for(live, live.post([](Workshop& workshop) { workshop.restart(true); })); };
-  const auto first = live.newest().scenery;
+  const auto restart = [&] { wait_for(live, live.post([](CommandContext& context) { context.restart(true); })); };
+  const auto first = live.newest().render_mesh;
   restart();
-  CHECK(live.shown().scenery == first);
+  CHECK(live.shown().render_mesh == first);
   columns = 6;
   restart();
-  CHECK(live.shown().scenery != first);
-  CHECK(live.shown().scenery->vertex_count == 18);
+  CHECK(live.shown().render_mesh != first);
+  CHECK(live.shown().render_mesh->vertex_count == 18);
   CHECK(live.shown().frame.content.positions.size() == 18);
 }
 

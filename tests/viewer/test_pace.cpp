@@ -2,7 +2,7 @@
 #include <doctest/doctest.h>
 
 #include "viewer/auto_range.h"
-#include "viewer/pulse.h"
+#include "viewer/frame_statistics.h"
 
 namespace test_pace {
 
@@ -69,16 +69,16 @@ TEST_CASE("without a limit every step is due") {
   }
 }
 
-TEST_CASE("the pulse is that of the last second, and fades when nothing happens") {
-  Pulse pulse;
-  CHECK(pulse.means(at(0)).rate == 0);
-  for (int i = 0; i <= 300; ++i) pulse.add({at(0.01 * i), 0.02, 0.001, 0.002, 0, 0.004});
-  const Pulse::Means means = pulse.means(at(3));
+TEST_CASE("statistics cover the last second, and fade when nothing happens") {
+  FrameStatistics statistics;
+  CHECK(statistics.means(at(0)).rate == 0);
+  for (int i = 0; i <= 300; ++i) statistics.add({at(0.01 * i), 0.02, 0.001, 0.002, 0, 0.004});
+  const FrameStatistics::Means means = statistics.means(at(3));
   CHECK(means.rate == doctest::Approx(100));
   CHECK(means.speed == doctest::Approx(2));
   CHECK(means.local == doctest::Approx(0.001));
   CHECK(means.total == doctest::Approx(0.004));
-  CHECK(pulse.means(at(103)).rate < 2);
+  CHECK(statistics.means(at(103)).rate < 2);
 }
 
 TEST_CASE("a range grows at once to a round number, and shrinks only after a while") {

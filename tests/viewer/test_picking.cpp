@@ -13,12 +13,12 @@ namespace {
 
 struct Sheet {
   pliant::Simulation simulation;
-  pliant_render::Scenery scenery;
+  pliant_render::RenderMesh render_mesh;
   std::vector<Vec3f> positions;
 
   Sheet() {
     simulation.add_body(pliant::grid({.columns = 9, .rows = 7}), pliant::Mass::total(1));
-    scenery = pliant_render::make_scenery(simulation.bodies());
+    render_mesh = pliant_render::make_render_mesh(simulation.bodies());
     const pliant::Positions& x = simulation.state().positions;
     for (pliant::Index i = 0; i < simulation.state().vertex_count(); ++i) {
       // Uneven, so that each triangle lies in a plane of its own.
@@ -36,8 +36,8 @@ Screen look_at(const Sheet& sheet, const Vec2f& size, float inset = 0) {
 }
 
 SurfacePoint point_of_triangle(const Sheet& sheet, std::size_t triangle, const Vec3f& weights) {
-  return {{sheet.scenery.triangles[3 * triangle], sheet.scenery.triangles[3 * triangle + 1],
-           sheet.scenery.triangles[3 * triangle + 2]},
+  return {{sheet.render_mesh.triangles[3 * triangle], sheet.render_mesh.triangles[3 * triangle + 1],
+           sheet.render_mesh.triangles[3 * triangle + 2]},
           weights};
 }
 
@@ -49,11 +49,11 @@ TEST_CASE("a point of the surface, projected, is hit to half a pixel, whatever t
     CAPTURE(size.x());
     for (const float inset : {0.0F, 0.15F}) {
       const Screen screen = look_at(sheet, size, inset);
-      for (std::size_t t = 0; t < sheet.scenery.triangles.size() / 3; t += 5) {
+      for (std::size_t t = 0; t < sheet.render_mesh.triangles.size() / 3; t += 5) {
         const SurfacePoint known = point_of_triangle(sheet, t, {0.5F, 0.3F, 0.2F});
         const auto place = screen.place_of(known.position(sheet.positions));
         REQUIRE(place.has_value());
-        const auto picked = pick_surface(sheet.scenery, sheet.positions, screen, *place, 0);
+        const auto picked = pick_surface(sheet.render_mesh, sheet.positions, screen, *place, 0);
         REQUIRE(picked.has_value());
         const Vec3f found = picked->position(sheet.positions);
         CHECK((screen.place_of(found).value() - *place).norm() < 0.5F);
@@ -72,11 +72,11 @@ TEST_CASE("what is drawn stands where the mouse finds it, also where a place of 
       CAPTURE(scale);
       const Screen screen = look_at(sheet, {static_cast<float>(width), static_cast<float>(height)});
       pliant_render::PictureOptions options;
-      options.look.size = {scale * width, scale * height};
-      options.look.camera.position = pliant::Vec3(0.2, -1.1, 1.3);
-      options.look.ground = false;
+      options.appearance.size = {scale * width, scale * height};
+      options.appearance.camera.position = pliant::Vec3(0.2, -1.1, 1.3);
+      options.appearance.ground = false;
       options.bounds = pliant_render::bounds_of(sheet.positions);
-      pliant_render::PictureMaker maker(sheet.scenery, options);
+      pliant_render::PictureMaker maker(sheet.render_mesh, options);
       const std::uint32_t vertex = 24;
       const pliant_render::Image image = maker.draw({sheet.positions, {}, {vertex}}, {});
       Vec2f sum = Vec2f::Zero();
@@ -103,34 +103,34 @@ TEST_CASE("of two surfaces the nearer is hit, and beside them nothing") {
   Sheet sheet;
   const auto count = sheet.positions.size();
   const std::vector<Vec3f> first = sheet.positions;
-  const std::vector<std::uint32_t> triangles = sheet.scenery.triangles;
+  const std::vector<std::uint32_t> triangles = sheet.render_mesh.triangles;
   const Screen screen = look_at(sheet, {1280, 720});
   for (const Vec3f& p : first) {
     sheet.positions.push_back(p + 0.3F * (screen.viewpoint.eye - p));  // towards the eye
   }
   for (const std::uint32_t vertex : triangles) {
-    sheet.scenery.triangles.push_back(vertex + static_cast<std::uint32_t>(count));
+    sheet.render_mesh.triangles.push_back(vertex + static_cast<std::uint32_t>(count));
   }
   const SurfacePoint known = point_of_triangle(sheet, 20, {0.2F, 0.2F, 0.6F});
   const auto place = screen.place_of(known.position(sheet.positions));
-  const auto picked = pick_surface(sheet.scenery, sheet.positions, screen, place.value(), 0);
+  const auto picked = pick_surface(sheet.render_mesh, sheet.positions, screen, place.value(), 0);
   REQUIRE(picked.has_value());
   CHECK(picked->vertices[0] == known.vertices[0] + count);
-  CHECK_FALSE(pick_surface(sheet.scenery, sheet.positions, screen, {2, 2}, 0).has_value());
+  CHECK_FALSE(pick_surface(sheet.render_mesh, sheet.positions, screen, {2, 2}, 0).has_value());
 }
 
 TEST_CASE("ropes are hit within reach, and the point is where perspective has it") {
-  pliant_render::Scenery scenery;
-  scenery.vertex_count = 2;
-  scenery.ropes = {0, 1};
+  pliant_render::RenderMesh render_mesh;
+  render_mesh.vertex_count = 2;
+  render_mesh.ropes = {0, 1};
   const std::vector<Vec3f> positions = {{-1, 0, 0}, {1, 3, 0}};  // away from the eye
   const Screen screen{{.eye = {0, -4, 0}, .target = {0, 0, 0}}, {1000, 500}};
   const Vec3f middle = 0.5F * (positions[0] + positions[1]);
   const Vec2f place = screen.place_of(middle).value();
-  const auto picked = pick_surface(scenery, positions, screen, place + Vec2f(0, 3), 5);
+  const auto picked = pick_surface(render_mesh, positions, screen, place + Vec2f(0, 3), 5);
   REQUIRE(picked.has_value());
   CHECK((picked->position(positions) - middle).norm() < 1e-4F);
-  CHECK_FALSE(pick_surface(scenery, positions, screen, place + Vec2f(0, 7), 5).has_value());
+  CHECK_FALSE(pick_surface(render_mesh, positions, screen, place + Vec2f(0, 7), 5).has_value());
 }
 
 TEST_CASE("a point that is carried along at its depth stays under the mouse") {

@@ -13,7 +13,7 @@ struct Key {
   const char* what;
 };
 
-constexpr std::array<Key, 4> hand_keys = {Key{"drag a body", "pull at it by a spring; it stays at its depth"},
+constexpr std::array<Key, 4> body_keys = {Key{"drag a body", "pull at it by a spring; it stays at its depth"},
                                           Key{"click a body", "pin the nearest vertex"},
                                           Key{"click a pin", "let it go"}, Key{"drag a pin", "move it"}};
 constexpr std::array<Key, 5> camera_keys = {
@@ -25,12 +25,12 @@ constexpr std::array<Key, 5> live_keys = {Key{"Space", "play or pause"}, Key{"S 
                                           Key{"+ and −", "stiffer or softer pull"}};
 constexpr std::array<Key, 3> run_keys = {Key{"Space", "play or pause"}, Key{"→ and ←", "one frame on or back"},
                                          Key{"R", "to the first frame"}};
-constexpr std::array<Key, 6> look_keys = {Key{"C", "color by the next quantity, or none"},
-                                          Key{"W", "wireframe"},
-                                          Key{"L", "smooth or flat"},
-                                          Key{"P", "save the picture as a PNG file"},
-                                          Key{"Tab", "hide or show the panel"},
-                                          Key{"H or F1", "this help"}};
+constexpr std::array<Key, 6> appearance_keys = {Key{"C", "color by the next quantity, or none"},
+                                                Key{"W", "wireframe"},
+                                                Key{"L", "smooth or flat"},
+                                                Key{"P", "save the picture as a PNG file"},
+                                                Key{"Tab", "hide or show the panel"},
+                                                Key{"H or F1", "this help"}};
 
 void draw_keys(const char* title, std::span<const Key> keys, float column) {
   ImGui::Spacing();
@@ -54,10 +54,10 @@ bool draw_help(bool is_live, const Vec2f& picture, const PanelStyle& style) {
                ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoNav);
   const float column = 190 * style.unit;
-  if (is_live) draw_keys("the bodies", hand_keys, column);
+  if (is_live) draw_keys("the bodies", body_keys, column);
   draw_keys("the camera", camera_keys, column);
   draw_keys("time", is_live ? std::span<const Key>(live_keys) : std::span<const Key>(run_keys), column);
-  draw_keys("the picture", look_keys, column);
+  draw_keys("the picture", appearance_keys, column);
   draw_keys("the program", std::array{Key{"Ctrl + Q", "end it"}}, column);
   ImGui::Spacing();
   if (ImGui::Button("Close")) is_open = false;

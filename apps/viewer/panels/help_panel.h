@@ -1,5 +1,5 @@
 #pragma once
-// All keys and buttons, over everything.
+// The help: all keys and mouse buttons, on top of everything.
 #include "render/gl_objects.h"
 #include "viewer/panels/panel_style.h"
 
@@ -7,7 +7,8 @@ namespace pliant_viewer {
 
 using pliant_render::Vec2f;
 
-/// In the middle of a picture of this size; `is_live`: pulling and pins are possible. Returns false when it was closed.
+/// Draws the help in the middle of a picture of this size; `is_live`: bodies can be pulled and pinned. Returns false
+/// when the user closed it.
 bool draw_help(bool is_live, const Vec2f& picture, const PanelStyle& style);
 
 }  // namespace pliant_viewer

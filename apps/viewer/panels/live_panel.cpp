@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include "viewer/live_stage.h"
+#include "viewer/live_source.h"
 
 namespace pliant_viewer {
 namespace {
@@ -23,40 +23,42 @@ void row(const char* label, const std::string& value, const char* help = "") {
 /// "1.00 × real time", and whether that is less than was asked for.
 std::string pace_text(const Snapshot& snapshot) {
   if (!snapshot.is_playing) return "paused";
-  if (!(snapshot.pulse.speed > 0)) return "...";
-  const double speed = snapshot.pulse.speed;
+  if (!(snapshot.statistics.speed > 0)) return "...";
+  const double speed = snapshot.statistics.speed;
   const std::string text = fmt::format("{:.{}f} × real time", speed, speed < 10 ? 2 : 0);
   return snapshot.is_behind ? text + ", all it can" : text;
 }
 
 std::string steps_text(const Snapshot& snapshot) {
-  const Pulse::Means& pulse = snapshot.pulse;
-  if (!(pulse.total > 0)) return "-";
-  if (!snapshot.is_playing) return milliseconds(pulse.total) + " each";
-  return fmt::format("{:.{}f} a second, {} each", pulse.rate, pulse.rate < 10 ? 1 : 0, milliseconds(pulse.total));
+  const FrameStatistics::Means& statistics = snapshot.statistics;
+  if (!(statistics.total > 0)) return "-";
+  if (!snapshot.is_playing) return milliseconds(statistics.total) + " each";
+  return fmt::format("{:.{}f} a second, {} each", statistics.rate, statistics.rate < 10 ? 1 : 0,
+                     milliseconds(statistics.total));
 }
 
 }  // namespace
 
-void LiveStage::draw_panel() {
+void LiveSource::draw_panel() {
   draw_pace();
   parameters_.draw(*snapshot_, scene_);
 }
 
-void LiveStage::draw_pace() {
-  const Pulse::Means& pulse = snapshot_->pulse;
+void LiveSource::draw_pace() {
+  const FrameStatistics::Means& statistics = snapshot_->statistics;
   row("time", fmt::format("{:.2f} s, step {}", snapshot_->frame.time, snapshot_->step));
   row("pace", pace_text(*snapshot_), "simulated seconds in a second; at most four steps behind the clock");
   row("steps", steps_text(*snapshot_), "means of the last second");
-  const double rest = std::max(0.0, pulse.total - pulse.local - pulse.global - pulse.factor);
+  const double rest = std::max(0.0, statistics.total - statistics.local - statistics.global - statistics.factor);
   const std::string help = fmt::format(
       "milliseconds of a step, by phase\nlocal: projections of the constraints, and collecting them\n"
       "global: triangular solves\nfactor, after changes of stiffness, pins, time step: {:.3g}\nforces, prediction and "
       "others: {:.3g}",
-      1e3 * pulse.factor, 1e3 * rest);
+      1e3 * statistics.factor, 1e3 * rest);
   row_label("phases", help);
-  const std::string phases =
-      pulse.total > 0 ? fmt::format("local {:.3g}, global {:.3g} ms", 1e3 * pulse.local, 1e3 * pulse.global) : "-";
+  const std::string phases = statistics.total > 0 ? fmt::format("local {:.3g}, global {:.3g} ms",
+                                                                1e3 * statistics.local, 1e3 * statistics.global)
+                                                  : "-";
   ImGui::TextDisabled("%s", phases.c_str());
   row_label("speed", "simulated seconds in a second, where the machine can; Ctrl + click: type a number");
   double speed = speed_;
@@ -74,7 +76,7 @@ void LiveStage::draw_pace() {
   if (!has_changed || !(speed > 0)) return;
   speed_ = speed;
   const double wanted = is_unlimited_ ? Pacer::unlimited : speed_;
-  scene_.post([wanted](Workshop& workshop) { workshop.pacer.set_speed(wanted); });
+  scene_.post([wanted](CommandContext& context) { context.pacer.set_speed(wanted); });
 }
 
 }  // namespace pliant_viewer

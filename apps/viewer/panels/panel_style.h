@@ -1,26 +1,26 @@
 #pragma once
-// What the panels have in common.
+// Styles and small widgets shared by all panels.
 #include <string>
 
 namespace pliant_viewer {
 
 struct PanelStyle {
-  float unit = 1;  ///< pixels of a length that is given for letters of common size
+  float unit = 1;  ///< pixels per unit of a layout made for the default font size
 };
 
-/// Sets colors, roundings and distances of all panels, on a light background or a dark one.
+/// Sets colors, roundings and spacings of all panels, on a light background or a dark one.
 void set_panel_style(bool is_dark, float unit);
 
-/// printf's format of a number of about this size with its unit, without an exponent where that can be.
+/// A printf format for a number of about this size with its unit, without an exponent where possible.
 std::string number_format(double number, const std::string& unit);
 
-/// A name at the left of a row; the widget that follows takes the rest of it. The text under the mouse explains it.
+/// Draws the label on the left of a row; the widget that follows takes the rest. `help` is the label's tooltip.
 void row_label(const std::string& label, const std::string& help);
 
-/// A line that folds and unfolds what follows; returns whether that is to be drawn.
+/// A heading that folds its section; returns whether the section is unfolded.
 bool section_header(const char* title, bool is_open_at_first = true);
 
-/// The text under the mouse, for the widget before.
+/// A tooltip for the widget drawn last; none where `help` is empty.
 void explain(const std::string& help);
 
 }  // namespace pliant_viewer

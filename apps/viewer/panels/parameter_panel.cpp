@@ -128,7 +128,7 @@ void ParameterPanel::draw_row(const Parameter& parameter, const std::string& lab
   if (parameter.kind == ParameterKind::vector) explain(parameter.unit);
   if (!has_changed || !value.allFinite()) return;
   const std::uint64_t command =
-      live.post([key, value](Workshop& workshop) { workshop.session.set(key, value); }, LiveScene::Kind::changes);
+      live.post([key, value](CommandContext& context) { context.session.set(key, value); }, LiveScene::Kind::changes);
   edited_[key] = {value, command};
 }
 

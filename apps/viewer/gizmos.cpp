@@ -1,4 +1,4 @@
-#include "viewer/marks.h"
+#include "viewer/gizmos.h"
 
 #include <algorithm>
 #include <vector>
@@ -17,7 +17,7 @@ ImVec2 to_imgui(const Vec2f& p) {
   return {p.x(), p.y()};
 }
 
-/// Zigzag between two short straight ends; a spring without length has none.
+/// A zigzag between two short straight ends; a straight line where the spring is too short.
 std::vector<ImVec2> coil(const Vec2f& from, const Vec2f& to, float unit) {
   const Vec2f along = to - from;
   const float length = along.norm();
@@ -43,7 +43,7 @@ std::vector<ImVec2> coil(const Vec2f& from, const Vec2f& to, float unit) {
 void draw_spring(const Screen& screen, const Vec3f& from, const Vec3f& to, float unit, ImDrawList& list) {
   const auto start = screen.place_of(from), end = screen.place_of(to);
   if (!start || !end) return;
-  // Far outside of the window there is nothing to be seen, and ImGui's lines lose their digits.
+  // Far outside the window nothing is visible, and ImGui's lines lose precision.
   const auto is_near = [&](const Vec2f& p) { return (p - screen.size / 2).norm() < 4 * screen.size.norm(); };
   if (!is_near(*start) || !is_near(*end)) return;
   const std::vector<ImVec2> line = coil(*start, *end, unit);

@@ -1,4 +1,4 @@
-#include "render/signs.h"
+#include "render/annotations.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,18 +7,18 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
-#include "render/quantities.h"
+#include "render/scalar_fields.h"
 
 namespace pliant_render {
 namespace {
 
-/// The first that is there.
+/// The first one that exists is used.
 constexpr std::array<const char*, 4> fonts = {"/usr/share/fonts/opentype/inter/Inter-Medium.otf",
                                               "/usr/share/fonts/opentype/inter/static/Inter-Medium.otf",
                                               "/usr/share/fonts/truetype/roboto/unhinted/RobotoTTF/Roboto-Medium.ttf",
                                               "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"};
 
-/// Of lengths that are given for a picture of 720 rows; what is written stays readable in small ones.
+/// Scale of lengths laid out for a picture of 720 rows; text stays readable in small pictures.
 float unit_of(float height) {
   return std::max(height / 720, 0.65F);
 }
@@ -50,12 +50,12 @@ float legend_width(int height) {
   return 122 * unit_of(static_cast<float>(height));
 }
 
-std::optional<Legend> make_legend(const pliant::ViewSettings& look, const std::array<float, 2>& range, int width,
+std::optional<Legend> make_legend(const pliant::ViewSettings& appearance, const std::array<float, 2>& range, int width,
                                   int height) {
-  if (!look.legend || look.color == pliant::ColorBy::none) return {};
+  if (!appearance.legend || appearance.color == pliant::ColorBy::none) return {};
   if (legend_width(height) > 0.4F * static_cast<float>(width)) return {};
-  return Legend{std::string(quantity_title(look.color)), range, look.color == pliant::ColorBy::stretch ? 100.0F : 1.0F,
-                color_map(look.color)};
+  return Legend{std::string(field_title(appearance.color)), range,
+                appearance.color == pliant::ColorBy::stretch ? 100.0F : 1.0F, color_map(appearance.color)};
 }
 
 std::vector<float> round_ticks(float low, float high) {
@@ -71,7 +71,7 @@ std::vector<float> round_ticks(float low, float high) {
   }
   const float slack = 1e-4F * (high - low);
   const float first = std::ceil((low - slack) / step) * step;
-  if (!(low + step > low) || !(first + step > first)) return {low};  // past the digits of a float
+  if (!(low + step > low) || !(first + step > first)) return {low};  // beyond a float's precision
   constexpr int most_ticks = 10;
   std::vector<float> ticks;
   for (int i = 0; i < most_ticks && first + static_cast<float>(i) * step <= high + slack; ++i) {
@@ -91,22 +91,22 @@ std::string tick_text(float tick, float step) {
   return fmt::format("{:.{}f}", tick, digits);
 }
 
-/// A bar at the right edge, with its ticks on the left and the title above.
-void draw_legend(const Legend& legend, const SignSheet& sheet) {
-  const float unit = unit_of(sheet.height);
+/// Draws a bar at the right edge, with ticks on its left and the title above.
+void draw_legend(const Legend& legend, const AnnotationCanvas& canvas) {
+  const float unit = unit_of(canvas.height);
   const float size = 17 * unit;
-  const float bar_width = 16 * unit, bar_height = 0.4F * sheet.height;
-  const float right = sheet.width - 28 * unit, top = 0.30F * sheet.height;
+  const float bar_width = 16 * unit, bar_height = 0.4F * canvas.height;
+  const float right = canvas.width - 28 * unit, top = 0.30F * canvas.height;
   const float left = right - bar_width, bottom = top + bar_height;
   const auto count = static_cast<float>(legend.colors.size());
   for (std::size_t i = 0; i < legend.colors.size(); ++i) {
     const auto& c = legend.colors[i];
     const float from = bottom - bar_height * static_cast<float>(i) / count;
     const float to = bottom - bar_height * static_cast<float>(i + 1) / count;
-    sheet.list.AddRectFilled({left, to}, {right, from + 0.5F}, IM_COL32(c[0], c[1], c[2], 255));
+    canvas.list.AddRectFilled({left, to}, {right, from + 0.5F}, IM_COL32(c[0], c[1], c[2], 255));
   }
   const auto text_width = [&](const std::string& text) {
-    return sheet.font.CalcTextSizeA(size, 1e6F, 0, text.c_str()).x;
+    return canvas.font.CalcTextSizeA(size, 1e6F, 0, text.c_str()).x;
   };
   const float low = legend.range[0] * legend.factor, high = legend.range[1] * legend.factor;
   const std::vector<float> ticks = round_ticks(low, high);
@@ -114,25 +114,26 @@ void draw_legend(const Legend& legend, const SignSheet& sheet) {
   for (const float tick : ticks) {
     const float y = bottom - bar_height * (high > low ? (tick - low) / (high - low) : 0.5F);
     const std::string text = tick_text(tick, step);
-    sheet.list.AddLine({left - 5 * unit, y}, {left, y}, sheet.ink, std::max(1.0F, unit));
-    sheet.list.AddText(&sheet.font, size, {left - 9 * unit - text_width(text), y - size * 0.5F}, sheet.ink,
-                       text.c_str());
+    canvas.list.AddLine({left - 5 * unit, y}, {left, y}, canvas.ink, std::max(1.0F, unit));
+    canvas.list.AddText(&canvas.font, size, {left - 9 * unit - text_width(text), y - size * 0.5F}, canvas.ink,
+                        text.c_str());
   }
-  sheet.list.AddText(&sheet.font, size, {right - text_width(legend.title), top - 1.9F * size}, sheet.ink,
-                     legend.title.c_str());
+  canvas.list.AddText(&canvas.font, size, {right - text_width(legend.title), top - 1.9F * size}, canvas.ink,
+                      legend.title.c_str());
 }
 
-/// An arrow at the lower left, as the wind blows in the picture, and its speed.
-void draw_wind(const WindSign& wind, const Viewpoint& viewpoint, const SignSheet& sheet) {
-  const float unit = unit_of(sheet.height);
+/// Draws an arrow at the lower left in the direction of the wind, and its speed.
+void draw_wind(const WindAnnotation& wind, const Viewpoint& viewpoint, const AnnotationCanvas& canvas) {
+  const float unit = unit_of(canvas.height);
   const float size = 17 * unit;
   const float speed = wind.velocity.norm();
-  const ImVec2 middle(56 * unit, sheet.height - 56 * unit);
-  sheet.list.AddText(&sheet.font, size, {middle.x + 44 * unit, middle.y - size * 0.5F}, sheet.ink, wind.text.c_str());
+  const ImVec2 middle(56 * unit, canvas.height - 56 * unit);
+  canvas.list.AddText(&canvas.font, size, {middle.x + 44 * unit, middle.y - size * 0.5F}, canvas.ink,
+                      wind.text.c_str());
   const Vec3f along = wind.velocity / speed;
   const Vec3f right = viewpoint.forward().cross(viewpoint.up);
   const Vec2f flat(along.dot(right), -along.dot(viewpoint.up));
-  // Straight into the picture or out of it an arrow is a point: it keeps a length that can be read.
+  // An arrow straight into the picture would be a point: it keeps a visible length.
   const float length = 32 * unit * std::max(flat.norm(), 0.35F);
   const Vec2f direction = flat.norm() > 1e-3F ? flat.normalized().eval() : Vec2f(0, -1);
   const Vec2f side(-direction.y(), direction.x());
@@ -141,9 +142,9 @@ void draw_wind(const WindSign& wind, const Viewpoint& viewpoint, const SignSheet
     return ImVec2(middle.x + p.x(), middle.y + p.y());
   };
   const float head = 11 * unit;
-  sheet.list.AddLine(at(-length, 0), at(length - head, 0), sheet.ink, 3 * unit);
-  sheet.list.AddTriangleFilled(at(length, 0), at(length - head, -0.6F * head), at(length - head, 0.6F * head),
-                               sheet.ink);
+  canvas.list.AddLine(at(-length, 0), at(length - head, 0), canvas.ink, 3 * unit);
+  canvas.list.AddTriangleFilled(at(length, 0), at(length - head, -0.6F * head), at(length - head, 0.6F * head),
+                                canvas.ink);
 }
 
 }  // namespace pliant_render

@@ -1,21 +1,21 @@
 #pragma once
-// A simulated scene, as a stage.
+// A simulated scene as a source of the view.
 #include "viewer/live_scene.h"
 #include "viewer/panels/parameter_panel.h"
-#include "viewer/stage.h"
+#include "viewer/view_source.h"
 
 namespace pliant_viewer {
 
-class LiveStage final : public Stage {
+class LiveSource final : public ViewSource {
  public:
-  LiveStage(MakeScene make, Index threads, bool is_playing, std::function<void()> wake);
+  LiveSource(MakeScene make, Index threads, bool is_playing, std::function<void()> wake);
 
   const std::string& name() const override { return scene_.name(); }
-  const pliant::ViewSettings& look() const override { return scene_.look(); }
+  const pliant::ViewSettings& appearance() const override { return scene_.appearance(); }
   bool refresh(Clock::time_point now) override;
   Seconds time_to_news(Clock::time_point now) const override;
-  const pliant_render::TakeFrame& frame() const override { return snapshot_->frame; }
-  std::shared_ptr<const pliant_render::Scenery> scenery() const override { return snapshot_->scenery; }
+  const pliant_render::ClipFrame& frame() const override { return snapshot_->frame; }
+  std::shared_ptr<const pliant_render::RenderMesh> render_mesh() const override { return snapshot_->render_mesh; }
   std::uint64_t restarts() const override { return snapshot_->restarts; }
   bool knows(pliant::ColorBy) const override { return true; }
   void show(pliant::ColorBy color) override;
@@ -35,8 +35,8 @@ class LiveStage final : public Stage {
 
   LiveScene scene_;
   const Snapshot* snapshot_;
-  bool is_playing_;                 // as asked for; the snapshot has it a little later
-  std::uint64_t play_command_ = 0;  // that asked for it
+  bool is_playing_;                 // as requested; the snapshot follows a little later
+  std::uint64_t play_command_ = 0;  // that requested it
   double speed_ = 1;
   bool is_unlimited_ = false;
   ParameterPanel parameters_;

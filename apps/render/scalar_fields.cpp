@@ -1,4 +1,4 @@
-#include "render/quantities.h"
+#include "render/scalar_fields.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ using Rgb = std::array<std::uint8_t, 3>;
 
 constexpr std::size_t map_size = 256;
 
-/// Through these colors at even distances, in straight lines (sRGB).
+/// Interpolates linearly (sRGB) between evenly spaced colors.
 std::vector<Rgb> through(std::span<const Rgb> stops) {
   std::vector<Rgb> map(map_size);
   for (std::size_t i = 0; i < map_size; ++i) {
@@ -30,13 +30,13 @@ std::vector<Rgb> through(std::span<const Rgb> stops) {
 
 }  // namespace
 
-std::vector<float> vertex_stretch(const Scenery& scenery, std::span<const Vec3f> positions) {
+std::vector<float> vertex_stretch(const RenderMesh& render_mesh, std::span<const Vec3f> positions) {
   std::vector<float> sums(positions.size(), 0);
   std::vector<float> counts(positions.size(), 0);
-  for (std::size_t e = 0; e < scenery.rest_lengths.size(); ++e) {
-    const std::uint32_t a = scenery.springs[2 * e], b = scenery.springs[2 * e + 1];
-    if (!(scenery.rest_lengths[e] > 0)) continue;
-    const float stretch = (positions[b] - positions[a]).norm() / scenery.rest_lengths[e] - 1;
+  for (std::size_t e = 0; e < render_mesh.rest_lengths.size(); ++e) {
+    const std::uint32_t a = render_mesh.springs[2 * e], b = render_mesh.springs[2 * e + 1];
+    if (!(render_mesh.rest_lengths[e] > 0)) continue;
+    const float stretch = (positions[b] - positions[a]).norm() / render_mesh.rest_lengths[e] - 1;
     for (const std::uint32_t vertex : {a, b}) {
       sums[vertex] += stretch;
       counts[vertex] += 1;
@@ -74,7 +74,7 @@ std::vector<float> vertex_speed(const pliant::Positions& velocities) {
   return speeds;
 }
 
-std::string_view quantity_title(ColorBy color) {
+std::string_view field_title(ColorBy color) {
   switch (color) {
     case ColorBy::stretch:
       return "stretch [%]";
@@ -88,7 +88,7 @@ std::string_view quantity_title(ColorBy color) {
   return "";
 }
 
-std::array<float, 2> quantity_range(ColorBy color, std::span<const float> values) {
+std::array<float, 2> field_range(ColorBy color, std::span<const float> values) {
   float largest = 0;
   for (const float value : values) {
     if (std::isfinite(value)) largest = std::max(largest, std::abs(value));

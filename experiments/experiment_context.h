@@ -1,5 +1,5 @@
 #pragma once
-// What every experiment is given: scenes, a camera, a place to say how far it is.
+// What every experiment is given: scenes, pictures and a way to report progress.
 #include <functional>
 #include <string>
 #include <string_view>
@@ -13,38 +13,38 @@ namespace pliant_experiments {
 
 using Sets = std::vector<std::string>;  ///< "PATH=VALUE" each, as `pliant run --set` takes them
 
-class Lab {
+class ExperimentContext {
  public:
   struct Options {
-    bool draws = true;  ///< pictures; without, they are left out
-    std::function<void(std::string_view)> progress = [](std::string_view) {};
-    std::function<bool()> stop = [] { return false; };  ///< asked between steps
+    bool draws = true;                                                         ///< whether pictures are drawn
+    std::function<void(std::string_view)> progress = [](std::string_view) {};  ///< told what is under way
+    std::function<bool()> stop = [] { return false; };                         ///< asked between steps whether to end
   };
-  explicit Lab(Options options) : options_(std::move(options)) {}
+  explicit ExperimentContext(Options options) : options_(std::move(options)) {}
 
-  /// "damping/curtain": experiments/damping/curtain.json with other values. Throws Error(input) on a scene that there
-  /// is not, or values that do not fit.
+  /// "damping/curtain" is experiments/damping/curtain.json, with the values of `sets` in place of its own.
+  /// @throws pliant::Error (input) for an unknown scene or invalid values
   pliant::Scene scene(std::string_view name, const Sets& sets = {}) const;
-  /// The same of a built-in scene.
+  /// The same for a built-in scene.
   pliant::Scene builtin_scene(std::string_view name, const Sets& sets = {}) const;
 
-  /// Takes one step of the scene; throws Error(interrupted) when the experiments are to end.
+  /// Takes one step. @throws pliant::Error (interrupted) when the experiments are to end
   pliant::StepReport step(pliant::Scene& scene) const;
   void step(pliant::Scene& scene, std::int64_t count) const {
     for (std::int64_t i = 0; i < count; ++i) step(scene);
   }
-  /// The same; false where the scene has diverged on the way.
+  /// The same; returns false if the scene diverges on the way.
   bool try_steps(pliant::Scene& scene, std::int64_t count) const;
 
-  /// Says what is under way.
+  /// Reports what is under way.
   void say(std::string_view what) const { options_.progress(what); }
 
-  /// The scene as it is now, in the look that it has; of no pixels where pictures are left out.
+  /// A picture of the current state in the appearance that the scene has; empty if pictures are left out.
   pliant_render::Image picture(const pliant::Scene& scene) const;
-  /// Adds pictures to a chapter, beside each other in so many columns; nothing where they are left out.
+  /// Adds pictures to a chapter, side by side in `columns` columns; does nothing if pictures are left out.
   void show(pliant_report::Chapter& chapter, const std::vector<pliant_render::Image>& pictures, int columns,
             std::string caption) const;
-  /// Both, of one picture.
+  /// Adds one picture of the scene.
   void draw(pliant_report::Chapter& chapter, const pliant::Scene& scene, std::string caption) const {
     show(chapter, {picture(scene)}, 1, std::move(caption));
   }

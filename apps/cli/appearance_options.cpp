@@ -1,4 +1,4 @@
-#include "look_options.h"
+#include "appearance_options.h"
 
 #include <algorithm>
 #include <array>
@@ -51,7 +51,7 @@ pliant::ViewSettings view_of_checkpoint(const fs::path& checkpoint) {
 }
 
 /// Of the scene that the run was made from, as its checkpoint has it.
-pliant::ViewSettings view_of_run(const LookArguments& arguments) {
+pliant::ViewSettings view_of_run(const AppearanceArguments& arguments) {
   const pliant::SceneOverrides& overrides = arguments.overrides;
   const bool has_others =
       overrides.steps || overrides.time_step || overrides.iterations || overrides.tolerance || overrides.threads ||
@@ -78,24 +78,24 @@ pliant::ViewSettings view_of_run(const LookArguments& arguments) {
 
 }  // namespace
 
-void add_look_options(CLI::App& command, LookArguments& arguments) {
+void add_appearance_options(CLI::App& command, AppearanceArguments& arguments) {
   command.add_option("--size", arguments.size, "Width and height in pixels; default: the scene's, or 1280x720");
   add_choice(command, "--color,--colour", arguments.color, "What colors tell: none, stretch, energy or speed");
   add_choice(command, "--shading", arguments.shading, "smooth, or flat: each face by itself");
   command.add_flag("--wireframe", arguments.wireframe, "Draw the edges too");
 }
 
-void apply_look(const LookArguments& arguments, pliant::ViewSettings& look) {
-  if (!arguments.size.empty()) look.size = parse_size(arguments.size);
-  if (arguments.color) look.color = *arguments.color;
-  if (arguments.shading) look.shading = *arguments.shading;
-  if (arguments.wireframe) look.wireframe = true;
+void apply_appearance(const AppearanceArguments& arguments, pliant::ViewSettings& appearance) {
+  if (!arguments.size.empty()) appearance.size = parse_size(arguments.size);
+  if (arguments.color) appearance.color = *arguments.color;
+  if (arguments.shading) appearance.shading = *arguments.shading;
+  if (arguments.wireframe) appearance.wireframe = true;
 }
 
-pliant::ViewSettings look_of_run(const LookArguments& arguments) {
-  pliant::ViewSettings look = view_of_run(arguments);
-  apply_look(arguments, look);
-  return look;
+pliant::ViewSettings appearance_of_run(const AppearanceArguments& arguments) {
+  pliant::ViewSettings appearance = view_of_run(arguments);
+  apply_appearance(arguments, appearance);
+  return appearance;
 }
 
 }  // namespace pliant_cli

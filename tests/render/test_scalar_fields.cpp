@@ -2,10 +2,10 @@
 
 #include "../simulation/everything.h"
 #include "../simulation/run.h"
-#include "render/quantities.h"
-#include "render/signs.h"
+#include "render/annotations.h"
+#include "render/scalar_fields.h"
 
-namespace test_quantities {
+namespace test_scalar_fields {
 
 using namespace pliant_render;
 using pliant::ColorBy;
@@ -22,13 +22,13 @@ std::vector<Vec3f> floats(const pliant::Positions& x) {
 
 TEST_CASE("stretch is zero at rest, and the scale of a body that is larger in all directions") {
   const pliant::Simulation simulation = pliant_tests::everything({}, 8);
-  const Scenery scenery = make_scenery(simulation.bodies());
+  const RenderMesh render_mesh = make_render_mesh(simulation.bodies());
   pliant::Positions rest(simulation.state().vertex_count(), 3);
   for (const pliant::Body& body : simulation.bodies()) {
     rest.middleRows(body.first_vertex, body.mesh.vertex_count()) = body.mesh.vertices;
   }
   for (const double scale : {1.0, 1.1, 0.7}) {
-    const std::vector<float> stretch = vertex_stretch(scenery, floats(scale * rest));
+    const std::vector<float> stretch = vertex_stretch(render_mesh, floats(scale * rest));
     for (const float value : stretch) CHECK(value == doctest::Approx(scale - 1).epsilon(1e-5));
   }
 }
@@ -48,11 +48,11 @@ TEST_CASE("the energies of the vertices sum to that of the simulation") {
 
 TEST_CASE("ranges begin at zero, or have it in the middle, and are never empty") {
   const std::vector<float> values = {0.2F, -0.5F, 0.1F};
-  CHECK(quantity_range(ColorBy::stretch, values) == std::array<float, 2>{-0.5F, 0.5F});
-  CHECK(quantity_range(ColorBy::speed, values) == std::array<float, 2>{0, 0.5F});
-  CHECK(quantity_range(ColorBy::speed, {}) == std::array<float, 2>{0, 1});
+  CHECK(field_range(ColorBy::stretch, values) == std::array<float, 2>{-0.5F, 0.5F});
+  CHECK(field_range(ColorBy::speed, values) == std::array<float, 2>{0, 0.5F});
+  CHECK(field_range(ColorBy::speed, {}) == std::array<float, 2>{0, 1});
   const std::vector<float> broken = {std::numeric_limits<float>::quiet_NaN(), 2};
-  CHECK(quantity_range(ColorBy::energy, broken) == std::array<float, 2>{0, 2});
+  CHECK(field_range(ColorBy::energy, broken) == std::array<float, 2>{0, 2});
 }
 
 TEST_CASE("ticks are round, ascend, lie in the range, and are three to six") {
@@ -91,4 +91,4 @@ TEST_CASE("lightness rises evenly along the map of speeds, and falls to both end
   }
 }
 
-}  // namespace test_quantities
+}  // namespace test_scalar_fields

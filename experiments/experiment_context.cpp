@@ -1,12 +1,12 @@
-#include "lab.h"
+#include "experiment_context.h"
 
 #include <algorithm>
 
 #include <fmt/format.h>
 
 #include "pliant/core/error.h"
+#include "render/clip.h"
 #include "render/picture_maker.h"
-#include "render/take.h"
 #include "support/scenes.h"
 
 namespace pliant_experiments {
@@ -24,20 +24,20 @@ pliant::Scene scene_of(std::span<const pliant::BuiltinScene> scenes, std::string
 
 }  // namespace
 
-pliant::Scene Lab::scene(std::string_view name, const Sets& sets) const {
+pliant::Scene ExperimentContext::scene(std::string_view name, const Sets& sets) const {
   return scene_of(experiment_scenes(), name, sets);
 }
 
-pliant::Scene Lab::builtin_scene(std::string_view name, const Sets& sets) const {
+pliant::Scene ExperimentContext::builtin_scene(std::string_view name, const Sets& sets) const {
   return scene_of(pliant::builtin_scenes(), name, sets);
 }
 
-pliant::StepReport Lab::step(pliant::Scene& scene) const {
+pliant::StepReport ExperimentContext::step(pliant::Scene& scene) const {
   if (options_.stop()) throw pliant::Error(pliant::ErrorKind::interrupted, "the experiments were ended");
   return scene.step();
 }
 
-bool Lab::try_steps(pliant::Scene& scene, std::int64_t count) const {
+bool ExperimentContext::try_steps(pliant::Scene& scene, std::int64_t count) const {
   try {
     step(scene, count);
   } catch (const pliant::Error& error) {
@@ -47,21 +47,21 @@ bool Lab::try_steps(pliant::Scene& scene, std::int64_t count) const {
   return true;
 }
 
-Image Lab::picture(const pliant::Scene& scene) const {
+Image ExperimentContext::picture(const pliant::Scene& scene) const {
   if (!options_.draws) return {};
-  pliant_render::Take take{pliant_render::make_scenery(scene.simulation.bodies()), scene.view, {}};
-  take.frames.push_back(pliant_render::take_frame(scene.simulation, take.scenery, scene.view.color));
+  pliant_render::Clip clip{pliant_render::make_render_mesh(scene.simulation.bodies()), scene.view, {}};
+  clip.frames.push_back(pliant_render::capture_frame(scene.simulation, clip.render_mesh, scene.view.color));
   pliant_render::PictureOptions options;
-  options.look = scene.view;
-  options.bounds = bounds_of(take);
-  options.ground_height = ground_height(take);
-  options.range = color_range(take);
-  pliant_render::PictureMaker maker(take.scenery, options);
-  return maker.draw(take.frames[0].content, take.frames[0].wind);
+  options.appearance = scene.view;
+  options.bounds = bounds_of(clip);
+  options.ground_height = ground_height(clip);
+  options.range = color_range(clip);
+  pliant_render::PictureMaker maker(clip.render_mesh, options);
+  return maker.draw(clip.frames[0].content, clip.frames[0].wind);
 }
 
-void Lab::show(pliant_report::Chapter& chapter, const std::vector<Image>& pictures, int columns,
-               std::string caption) const {
+void ExperimentContext::show(pliant_report::Chapter& chapter, const std::vector<Image>& pictures, int columns,
+                             std::string caption) const {
   if (!options_.draws || pictures.empty()) return;
   constexpr int gap = 6;
   constexpr std::array<std::uint8_t, 3> background = {255, 255, 255};

@@ -1,6 +1,6 @@
 #pragma once
-// What the mouse does, drawn onto the picture: the spring of a pull, rings about pins.
-#include "render/signs.h"
+// What the mouse does, drawn on top of the picture: the spring of a pull, rings around pins.
+#include "render/annotations.h"
 #include "viewer/picking.h"
 
 namespace pliant_viewer {
@@ -8,7 +8,7 @@ namespace pliant_viewer {
 /// A coil from a point of a body to the mouse.
 void draw_spring(const Screen& screen, const Vec3f& from, const Vec3f& to, float unit, ImDrawList& list);
 
-/// A ring about a vertex: what a click would do, or has done.
+/// A ring around a vertex whose pin is under the mouse, dragged, or just being set or removed.
 void draw_ring(const Screen& screen, const Vec3f& point, float unit, ImDrawList& list);
 
 }  // namespace pliant_viewer

@@ -1,4 +1,4 @@
-#include "render/scenery.h"
+#include "render/render_mesh.h"
 
 #include "pliant/mesh/topology.h"
 
@@ -14,11 +14,11 @@ void append(std::vector<std::uint32_t>& list, std::span<const Element> elements,
 
 }  // namespace
 
-Scenery make_scenery(const std::vector<pliant::Body>& bodies) {
-  Scenery scenery;
+RenderMesh make_render_mesh(const std::vector<pliant::Body>& bodies) {
+  RenderMesh render_mesh;
   for (const pliant::Body& body : bodies) {
     const pliant::Mesh& mesh = body.mesh;
-    scenery.vertex_count = std::max(scenery.vertex_count, body.first_vertex + mesh.vertex_count());
+    render_mesh.vertex_count = std::max(render_mesh.vertex_count, body.first_vertex + mesh.vertex_count());
     pliant::Mesh surface;
     surface.vertices = mesh.vertices;
     surface.triangles = mesh.triangles;
@@ -26,17 +26,17 @@ Scenery make_scenery(const std::vector<pliant::Body>& bodies) {
       const std::vector<pliant::Triangle> skin = pliant::boundary_triangles(mesh.tetrahedra);
       surface.triangles.insert(surface.triangles.end(), skin.begin(), skin.end());
     }
-    append<pliant::Triangle>(scenery.triangles, surface.triangles, body.first_vertex);
-    append<pliant::Edge>(scenery.ropes, mesh.edges, body.first_vertex);
-    append<pliant::Edge>(scenery.edges, pliant::unique_edges(surface), body.first_vertex);
+    append<pliant::Triangle>(render_mesh.triangles, surface.triangles, body.first_vertex);
+    append<pliant::Edge>(render_mesh.ropes, mesh.edges, body.first_vertex);
+    append<pliant::Edge>(render_mesh.edges, pliant::unique_edges(surface), body.first_vertex);
     const std::vector<pliant::Edge> springs = pliant::unique_edges(mesh);
-    append<pliant::Edge>(scenery.springs, springs, body.first_vertex);
+    append<pliant::Edge>(render_mesh.springs, springs, body.first_vertex);
     for (const pliant::Edge& edge : springs) {
-      scenery.rest_lengths.push_back(
+      render_mesh.rest_lengths.push_back(
           static_cast<float>((mesh.vertices.row(edge[1]) - mesh.vertices.row(edge[0])).norm()));
     }
   }
-  return scenery;
+  return render_mesh;
 }
 
 Bounds bounds_of(std::span<const Vec3f> positions) {
@@ -45,10 +45,11 @@ Bounds bounds_of(std::span<const Vec3f> positions) {
   return bounds;
 }
 
-std::vector<Vec3f> vertex_normals(const Scenery& scenery, std::span<const Vec3f> positions) {
+std::vector<Vec3f> vertex_normals(const RenderMesh& render_mesh, std::span<const Vec3f> positions) {
   std::vector<Vec3f> normals(positions.size(), Vec3f::Zero());
-  for (std::size_t t = 0; t + 2 < scenery.triangles.size(); t += 3) {
-    const std::uint32_t a = scenery.triangles[t], b = scenery.triangles[t + 1], c = scenery.triangles[t + 2];
+  for (std::size_t t = 0; t + 2 < render_mesh.triangles.size(); t += 3) {
+    const std::uint32_t a = render_mesh.triangles[t], b = render_mesh.triangles[t + 1],
+                        c = render_mesh.triangles[t + 2];
     const Vec3f normal = (positions[b] - positions[a]).cross(positions[c] - positions[a]);
     for (const std::uint32_t vertex : {a, b, c}) normals[vertex] += normal;
   }

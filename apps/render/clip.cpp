@@ -1,4 +1,4 @@
-#include "render/take.h"
+#include "render/clip.h"
 
 #include <algorithm>
 
@@ -7,7 +7,7 @@
 #include "pliant/core/error.h"
 #include "pliant/forces/test_force.h"
 #include "pliant/forces/wind.h"
-#include "render/quantities.h"
+#include "render/scalar_fields.h"
 
 namespace pliant_render {
 namespace {
@@ -42,7 +42,7 @@ void append(std::vector<std::uint32_t>& list, std::span<const Index> vertices) {
   for (const Index vertex : vertices) list.push_back(static_cast<std::uint32_t>(vertex));
 }
 
-/// Pinned vertices, and those under a test force now.
+/// Vertices that are pinned or currently under a test force.
 std::vector<std::uint32_t> find_markers(const pliant::Simulation& simulation) {
   std::vector<std::uint32_t> markers = pinned_vertices(simulation);
   for (const auto& [id, force] : simulation.forces()) {
@@ -53,24 +53,24 @@ std::vector<std::uint32_t> find_markers(const pliant::Simulation& simulation) {
   return markers;
 }
 
-/// Of the first wind that blows.
-std::optional<WindSign> find_wind(const pliant::Simulation& simulation) {
+/// The first wind that blows.
+std::optional<WindAnnotation> find_wind(const pliant::Simulation& simulation) {
   for (const auto& [id, force] : simulation.forces()) {
     const auto* wind = dynamic_cast<const pliant::Wind*>(force.get());
     if (wind == nullptr) continue;
     const Vec3f velocity = wind->options().velocity.cast<float>();
     if (!(velocity.norm() > 0)) continue;
     const bool is_relative = wind->options().model == pliant::WindModel::relative;
-    return WindSign{velocity, fmt::format("wind {:.3g} {}", velocity.norm(), is_relative ? "m/s" : "N/m²")};
+    return WindAnnotation{velocity, fmt::format("wind {:.3g} {}", velocity.norm(), is_relative ? "m/s" : "N/m²")};
   }
   return {};
 }
 
-std::vector<float> find_values(const pliant::Simulation& simulation, const Scenery& scenery,
+std::vector<float> find_values(const pliant::Simulation& simulation, const RenderMesh& render_mesh,
                                std::span<const Vec3f> positions, ColorBy color) {
   switch (color) {
     case ColorBy::stretch:
-      return vertex_stretch(scenery, positions);
+      return vertex_stretch(render_mesh, positions);
     case ColorBy::energy:
       return vertex_energy(simulation);
     case ColorBy::speed:
@@ -96,49 +96,50 @@ std::vector<std::uint32_t> pinned_vertices(const pliant::Simulation& simulation)
   return pinned;
 }
 
-TakeFrame take_frame(const pliant::Simulation& simulation, const Scenery& scenery, ColorBy color) {
-  TakeFrame frame;
+ClipFrame capture_frame(const pliant::Simulation& simulation, const RenderMesh& render_mesh, ColorBy color) {
+  ClipFrame frame;
   frame.time = simulation.state().time;
   frame.content.positions = to_floats(simulation.state().positions);
-  frame.content.values = find_values(simulation, scenery, frame.content.positions, color);
+  frame.content.values = find_values(simulation, render_mesh, frame.content.positions, color);
   frame.content.markers = find_markers(simulation);
   frame.wind = find_wind(simulation);
   return frame;
 }
 
-Take take_scene(pliant::Scene& scene, std::int64_t every, const std::function<bool(std::int64_t)>& go_on) {
-  Take take{make_scenery(scene.simulation.bodies()), scene.view, {}};
-  check_size((scene.steps - scene.simulation.state().step) / every + 2, take.scenery.vertex_count);
-  const auto keep = [&] { take.frames.push_back(take_frame(scene.simulation, take.scenery, scene.view.color)); };
+Clip clip_from_scene(pliant::Scene& scene, std::int64_t every, const std::function<bool(std::int64_t)>& go_on) {
+  Clip clip{make_render_mesh(scene.simulation.bodies()), scene.view, {}};
+  check_size((scene.steps - scene.simulation.state().step) / every + 2, clip.render_mesh.vertex_count);
+  const auto keep = [&] { clip.frames.push_back(capture_frame(scene.simulation, clip.render_mesh, scene.view.color)); };
   keep();
   for (std::int64_t step = scene.simulation.state().step; step < scene.steps && go_on(step);) {
     scene.step();
     if (++step % every == 0 || step == scene.steps) keep();
   }
-  return take;
+  return clip;
 }
 
 RunFrames::RunFrames(pliant::Animation animation) : animation_(std::move(animation)) {
   if (animation_.bodies.empty()) {
     pliant::fail_input(animation_.name + ": only points are known; a picture needs their mesh");
   }
-  scenery_ = make_scenery(animation_.bodies);
+  render_mesh_ = make_render_mesh(animation_.bodies);
   pliant::Positions x;
   animation_.cache.sample(animation_.times.front(), x);
-  for (std::size_t e = 0; e < scenery_.rest_lengths.size(); ++e) {
-    const auto a = static_cast<Index>(scenery_.springs[2 * e]), b = static_cast<Index>(scenery_.springs[2 * e + 1]);
-    scenery_.rest_lengths[e] = static_cast<float>((x.row(a) - x.row(b)).norm());
+  for (std::size_t e = 0; e < render_mesh_.rest_lengths.size(); ++e) {
+    const auto a = static_cast<Index>(render_mesh_.springs[2 * e]),
+               b = static_cast<Index>(render_mesh_.springs[2 * e + 1]);
+    render_mesh_.rest_lengths[e] = static_cast<float>((x.row(a) - x.row(b)).norm());
   }
 }
 
-TakeFrame RunFrames::frame(std::size_t i, ColorBy color) const {
+ClipFrame RunFrames::frame(std::size_t i, ColorBy color) const {
   if (color == ColorBy::energy) {
     pliant::fail_input("color: a run does not say the energy of its vertices; give its scene, or another color");
   }
   pliant::Positions x;
   animation_.cache.sample(time(i), x);
-  TakeFrame frame{time(i), {to_floats(x), {}, {}}, {}};
-  if (color == ColorBy::stretch) frame.content.values = vertex_stretch(scenery_, frame.content.positions);
+  ClipFrame frame{time(i), {to_floats(x), {}, {}}, {}};
+  if (color == ColorBy::stretch) frame.content.values = vertex_stretch(render_mesh_, frame.content.positions);
   if (color == ColorBy::speed) {
     pliant::Positions velocities = pliant::Positions::Zero(x.rows(), 3);
     if (i > 0 && time(i) > time(i - 1)) {
@@ -151,41 +152,41 @@ TakeFrame RunFrames::frame(std::size_t i, ColorBy color) const {
   return frame;
 }
 
-Take take_animation(pliant::Animation animation, const pliant::ViewSettings& look) {
+Clip clip_from_animation(pliant::Animation animation, const pliant::ViewSettings& appearance) {
   const RunFrames frames(std::move(animation));
-  Take take{frames.scenery(), look, {}};
-  check_size(static_cast<std::int64_t>(frames.count()), take.scenery.vertex_count);
-  for (std::size_t i = 0; i < frames.count(); ++i) take.frames.push_back(frames.frame(i, look.color));
-  return take;
+  Clip clip{frames.render_mesh(), appearance, {}};
+  check_size(static_cast<std::int64_t>(frames.count()), clip.render_mesh.vertex_count);
+  for (std::size_t i = 0; i < frames.count(); ++i) clip.frames.push_back(frames.frame(i, appearance.color));
+  return clip;
 }
 
-Bounds bounds_of(const Take& take) {
+Bounds bounds_of(const Clip& clip) {
   Bounds bounds;
-  for (const TakeFrame& frame : take.frames) {
+  for (const ClipFrame& frame : clip.frames) {
     for (const Vec3f& p : frame.content.positions) bounds.add(p);
   }
   return bounds;
 }
 
-float ground_height(const Take& take) {
-  if (take.look.ground_height) return static_cast<float>(*take.look.ground_height);
-  const Bounds bounds = bounds_of(take);
+float ground_height(const Clip& clip) {
+  if (clip.appearance.ground_height) return static_cast<float>(*clip.appearance.ground_height);
+  const Bounds bounds = bounds_of(clip);
   return bounds.is_empty() ? 0 : bounds.low.z() - 0.03F * bounds.radius();
 }
 
-std::array<float, 2> color_range(const Take& take) {
-  if (take.look.color_range) {
-    const auto& given = *take.look.color_range;
+std::array<float, 2> color_range(const Clip& clip) {
+  if (clip.appearance.color_range) {
+    const auto& given = *clip.appearance.color_range;
     return {static_cast<float>(given[0]), static_cast<float>(given[1])};
   }
   std::vector<float> extremes;
-  for (const TakeFrame& frame : take.frames) {
+  for (const ClipFrame& frame : clip.frames) {
     const auto [least, most] = std::ranges::minmax_element(frame.content.values);
     if (least == frame.content.values.end()) continue;
     extremes.push_back(*least);
     extremes.push_back(*most);
   }
-  return quantity_range(take.look.color, extremes);
+  return field_range(clip.appearance.color, extremes);
 }
 
 }  // namespace pliant_render

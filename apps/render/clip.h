@@ -1,0 +1,67 @@
+#pragma once
+// The frames of a film before any of them is drawn, from a simulated scene or a recorded run. All are kept in memory,
+// so that camera, ground and colors suit the whole film.
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "pliant_io/export/animation.h"
+#include "pliant_io/scene/scene.h"
+#include "render/annotations.h"
+#include "render/render_mesh.h"
+
+namespace pliant_render {
+
+struct ClipFrame {
+  pliant::Real time = 0;               ///< [s]
+  FrameContent content;                ///< positions, values and markers
+  std::optional<WindAnnotation> wind;  ///< none where no wind blows
+};
+
+struct Clip {
+  RenderMesh render_mesh;           ///< what all frames share
+  pliant::ViewSettings appearance;  ///< size, camera, colors and light
+  std::vector<ClipFrame> frames;    ///< by time, ascending
+};
+
+/// Vertices pinned by position constraints, ascending.
+std::vector<std::uint32_t> pinned_vertices(const pliant::Simulation& simulation);
+
+/// A frame of the current state of the simulation.
+ClipFrame capture_frame(const pliant::Simulation& simulation, const RenderMesh& render_mesh, pliant::ColorBy color);
+
+/// Simulates the scene to its last step and keeps the start, every n-th step and the last; `go_on` gets the step and
+/// ends the clip by returning false.
+/// @throws pliant::Error (input) if the frames would take more than 4 GB.
+Clip clip_from_scene(pliant::Scene& scene, std::int64_t every, const std::function<bool(std::int64_t)>& go_on);
+
+/// Frames of a run, one at a time, in any order. Stretch is against the first frame, speed from frame to frame.
+class RunFrames {
+ public:
+  /// @throws pliant::Error (input): points without a mesh
+  explicit RunFrames(pliant::Animation animation);
+
+  const RenderMesh& render_mesh() const { return render_mesh_; }
+  std::size_t count() const { return animation_.times.size(); }
+  pliant::Real time(std::size_t i) const { return animation_.times[i]; }
+  const std::string& name() const { return animation_.name; }
+  /// @throws pliant::Error (input): colors by energy, which need the scene
+  ClipFrame frame(std::size_t i, pliant::ColorBy color) const;
+
+ private:
+  pliant::Animation animation_;
+  RenderMesh render_mesh_;
+};
+
+/// The frames of a run at the times that the animation has. Stretch is against the first frame, speed from frame to
+/// frame. @throws Error (input): colors by energy, which needs the scene; points without a mesh.
+Clip clip_from_animation(pliant::Animation animation, const pliant::ViewSettings& appearance);
+
+/// The box around all frames.
+Bounds bounds_of(const Clip& clip);
+/// The height of the ground [m]: what the scene says, else a little below everything.
+float ground_height(const Clip& clip);
+/// The range of the colors: what the scene says, else the range of the values of all frames. Stretch is a fraction.
+std::array<float, 2> color_range(const Clip& clip);
+
+}  // namespace pliant_render

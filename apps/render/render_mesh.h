@@ -1,0 +1,36 @@
+#pragma once
+// What is drawn of the bodies: surfaces, ropes and edges. Made once; frames bring the positions.
+#include <span>
+#include <vector>
+
+#include "pliant/simulation/simulation.h"
+#include "render/camera.h"
+
+namespace pliant_render {
+
+using pliant::Index;
+
+/// Index lists as OpenGL takes them, with vertices numbered through all bodies.
+struct RenderMesh {
+  Index vertex_count = 0;                ///< of all bodies
+  std::vector<std::uint32_t> triangles;  ///< of sheets and of the surfaces of solids, three vertices each
+  std::vector<std::uint32_t> ropes;      ///< edges that belong to no triangle or tetrahedron, two vertices each
+  std::vector<std::uint32_t> edges;      ///< of the triangles, for the wireframe, two vertices each
+  std::vector<std::uint32_t> springs;    ///< all edges, which define the stretch, two vertices each
+  std::vector<float> rest_lengths;       ///< of the springs [m]
+};
+RenderMesh make_render_mesh(const std::vector<pliant::Body>& bodies);
+
+/// What changes from frame to frame.
+struct FrameContent {
+  std::vector<Vec3f> positions;        ///< one per vertex [m]
+  std::vector<float> values;           ///< one per vertex, shown as colors; or empty
+  std::vector<std::uint32_t> markers;  ///< vertices with a red mark: pinned or under a test force
+};
+
+Bounds bounds_of(std::span<const Vec3f> positions);
+
+/// Area-weighted mean of the triangle normals at each vertex; zero where there are no triangles.
+std::vector<Vec3f> vertex_normals(const RenderMesh& render_mesh, std::span<const Vec3f> positions);
+
+}  // namespace pliant_render

@@ -1,0 +1,45 @@
+#include "viewer/live_source.h"
+
+namespace pliant_viewer {
+
+LiveSource::LiveSource(MakeScene make, Index threads, bool is_playing, std::function<void()> wake)
+    : scene_(std::move(make), threads, is_playing, std::move(wake)),
+      snapshot_(&scene_.newest()),
+      is_playing_(is_playing) {}
+
+bool LiveSource::refresh(Clock::time_point) {
+  if (!scene_.has_news()) return false;
+  snapshot_ = &scene_.newest();
+  if (snapshot_->commands >= play_command_) is_playing_ = snapshot_->is_playing;
+  return true;
+}
+
+Seconds LiveSource::time_to_news(Clock::time_point) const {
+  return scene_.has_news() ? Seconds(0) : Seconds::max();
+}
+
+void LiveSource::show(pliant::ColorBy color) {
+  scene_.post([color](CommandContext& context) { context.color = color; });
+}
+
+void LiveSource::play(bool on) {
+  is_playing_ = on;
+  play_command_ = scene_.post([on](CommandContext& context) { context.is_playing = on; });
+}
+
+void LiveSource::step(int direction) {
+  if (direction < 0) return;
+  is_playing_ = false;
+  play_command_ = scene_.post(
+      [](CommandContext& context) {
+        context.is_playing = false;
+        context.single_steps = 1;  // so that a held key queues no backlog
+      },
+      LiveScene::Kind::steers);
+}
+
+void LiveSource::restart(bool keep_values) {
+  scene_.post([keep_values](CommandContext& context) { context.restart(keep_values); }, LiveScene::Kind::ends);
+}
+
+}  // namespace pliant_viewer

@@ -1,0 +1,12 @@
+#pragma once
+// The settings of the picture.
+#include "pliant_io/scene/view_settings.h"
+#include "viewer/panels/panel_style.h"
+#include "viewer/view_source.h"
+
+namespace pliant_viewer {
+
+/// Draws a row for each setting; `samples` per pixel, 1 or 4. Returns whether the user chose another color field.
+bool draw_appearance_panel(pliant::ViewSettings& appearance, int& samples, const ViewSource& source);
+
+}  // namespace pliant_viewer
