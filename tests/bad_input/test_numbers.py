@@ -26,7 +26,10 @@ BAR = {"shape": "bar", "cells": [1, 1, 1]}
 
 @functools.cache
 def page():
-    return (SOURCE / "docs" / "scenes.md").read_text()
+    """All pages on scenes as one, those of docs/scenes/ a level below docs/scenes.md."""
+    folder = SOURCE / "docs"
+    below = "".join(path.read_text() for path in sorted((folder / "scenes").glob("*.md")))
+    return (folder / "scenes.md").read_text() + re.sub(r"^#", "##", below, flags=re.MULTILINE)
 
 
 def sections(heading):
@@ -100,7 +103,7 @@ class Numbers(HostileTest):
     def test_settings(self):
         def scene(key, value):
             return scene_of(GRID, {"type": "edge_spring"}, settings={"threads": 1} | {key: value})
-        table = re.search(r"^## Settings\n(.*?)^## ", page(), re.DOTALL | re.MULTILINE)[1]
+        table = re.search(r"^#+ Settings\n(.*?)^#", page(), re.DOTALL | re.MULTILINE)[1]
         options = [key for key, _ in numeric_options(table)]
         self.assertIn("time_step", options)
         self.attack(case(scene(key, value), key, value) for key in options

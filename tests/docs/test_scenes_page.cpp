@@ -1,4 +1,5 @@
-// docs/scenes.md shows a scene that can be read, and says of every option what the program says.
+// docs/scenes.md shows a scene that can be read; all pages on scenes say of every option what the program says.
+#include <filesystem>
 #include <sstream>
 #include <string>
 
@@ -21,8 +22,19 @@ namespace {
 using namespace pliant;
 using pliant_tests::TemporaryFolder;
 
+/// docs/scenes.md, and behind it the pages of docs/scenes/, whose headings are a level below its own.
+std::string all_pages() {
+  const std::string docs = std::string(PLIANT_SOURCE_DIR) + "/docs/";
+  std::string text = TemporaryFolder::read(docs + "scenes.md");
+  for (const auto& file : std::filesystem::directory_iterator(docs + "scenes")) {
+    std::istringstream lines(TemporaryFolder::read(file.path()));
+    for (std::string line; std::getline(lines, line);) text += (line.starts_with('#') ? "#" : "") + line + '\n';
+  }
+  return text;
+}
+
 const std::string& page() {
-  static const std::string text = TemporaryFolder::read(std::string(PLIANT_SOURCE_DIR) + "/docs/scenes.md");
+  static const std::string text = all_pages();
   return text;
 }
 

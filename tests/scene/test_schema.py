@@ -92,8 +92,9 @@ class Schema(unittest.TestCase):
                 VALIDATOR.validate(json.loads(path.read_text()))
 
     def test_the_examples_of_the_documentation_are_accepted(self):
-        page = (SOURCE / "docs" / "scenes.md").read_text()
-        examples = re.findall(r"```jsonc\n(.*?)```", page, re.DOTALL)
+        pages = [SOURCE / "docs" / "scenes.md", *(SOURCE / "docs" / "scenes").glob("*.md")]
+        examples = [example for page in pages
+                    for example in re.findall(r"```jsonc\n(.*?)```", page.read_text(), re.DOTALL)]
         self.assertGreater(len(examples), 0)
         for example in examples:
             text = re.sub(r"//.*", "", example)
