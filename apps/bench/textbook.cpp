@@ -171,7 +171,7 @@ void Textbook::assemble() {
     weighted_transpose_ = for_all_coordinates(weighted_transpose_);
   }
   llt_.compute(Y);
-  if (llt_.info() != Eigen::Success) fail_input("the textbook's matrix is not positive definite; lessen the stiffness");
+  if (llt_.info() != Eigen::Success) fail_input("the textbook's matrix is not positive definite; reduce the stiffness");
   projections_.resize(3, rows);
 }
 

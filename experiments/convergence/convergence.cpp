@@ -288,7 +288,7 @@ void add_plots(Chapter& chapter, const std::vector<const Case*>& small_sheets,
   plot.title = "Error of the positions over iterations";
   plot.caption =
       "The same iterates, their distance weighted by the masses. The first iterations of Projective Dynamics bring the "
-      "sheet no nearer to its place: they mend lengths, where most of the energy is.";
+      "sheet no nearer to its place: they correct lengths, where most of the energy is.";
   chapter.blocks.emplace_back(std::move(plot));
   plot = over_time(small_sheets);
   plot.title = "Error of the objective over time, 31 × 31 vertices";

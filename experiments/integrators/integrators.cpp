@@ -156,7 +156,7 @@ void measure_damping(const ExperimentContext& context, Chapter& chapter) {
 Chapter run_integrators(const ExperimentContext& context) {
   Chapter chapter;
   chapter.question =
-      "Implicit Euler damps, which more iterations cannot mend. BDF2 and substeps use the same factor of a constant "
+      "Implicit Euler damps, which more iterations cannot repair. BDF2 and substeps use the same factor of a constant "
       "matrix: how much less do they lose, on an oscillator whose motion is known and on the curtain of the damping "
       "experiment? Does energy projection, which gives back what a step has lost, stay calm, and move bodies as it "
       "should? And does the setting “damping”, for those who want more of it, do what it says?";

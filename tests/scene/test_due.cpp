@@ -172,9 +172,9 @@ TEST_CASE("events, motions and ramps that are refused") {
     return error_of([&] { rig.timeline.ramp_stiffness(rig.simulation, group, to, duration); });
   };
   CHECK(contains(ramp(rig.pins, 5, 1), "hard pins have none"));
-  CHECK(contains(ramp(rig.springs, 0, 1), "0 is no stiffness"));
-  CHECK(contains(ramp(rig.springs, not_a_number, 1), "is no stiffness"));
-  CHECK(contains(ramp(rig.springs, 5, 0), "0 s is no duration of a ramp"));
+  CHECK(contains(ramp(rig.springs, 0, 1), "the stiffness 0 is out of range"));
+  CHECK(contains(ramp(rig.springs, not_a_number, 1), "is out of range; give a finite number above 0"));
+  CHECK(contains(ramp(rig.springs, 5, 0), "the duration 0 s of a ramp"));
   CHECK(contains(ramp(GroupId{9}, 5, 1), "group 9 does not exist"));
   CHECK(rig.timeline.is_over());
 }

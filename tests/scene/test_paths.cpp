@@ -113,8 +113,9 @@ TEST_CASE("a first key later than 0 begins where the points are, one alone at 0 
 
 TEST_CASE("paths that are refused") {
   CHECK(contains(error_of([] { straight_path(MoveKind::target, {}, 1); }), "no point"));
-  CHECK(contains(error_of([] { straight_path(MoveKind::target, Vec3(0, 0, 0), -1); }), "-1 s is no duration"));
-  CHECK(contains(error_of([] { straight_path(MoveKind::target, Vec3(0, 0, 0), not_a_number); }), "is no duration"));
+  CHECK(contains(error_of([] { straight_path(MoveKind::target, Vec3(0, 0, 0), -1); }),
+                 "the duration -1 s is out of range"));
+  CHECK(contains(error_of([] { straight_path(MoveKind::target, Vec3(0, 0, 0), not_a_number); }), "s is out of range"));
   CHECK(contains(error_of([] { straight_path(MoveKind::target, Vec3(0, not_a_number, 0)); }), "not finite"));
   CHECK(contains(error_of([] { rigid_path({}); }), "there is none"));
   CHECK(contains(error_of([] { rigid_path({{.time = 1}, {.time = 1}}); }), "keyframes[1]: the time 1 s"));

@@ -154,9 +154,9 @@ TEST_CASE("a ramp that no edit can begin is refused") {
     spoil(wrong.ramps.at(0), second);
     return error_of([&] { second.timeline.replay(second.simulation, wrong); });
   };
-  CHECK(contains(refusal([](StiffnessRamp& ramp, Rig&) { ramp.duration = 0; }), "no duration of a ramp"));
-  CHECK(contains(refusal([](StiffnessRamp& ramp, Rig&) { ramp.from = -1; }), "-1 is no stiffness"));
-  CHECK(contains(refusal([](StiffnessRamp& ramp, Rig&) { ramp.to = 0; }), "0 is no stiffness"));
+  CHECK(contains(refusal([](StiffnessRamp& ramp, Rig&) { ramp.duration = 0; }), "of a ramp is out of range"));
+  CHECK(contains(refusal([](StiffnessRamp& ramp, Rig&) { ramp.from = -1; }), "the stiffness -1 is out of range"));
+  CHECK(contains(refusal([](StiffnessRamp& ramp, Rig&) { ramp.to = 0; }), "the stiffness 0 is out of range"));
   CHECK(contains(refusal([](StiffnessRamp& ramp, Rig& rig) { ramp.group = rig.pins; }), "has no stiffness"));
 }
 

@@ -118,7 +118,7 @@ namespace {
 /// For an option that cannot do without.
 void check_given(std::string_view option, const Values& values) {
   if (values.each() || !values.empty()) return;
-  fail_input(std::string(option) + ": there is none; give one for all constraints, or one each");
+  fail_input(std::string(option) + ": empty; give one for all constraints, or one each");
 }
 
 }  // namespace
@@ -137,7 +137,7 @@ StretchLimits::StretchLimits(std::string_view type, const BodyView& body, const 
   check_given("max_stretch", max_);
   for (Index i = 0; i < stencils.size(); ++i) {
     if (min_[i] <= max_[i]) continue;
-    fail_input(fmt::format("{}: min_stretch {} is above max_stretch {} at constraint {}; exchange them", type, min_[i],
+    fail_input(fmt::format("{}: min_stretch {} is above max_stretch {} at constraint {}; swap them", type, min_[i],
                            max_[i], i));
   }
 }

@@ -11,7 +11,7 @@ using enum DefectEffect;
 /// In the order of DefectKind.
 constexpr std::array<DefectInfo, 14> infos{{
     {DefectKind::far_vertices, "far_vertices", "vertices past 1e100 m", vertex, refused,
-     "areas and volumes there overflow", "import with a smaller scale, or mend the coordinates"},
+     "areas and volumes there overflow", "import with a smaller scale, or fix the coordinates"},
     {DefectKind::isolated_vertices, "isolated_vertices", "vertices without an element", vertex, harmful,
      "they fall freely, and a density gives them no mass, which is refused", "remove them, or give each vertex a mass"},
     {DefectKind::duplicate_vertices, "duplicate_vertices", "vertices in the place of another", vertex, harmful,

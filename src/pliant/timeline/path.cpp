@@ -135,9 +135,9 @@ void Path::begin(const Simulation&, GroupId, MotionNumbers&) const {}
 
 std::shared_ptr<Path> straight_path(MoveKind kind, Points to, Real duration, Ease ease) {
   if (!(duration >= 0) || !std::isfinite(duration)) {
-    fail_input(fmt::format("{} s is no duration; give a finite number from 0 up", duration));
+    fail_input(fmt::format("the duration {} s is out of range; give a finite number, 0 or more", duration));
   }
-  if (to.empty()) fail_input("there is no point to move to; give one for all, or one each");
+  if (to.empty()) fail_input("no point to move to; give one for all, or one each");
   check_points(to);
   return std::make_shared<StraightPath>(kind, std::move(to), duration, ease);
 }
@@ -150,7 +150,7 @@ Vec3 Rotation::vector() const {
 }
 
 std::shared_ptr<Path> rigid_path(std::vector<Keyframe> keys, std::optional<Vec3> center, Ease ease) {
-  if (keys.empty()) fail_input("keyframes: there is none; give one or more");
+  if (keys.empty()) fail_input("keyframes: the list is empty; give one or more");
   if (center) check_points(Points(*center));
   std::vector<Key> poses;
   if (keys.front().time > 0) poses.push_back({0, Pose::Zero()});

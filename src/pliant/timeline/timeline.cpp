@@ -73,10 +73,10 @@ void check_ramp(const Simulation& simulation, const StiffnessRamp& ramp) {
   }
   for (const Real stiffness : {ramp.from, ramp.to}) {
     if (stiffness > 0 && std::isfinite(stiffness)) continue;
-    fail_input(fmt::format("{} is no stiffness; give a positive number", stiffness));
+    fail_input(fmt::format("the stiffness {} is out of range; give a finite number above 0", stiffness));
   }
   if (!(ramp.duration > 0) || !std::isfinite(ramp.duration)) {
-    fail_input(fmt::format("{} s is no duration of a ramp; give a finite number above 0", ramp.duration));
+    fail_input(fmt::format("the duration {} s of a ramp is out of range; give a finite number above 0", ramp.duration));
   }
 }
 

@@ -285,7 +285,7 @@ void write_binary(AtomicFile& file, const std::string& json, const std::string& 
   constexpr std::size_t heads = 12 + 8 + 8;
   const std::size_t size = heads + (json.size() + 3) / 4 * 4 + (buffer.size() + 3) / 4 * 4;
   if (size > std::numeric_limits<std::uint32_t>::max()) {
-    fail_input(fmt::format("{}: {} bytes are past the 4 GiB of a GLB file; lessen --max-keyframes, or write USD",
+    fail_input(fmt::format("{}: {} bytes are past the 4 GiB of a GLB file; reduce --max-keyframes, or write USD",
                            path.string(), size));
   }
   std::string head = "glTF";

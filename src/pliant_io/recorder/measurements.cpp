@@ -46,7 +46,7 @@ void check_finite(const Measurements& row) {
     for (const Column& column : columns) {
       if (std::isfinite(column.value(row))) continue;
       throw Error(ErrorKind::diverged,
-                  fmt::format("step {} (t = {} s): `{}` is not finite; lessen masses, stiffness or velocities, or give "
+                  fmt::format("step {} (t = {} s): `{}` is not finite; reduce masses, stiffness or velocities, or give "
                               "a larger time step",
                               row.step, row.time, column.name));
     }

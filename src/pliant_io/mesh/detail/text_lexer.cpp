@@ -67,7 +67,8 @@ bool TextLexer::load_more(const char* keep) {
   if (offset_ >= source_.size()) return false;
   const auto kept = static_cast<std::size_t>(end_ - keep);
   if (kept + 1 == buffer_.size()) {
-    fail(fmt::format("a word of more than {} characters; this is no text of numbers and names, export it again", kept));
+    fail(fmt::format("a word of more than {} characters; this is not text made of numbers and names, export it again",
+                     kept));
   }
   std::memmove(buffer_.data(), keep, kept);
   position_ = buffer_.data() + (position_ - keep);
@@ -87,7 +88,7 @@ void TextLexer::refuse_nul(const char* first) const {
   for (const char* c = position_; c < nul; ++c) {
     if (*c == '\n' || (*c == '\r' && c[1] != '\n')) ++line;
   }
-  fail_at(line, "a NUL byte; this is no text, export it again in ASCII or UTF-8");
+  fail_at(line, "a NUL byte; this is not text, export it again in ASCII or UTF-8");
 }
 
 bool TextLexer::next_line() {
