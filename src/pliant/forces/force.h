@@ -25,9 +25,9 @@ class Force {
   /// Potential energy [J] of a conservative force; 0 for every other.
   virtual Real potential(const StateView& state) const;
 
-  /// Whether it is conservative. Energy projection then counts its work by where vertices are at the ends of a step, so
-  /// that the sum of all energies is kept; that of every other force by the mean velocity of the step, in which it acts
-  /// as it was at the beginning.
+  /// Whether it is conservative. Energy projection takes the work of any force along the way that vertices go in a
+  /// step: with the mean of both ends where it is conservative, so that the sum of all energies is kept, else with the
+  /// force at the beginning.
   virtual bool is_conservative() const { return false; }
 
   /// Whether it draws back like a spring that is evaluated at qₙ: such a force makes every step of BDF2 gain energy,

@@ -65,7 +65,7 @@ class Solver {
   /// What the energy projection works with, in the order of the local groups, but for what has that of the simulation.
   /// Empty where it is not asked for.
   struct EnergyWork {
-    Positions velocities, elastic_forces, along_positions, along_velocities, way;
+    Positions velocities, elastic_forces, outside, not_conservative, way;
     Positions applied, end_positions, end_velocities, end_force;  // order of the simulation
     std::vector<Real> elastic;                                    // of each part
     std::vector<Real> debts, no_weights, slot;

@@ -91,7 +91,7 @@ void EnergyProjection::balance(const StepEnd& end, const OutsideForces& outside,
 }
 
 EnergyProjection::Work EnergyProjection::outside_work(std::size_t part, const RigidMotion& rigid, const StepEnd& end,
-                                                      const OutsideForces& outside, Real h) const {
+                                                      const OutsideForces& outside) const {
   const Balance& balance = balances_[part];
   const Vec3 shift = rigid.center - balance.center;
   Work work;
@@ -101,16 +101,12 @@ EnergyProjection::Work EnergyProjection::outside_work(std::size_t part, const Ri
       work.add(-(row(elastic_forces_, v) + row(end.elastic_forces, v)).dot(way) / 2);
       continue;
     }
-    const Vec3 force = row(outside.along_positions, v);
-    const Vec3 applied = row(outside.along_velocities, v);
-    const Vec3 speed = row(velocities_, v) + row(end.velocities, v) - balance.velocity - rigid.velocity;
+    const Vec3 force = row(outside.all, v);
     work.add(force.dot(way - shift));
-    const Real along_velocity = h / 2 * applied.dot(speed);
-    work.add(along_velocity);
-    work.braked -= std::min(Real(0), along_velocity);
+    work.braked -= std::min(Real(0), row(outside.not_conservative, v).dot(way - shift));
     if (!is_free_[part]) continue;
     const Vec3 arm = (row(positions_, v) + row(end.positions, v) - balance.center - rigid.center) / 2;
-    work.torque += arm.cross(force + applied);
+    work.torque += arm.cross(force);
   }
   return work;
 }
@@ -118,7 +114,7 @@ EnergyProjection::Work EnergyProjection::outside_work(std::size_t part, const Ri
 void EnergyProjection::balance_part(std::size_t part, const StepEnd& end, const OutsideForces& outside, Real h,
                                     Real share) {
   const RigidMotion rigid = rigid_motion(part, end.positions, end.velocities);
-  const Work work = outside_work(part, rigid, end, outside, h);
+  const Work work = outside_work(part, rigid, end, outside);
   const Real energy = end.elastic[part] + vibration(part, rigid, end.positions, end.velocities) +
                       turning_energy(rigid.inertia, rigid.angular_momentum);
   Balance& balance = balances_[part];
@@ -137,9 +133,7 @@ void EnergyProjection::balance_part(std::size_t part, const StepEnd& end, const 
 /// Of a part that nothing holds, less what moves it as a whole.
 void EnergyProjection::write_forces(std::size_t part, const StepEnd& end, const OutsideForces& outside,
                                     Positions& forces) const {
-  const auto force_on = [&](Index v) {
-    return Vec3(row(end.elastic_forces, v) + row(outside.along_positions, v) + row(outside.along_velocities, v));
-  };
+  const auto force_on = [&](Index v) { return Vec3(row(end.elastic_forces, v) + row(outside.all, v)); };
   Vec3 acceleration = Vec3::Zero();
   if (is_free_[part]) {
     Real mass = 0;
@@ -169,17 +163,15 @@ Vec3 EnergyProjection::allowed_momentum(std::size_t part, const RigidMotion& rig
   return rigid.angular_momentum + std::min(Real(1), way) * change;
 }
 
-void EnergyProjection::move(const StepEnd& end, const OutsideForces& outside, const Positions& forces,
-                            const Positions& way, std::span<const Real> weights, Positions& positions) {
+void EnergyProjection::move(const StepEnd& end, const Positions& forces, const Positions& way,
+                            std::span<const Real> weights, Positions& positions) {
   for (std::size_t p = 0; p < parts_.count(); ++p) {
     Real slope = 0;
     Real curvature = 0;
-    Real work = 0;
     for (const Index v : parts_.part(p)) {
       const Real along = row(forces, v).dot(row(way, v));
       slope += along;
       curvature += along - weights[at(v)] * way.row(v).squaredNorm();
-      if (!is_pinned_[at(v)]) work += row(outside.along_velocities, v).dot(row(way, v));
     }
     Balance& balance = balances_[p];
     const RigidMotion rigid = rigid_motion(p, end.positions, end.velocities);
@@ -191,16 +183,15 @@ void EnergyProjection::move(const StepEnd& end, const OutsideForces& outside, co
     const Real excess = factor_of(scaled + curvature / 2, slope - curvature, missing, balance.noise) - 1;
     if (excess == 0) continue;
     for (const Index v : parts_.part(p)) positions.row(v) -= excess * way.row(v);
-    balance.target -= excess * work;
   }
 }
 
-void EnergyProjection::finish(const StepEnd& end, const OutsideForces& outside, Real h, Positions& velocities) {
+void EnergyProjection::finish(const StepEnd& end, const OutsideForces& outside, Positions& velocities) {
   for (std::size_t p = 0; p < parts_.count(); ++p) {
     Balance& balance = balances_[p];
     const RigidMotion rigid = rigid_motion(p, end.positions, end.velocities);
     if (!rigid.turning.allFinite()) continue;
-    balance.target += outside_work(p, rigid, end, outside, h).sum - balance.work;
+    balance.target += outside_work(p, rigid, end, outside).sum - balance.work;
     const Real scaled = vibration(p, rigid, end.positions, end.velocities);
     const Vec3 angular_momentum = allowed_momentum(p, rigid, end.elastic[p], scaled);
     const Vec3 turning = angular_velocity(rigid.inertia, angular_momentum);

@@ -26,10 +26,12 @@ struct StepEnd {
   const Positions& elastic_forces;  ///< −∇V, held vertices among them, m × 3 [N]
 };
 
-/// What acts on the vertices from outside in a step, in the order of the local step; each m × 3 [N].
+/// What acts on the vertices from outside in a step, in the order of the local step; each m × 3 [N]. The work of all of
+/// it is F·(qₙ₊₁ − qₙ), along the way that the vertices take: no other sum is free of drift, since velocities are what
+/// the projection itself changes.
 struct OutsideForces {
-  const Positions& along_positions;   ///< whose work is that along the way of a vertex
-  const Positions& along_velocities;  ///< whose work is that along its mean velocity
+  const Positions& all;
+  const Positions& not_conservative;  ///< those among them that may brake
 };
 
 class EnergyProjection {
@@ -50,12 +52,12 @@ class EnergyProjection {
 
   /// Moves the positions at that end along `way`, which is Y⁻¹ of those forces. weights: M/h² of each vertex.
   /// `positions` may be those of the end.
-  void move(const StepEnd& end, const OutsideForces& outside, const Positions& forces, const Positions& way,
-            std::span<const Real> weights, Positions& positions);
+  void move(const StepEnd& end, const Positions& forces, const Positions& way, std::span<const Real> weights,
+            Positions& positions);
 
   /// Gives the velocities what is missing still where move() has left the positions; their V and the forces are now
   /// those there. `velocities` may be those of the end.
-  void finish(const StepEnd& end, const OutsideForces& outside, Real h, Positions& velocities);
+  void finish(const StepEnd& end, const OutsideForces& outside, Positions& velocities);
 
   /// Debts for the next step, m numbers [J].
   void write_debts(std::span<Real> debts) const;
@@ -76,7 +78,7 @@ class EnergyProjection {
   struct Work {
     Real sum = 0;     // relative to the center of a part that nothing holds [J]
     Real size = 0;    // of its terms
-    Real braked = 0;  // taken by forces along velocities
+    Real braked = 0;  // taken by forces that are not conservative
     Vec3 torque = Vec3::Zero();
     void add(Real energy) {
       sum += energy;
@@ -87,8 +89,7 @@ class EnergyProjection {
   RigidMotion rigid_motion(std::size_t part, const Positions& positions, const Positions& velocities) const;
   Real vibration(std::size_t part, const RigidMotion& rigid, const Positions& positions,
                  const Positions& velocities) const;
-  Work outside_work(std::size_t part, const RigidMotion& rigid, const StepEnd& end, const OutsideForces& outside,
-                    Real h) const;
+  Work outside_work(std::size_t part, const RigidMotion& rigid, const StepEnd& end, const OutsideForces& outside) const;
   Vec3 allowed_momentum(std::size_t part, const RigidMotion& rigid, Real elastic, Real scaled) const;
   void balance_part(std::size_t part, const StepEnd& end, const OutsideForces& outside, Real h, Real share);
   void write_forces(std::size_t part, const StepEnd& end, const OutsideForces& outside, Positions& forces) const;

@@ -35,7 +35,7 @@ void Solver::begin_energy(const State& state) {
   work.elastic.resize(energy_.part_count());
   work.no_weights.assign(inertia_weights_.size(), 0);
   work.none_held.assign(inertia_weights_.size(), 0);
-  for (Positions* x : {&work.velocities, &work.elastic_forces, &work.along_positions, &work.along_velocities, &work.way,
+  for (Positions* x : {&work.velocities, &work.elastic_forces, &work.outside, &work.not_conservative, &work.way,
                        &work.end_positions, &work.end_velocities, &work.end_force}) {
     x->resize(vertex_count_, 3);
   }
@@ -47,12 +47,13 @@ void Solver::begin_energy(const State& state) {
     if (!work.debts.empty()) work.debts[static_cast<std::size_t>(i)] = state.energy_debts[static_cast<std::size_t>(v)];
   }
   evaluate_elastic();
-  work.along_positions.setZero();
+  work.outside.setZero();
   count_external_groups();
   energy_.begin({q_, work.velocities, work.elastic, work.elastic_forces}, masses_, work.debts);
 }
 
-/// Conservative ones are the mean of both ends of the step, at one time: they may change from step to step.
+/// Conservative ones are the mean of both ends of the step, at one time: they may change from step to step. The others
+/// are as they were at the beginning.
 void Solver::find_outside_forces(const State& state) {
   EnergyWork& work = energy_work_;
   for (Index i = 0; i < vertex_count_; ++i) {
@@ -66,8 +67,8 @@ void Solver::find_outside_forces(const State& state) {
   }
   for (Index i = 0; i < vertex_count_; ++i) {
     const Index v = local_groups_.vertex(i);
-    work.along_positions.row(i) = (force_.row(v) - work.applied.row(v) + work.end_force.row(v)) / 2;
-    work.along_velocities.row(i) = work.applied.row(v);
+    work.not_conservative.row(i) = work.applied.row(v);
+    work.outside.row(i) = (force_.row(v) - work.applied.row(v) + work.end_force.row(v)) / 2 + work.applied.row(v);
   }
 }
 
@@ -86,7 +87,8 @@ void Solver::count_external_groups() {
         const Eigen::Map<const Vec3> slot(work.slot.data() + 3 * (entry / n));
         const Vec3 force = group->reduction()[i * k * n + entry] * slot;
         const Index vertex = group->stencil()[i * n + entry % n];
-        work.along_positions.row(vertex) += force.transpose();
+        work.outside.row(vertex) += force.transpose();
+        if (group->targets().empty()) work.not_conservative.row(vertex) += force.transpose();
         work.elastic_forces.row(vertex) -= force.transpose();
       }
     }
@@ -106,14 +108,14 @@ void Solver::keep_energy(const State& state) {
     work.velocities.row(i) = (q_.row(i) - form.position(local_groups_.vertex(i))) / form.inertia_step();
   }
   const StepEnd end{q_, work.velocities, work.elastic, work.elastic_forces};
-  const OutsideForces outside{work.along_positions, work.along_velocities};
+  const OutsideForces outside{work.outside, work.not_conservative};
   evaluate_end(state);
   Positions& forces = residual_;
   energy_.balance(end, outside, substep(), settings_.energy_projection, forces);
   global_step_.solve(forces, forces.cwiseAbs().maxCoeff(), work.way, *threads_);
-  energy_.move(end, outside, forces, work.way, inertia_weights_, q_);
+  energy_.move(end, forces, work.way, inertia_weights_, q_);
   evaluate_end(state);
-  energy_.finish(end, outside, substep(), work.velocities);
+  energy_.finish(end, outside, work.velocities);
 }
 
 void Solver::commit_energy(State& state) {
