@@ -33,6 +33,18 @@ struct Return {
   pliant_render::Image during{}, after{};
 };
 
+/// The hand of the built-in scene, upright and weightless, of skin alone, with a fixed wrist.
+pliant::Scene make_hand(const ExperimentContext& context) {
+  return context.builtin_scene("hand",
+                               {"gravity=null", "forces=[]", "moves=[]", "bodies[hand].transform={}",
+                                R"(bodies[hand].constraints=[
+                 {"type": "position", "name": "wrist",
+                  "on": {"half_space": {"point": [0, 0, 0.0096], "normal": [0, 0, -1]}}},
+                 {"type": "edge_spring", "name": "skin", "stiffness": 2000}])",
+                                "view.size=[480,480]", "view.ground=false",
+                                R"(view.camera={"position": [0.02, -0.36, 0.14], "target": [0.02, 0, 0.085]})"});
+}
+
 /// The vertices that are farthest up in each fifth of the hand's breadth: the tips of four fingers and the thumb.
 std::vector<Index> fingertips(const pliant::Positions& rest) {
   const double low = rest.col(0).minCoeff();
@@ -53,7 +65,7 @@ double distance(const pliant::Simulation& simulation) {
 
 Return pull(const ExperimentContext& context, double force, Bend bend) {
   context.say(fmt::format("{} N, {}", force, name_of(bend)));
-  pliant::Scene scene = context.scene("hand/hand");
+  pliant::Scene scene = make_hand(context);
   pliant::Simulation& simulation = scene.simulation;
   add_bending(scene, bend, bending);
   // Each tip is drawn another way: forwards, backwards, across and down.

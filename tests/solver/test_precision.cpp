@@ -1,13 +1,9 @@
 // What single precision of the factor changes: the speed of convergence, and nothing that is converged to.
-#include <cstdlib>
-#include <filesystem>
-
 #include <doctest/doctest.h>
 
 #include "../core/random.h"
 #include "../mesh/meshes.h"
 #include "../simulation/run.h"
-#include "../support/temporary_folder.h"
 #include "pliant/pliant.h"
 #include "pliant_io/scene/builtin_scenes.h"
 #include "pliant_io/scene/scene.h"
@@ -32,14 +28,6 @@ Simulation curtain(Precision precision, Index iterations, Index threads = 1) {
 
 Real distance(const Simulation& a, const Simulation& b) {
   return (a.state().positions - b.state().positions).rowwise().norm().maxCoeff();
-}
-
-/// The mesh of the scene `hand`, where the machine has it.
-bool unpack_hand(const std::filesystem::path& folder) {
-  const std::filesystem::path archive = "/usr/share/doc/libcgal-dev/data.tar.gz";
-  if (!std::filesystem::exists(archive)) return false;
-  const std::string command = "tar -xzf " + archive.string() + " -C " + folder.string() + " data/meshes/hand.off";
-  return std::system(command.c_str()) == 0;
 }
 
 }  // namespace
@@ -128,16 +116,10 @@ TEST_CASE("where single precision does not do, that is said once") {
 }
 
 TEST_CASE("in every built-in scene a step in single precision comes to the same fixed point as in double") {
-  const TemporaryFolder folder;
-  const bool has_hand = unpack_hand(folder.path());
   for (const BuiltinScene& builtin : builtin_scenes()) {
     const std::string name(builtin.name);
     CAPTURE(name);
-    if (name == "hand" && !has_hand) {
-      MESSAGE("skipped: the scene `hand` needs Debian's libcgal-demo");
-      continue;
-    }
-    Scene scene = parse_scene(builtin.text, folder.path(), builtin.name, {});
+    Scene scene = parse_scene(builtin.text, {}, builtin.name);
     for (int i = 0; i < 40; ++i) scene.step();
     Simulation& simulation = scene.simulation;
     CHECK(simulation.precision() == Precision::mixed);
