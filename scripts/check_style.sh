@@ -28,7 +28,7 @@ python3 scripts/check_layers.py --self-test || failed=1
 python3 scripts/check_layers.py || failed=1
 
 if ((failed)); then
-  echo "check_style.sh: FAILED; 'clang-format -i FILE' mends the formatting" >&2
+  echo "check_style.sh: FAILED; 'clang-format -i FILE' fixes the formatting" >&2
   exit 1
 fi
 echo "Style: ${#files[@]} files are fine."
