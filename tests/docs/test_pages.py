@@ -80,6 +80,14 @@ class Tree(unittest.TestCase):
             for room in rooms:
                 self.assertTrue((SOURCE / "src" / target / room).exists(), room)
 
+    def test_what_to_change_is_where_the_page_says(self):
+        page = (SOURCE / "docs" / "architecture.md").read_text()
+        rows = re.search(r"\| to change \| look in \|\n(.*?)\n\n", page, re.DOTALL)[1]
+        places = re.findall(r"`((?:src|apps)/[\w/.]+)`", rows)
+        self.assertGreater(len(places), 8)
+        for place in places:
+            self.assertTrue((SOURCE / place).exists(), place)
+
     def test_functions_of_the_algorithm_exist(self):
         page = (SOURCE / "docs" / "algorithm.md").read_text()
         table = re.search(r"## One step\n\n(.*?)\n\n", page, re.DOTALL)[1]
