@@ -97,8 +97,8 @@ TEST_CASE_TEMPLATE("stiffnesses that are refused", Type, Position, EdgeSpring, E
 }
 
 TEST_CASE("a stiffness that is left empty is refused") {
-  CHECK(contains(refusal_of(EdgeSpring{.stiffness = Values()}), "stiffness: there is none"));
-  CHECK(contains(refusal_of(TriangleStrain{.max_stretch = Values()}), "max_stretch: there is none"));
+  CHECK(contains(refusal_of(EdgeSpring{.stiffness = Values()}), "stiffness: empty; give one"));
+  CHECK(contains(refusal_of(TriangleStrain{.max_stretch = Values()}), "max_stretch: empty; give one"));
 }
 
 TEST_CASE("indices that are refused") {
