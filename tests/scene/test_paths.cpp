@@ -117,7 +117,7 @@ TEST_CASE("paths that are refused") {
                  "the duration -1 s is out of range"));
   CHECK(contains(error_of([] { straight_path(MoveKind::target, Vec3(0, 0, 0), not_a_number); }), "s is out of range"));
   CHECK(contains(error_of([] { straight_path(MoveKind::target, Vec3(0, not_a_number, 0)); }), "not finite"));
-  CHECK(contains(error_of([] { rigid_path({}); }), "there is none"));
+  CHECK(contains(error_of([] { rigid_path({}); }), "the list is empty"));
   CHECK(contains(error_of([] { rigid_path({{.time = 1}, {.time = 1}}); }), "keyframes[1]: the time 1 s"));
   CHECK(contains(error_of([] { rigid_path({{.time = -1}}); }), "keyframes[0]: the time -1 s"));
   CHECK(contains(error_of([] { rigid_path({{.time = 1, .rotate = {{0, 0, 0}, 5}}}); }), "axis of length 0"));
