@@ -61,7 +61,7 @@ std::optional<Number> whole_number(std::string_view text) {
 
 [[noreturn]] void fail_range(std::string_view text, std::string_view why) {
   pliant::fail_input(
-      fmt::format("'{}' is no range: {}; write FIRST:LAST:COUNT or FIRST:LAST:COUNTlog, such as 1:9:5, "
+      fmt::format("'{}' is not a range: {}; write FIRST:LAST:COUNT or FIRST:LAST:COUNTlog, such as 1:9:5, "
                   "and a text with colons in quotes",
                   pliant::printable(text, 60), why));
 }
@@ -89,9 +89,9 @@ std::vector<std::string> values_of_range(std::string_view text) {
   const auto first = number_of(ends[0]);
   const auto last = number_of(ends[1]);
   const auto count = whole_number<std::size_t>(count_text);
-  if (!last) fail_range(text, "its last value is no number");
+  if (!last) fail_range(text, "its last value is not a number");
   if (!count || *count < 2 || *count > max_runs) {
-    fail_range(text, fmt::format("its count is no number from 2 to {}", max_runs));
+    fail_range(text, fmt::format("its count is not a number from 2 to {}", max_runs));
   }
   if (is_logarithmic && !(*first > 0 && *last > 0)) fail_range(text, "equal ratios need values above 0");
   std::vector<std::string> values = {std::string(ends[0])};
@@ -166,7 +166,7 @@ Variation read_variation(std::string_view text) {
 }
 
 std::vector<Combination> product_of(const std::vector<Variation>& variations) {
-  if (variations.empty()) pliant::fail_input(fmt::format("--vary: there is none; {}", value_example));
+  if (variations.empty()) pliant::fail_input(fmt::format("--vary is missing; {}", value_example));
   std::set<std::string> paths;
   std::size_t count = 1;
   for (const Variation& variation : variations) {

@@ -61,9 +61,9 @@ TEST_CASE("a view that cannot be drawn") {
   };
   check(R"({"color": "stretch"})", ".color: unknown key; known here, the nearest first: color");
   check(R"({"color": "red"})", ".color: 'red' is none of the choices");
-  check(R"({"background": "red"})", ".background: is no color");
-  check(R"({"background": "#12345g"})", ".background: is no color");
-  check(R"({"background": [0, 0, 2]})", ".background[2]: is no color");
+  check(R"({"background": "red"})", ".background: is not a color");
+  check(R"({"background": "#12345g"})", ".background: is not a color");
+  check(R"({"background": [0, 0, 2]})", ".background[2]: is not a color");
   check(R"({"background": [0, 0]})", ".background: the list has 2 entries");
   check(R"({"camera": {"up": [0, 0, 0]}})", ".camera.up: a direction of length 0");
   check(R"({"light": [0, 0, 0]})", ".light: a direction of length 0");

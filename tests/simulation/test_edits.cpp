@@ -177,7 +177,7 @@ TEST_CASE("a restored state goes on with the same bits") {
 
   State wrong = first.state();
   wrong.masses[3] *= 2;
-  CHECK(contains(error_of([&] { second.restore(wrong); }), "masses are others"));
+  CHECK(contains(error_of([&] { second.restore(wrong); }), "the masses differ"));
   wrong = first.state();
   wrong.positions.conservativeResize(5, 3);
   CHECK(contains(error_of([&] { second.restore(wrong); }), "5 rows"));

@@ -229,7 +229,8 @@ Vec3 Simulation::target(GroupId id, Index i) const {
 }
 
 void Simulation::set_target(GroupId id, Index i, const Vec3& target) {
-  if (!target.allFinite()) fail_input("group '" + group(id).name + "': the target is not finite; mend it");
+  if (!target.allFinite())
+    fail_input("group '" + group(id).name + "': the target is not finite; give three finite numbers");
   const std::span<Real> numbers = target_numbers(id, i);
   if (undo_ != nullptr) undo_->save_numbers(id, group(id));
   std::ranges::copy(target, numbers.begin());

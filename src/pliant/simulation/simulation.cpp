@@ -176,11 +176,10 @@ void Simulation::set_state(const Positions& positions, const Positions& velociti
 void Simulation::restore(const State& state) {
   check_rows(state.positions, state_.vertex_count(), "restore: positions");
   check_rows(state.velocities, state_.vertex_count(), "restore: velocities");
-  if (state.masses != state_.masses)
-    fail_input("restore: the masses are others; make the simulation of the same bodies");
+  if (state.masses != state_.masses) fail_input("restore: the masses differ; make the simulation of the same bodies");
   if (state.step < 0 || !std::isfinite(state.time) || !std::isfinite(state.time_excess)) {
     fail_input("restore: step " + std::to_string(state.step) + ", time " + std::to_string(state.time) +
-               " s: this is no state of a simulation; give one that state() has returned");
+               " s: not a state of a simulation; give one that state() has returned");
   }
   if (!(state.previous_time_step >= 0) || !std::isfinite(state.previous_time_step)) {
     fail_input("restore: the previous time step is " + std::to_string(state.previous_time_step) +

@@ -126,7 +126,7 @@ void read(const Node& node, Ragged<Real>& lists) {
 }
 
 void read(const Node& node, Color& color) {
-  constexpr std::string_view wanted = "is no color; give \"#rrggbb\", or three numbers from 0 to 1";
+  constexpr std::string_view wanted = "is not a color; give \"#rrggbb\", or three numbers from 0 to 1";
   const std::array<Real*, 3> parts = {&color.red, &color.green, &color.blue};
   if (node.is_list()) {
     node.require_list(3, "numbers from 0 to 1");
