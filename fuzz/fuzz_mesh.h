@@ -2,7 +2,6 @@
 // What the targets of mesh formats share: any bytes make an Error or a mesh that is sound as data, and what is written
 // of it reads back as the same mesh.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <set>
 #include <string>
@@ -87,14 +86,13 @@ inline void check_diagnosis(const pliant::Mesh& mesh) {
 }
 
 /// The format that a mesh of a format is written in; TetGen's files are only read.
-inline pliant::MeshFormat output_format(pliant::MeshFormat format) {
-  return format == pliant::MeshFormat::tetgen ? pliant::MeshFormat::gmsh : format;
+inline pliant::MeshFormat output_format(const pliant::MeshFormat& format) {
+  return format.write == nullptr ? pliant::require_mesh_format("x.msh") : format;
 }
 
 /// The bytes of the file that a mesh is written to.
-inline std::string written(const pliant::Mesh& mesh, pliant::MeshFormat format) {
-  constexpr std::array<const char*, 5> extensions = {".obj", ".ply", ".off", ".stl", ".msh"};
-  const std::string name = "pliant_fuzz_" + std::to_string(getpid()) + extensions[static_cast<std::size_t>(format)];
+inline std::string written(const pliant::Mesh& mesh, const pliant::MeshFormat& format) {
+  const std::string name = "pliant_fuzz_" + std::to_string(getpid()) + "." + std::string(format.extensions[0]);
   const std::filesystem::path path = std::filesystem::temp_directory_path() / name;
   pliant::write_mesh(path, mesh, mesh.vertices);
   std::string bytes = pliant::read_file(path);
@@ -110,7 +108,7 @@ inline bool has_plain_names(const pliant::Mesh& mesh) {
 }
 
 /// What is written of the mesh reads back as it is, and is written again as the same bytes.
-inline void check_round_trip(const pliant::Mesh& mesh, pliant::MeshFormat format) {
+inline void check_round_trip(const pliant::Mesh& mesh, const pliant::MeshFormat& format) {
   try {
     const std::string bytes = written(mesh, format);
     const pliant::Mesh again = pliant::parse_mesh(bytes, "written", format);
@@ -126,13 +124,13 @@ inline void check_round_trip(const pliant::Mesh& mesh, pliant::MeshFormat format
 
 /// STL as it is read back keeps neither lone vertices nor digits, and points may become one; after that nothing
 /// changes.
-inline pliant::Mesh settled(const pliant::Mesh& mesh, pliant::MeshFormat format) {
-  if (format != pliant::MeshFormat::stl) return mesh;
+inline pliant::Mesh settled(const pliant::Mesh& mesh, const pliant::MeshFormat& format) {
+  if (format.name != "stl") return mesh;
   const pliant::Mesh rounded = pliant::parse_mesh(written(mesh, format), "rounded", format);
   return pliant::parse_mesh(written(rounded, format), "settled", format);
 }
 
-inline int fuzz_mesh(const std::uint8_t* data, std::size_t size, pliant::MeshFormat format) {
+inline int fuzz_mesh(const std::uint8_t* data, std::size_t size, const pliant::MeshFormat& format) {
   expect_errors_only([&] {
     const pliant::Mesh mesh = pliant::parse_mesh(text(data, size), "fuzz", format);
     check_sound(mesh);

@@ -2,5 +2,5 @@
 #include "fuzz_mesh.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  return pliant_fuzz::fuzz_mesh(data, size, pliant::MeshFormat::tetgen);
+  return pliant_fuzz::fuzz_mesh(data, size, pliant::require_mesh_format("x.ele"));
 }

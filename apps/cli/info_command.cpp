@@ -46,7 +46,7 @@ Info examine(const InfoOptions& options) {
   pliant::Mesh mesh = pliant::read_mesh(options.file, options.import);
   Info info;
   info.file = options.file;
-  info.format = choice_names(pliant::MeshFormat{})[static_cast<std::size_t>(*pliant::mesh_format(options.file))];
+  info.format = pliant::require_mesh_format(options.file).name;
   std::error_code ignored;
   info.file_size = std::filesystem::file_size(options.file, ignored);
   for (const pliant::FaceGroup& group : mesh.groups) ++info.group_counts[static_cast<std::size_t>(group.kind)];

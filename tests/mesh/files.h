@@ -12,7 +12,7 @@
 namespace pliant_tests {
 
 /// The message for a text that is refused, the mesh being called `a`.
-inline std::string refusal_of(const std::string& text, pliant::MeshFormat format) {
+inline std::string refusal_of(const std::string& text, const pliant::MeshFormat& format) {
   return error_of([&] { pliant::parse_mesh(text, "a", format); });
 }
 

@@ -155,7 +155,7 @@ TEST_CASE("each defect is found with its indices") {
   }
   SUBCASE("bent polygons") {
     const Mesh mesh = parse_mesh("v 0 0 0\nv 1 0 0\nv 1 1 0.001\nv 0 1 0\nv 2 0 0\nv 2 1 1\nf 1 2 3 4\nf 2 5 6 3\n",
-                                 "a", MeshFormat::obj);
+                                 "a", require_mesh_format("x.obj"));
     const Diagnosis d = diagnose(mesh);
     CHECK(places(d, DefectKind::bent_polygons) == Places{{1, -1}});
     CHECK(d.polygon_count == 2);

@@ -93,6 +93,16 @@ def other_files():
     rows = b"1 4 0 1 2 3 4\n" * (SIZE // 14)
     yield "tetrahedra.msh", head % 4 + four % (SIZE // 14) + rows + b"$EndElements\n"
     yield "promised.msh", head % 2_000_000_000 + b"1 0 0 0\n"
+    head = b"MeshVersionFormatted 2\nDimension 3\nVertices\n%d\n"
+    yield "vertices.mesh", head % (SIZE // 8) + b"0 0 0 0\n" * (SIZE // 8) + b"End\n"
+    yield "references.mesh", head % (SIZE // 10) + b"".join(b"0 0 0 %d\n" % i for i in range(SIZE // 10)) + b"End\n"
+    four = head % 4 + b"0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n"
+    rows = b"1 2 3 4 7\n" * (SIZE // 10)
+    yield "tetrahedra.mesh", four + b"Tetrahedra\n%d\n" % (SIZE // 10) + rows + b"End\n"
+    rows = b"".join(b"1 2 3 %d\n" % i for i in range(SIZE // 12))
+    yield "faces.mesh", four + b"Triangles\n%d\n" % (SIZE // 12) + rows + b"End\n"
+    yield "promised.mesh", head % 2_000_000_000 + b"0 0 0 0\n"
+    yield "skipped.mesh", repeated(four + b"Corners\n", b"1\n")
     yield "points.node", b"%d 3 100 1\n" % (SIZE // 6) + b"0 " * (SIZE // 2)
     yield "elements.ele", b"2000000000 4 0\n0 0 1 2 3\n"
 

@@ -1,5 +1,5 @@
-#include <array>
 #include <string>
+#include <vector>
 
 #include <doctest/doctest.h>
 
@@ -17,29 +17,31 @@ using namespace pliant_tests;
 namespace {
 
 /// That can be written.
-constexpr std::array<std::string_view, 5> names = {"obj", "ply", "off", "stl", "msh"};
+const std::vector<std::string_view> names = writable_mesh_extensions();
 
 /// A corner of a box with its axes along x, y and z, of sides 1, 2 and 3.
 Mesh corner(const ImportOptions& options) {
-  return parse_mesh("v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\nf 1 2 3\n", "a", MeshFormat::obj, options);
+  return parse_mesh("v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\nf 1 2 3\n", "a", require_mesh_format("x.obj"), options);
 }
 
 }  // namespace
 
 TEST_CASE("the extension tells the format, in capitals or not") {
-  CHECK(mesh_format("a.obj") == MeshFormat::obj);
-  CHECK(mesh_format("folder.ply/a.b.OFF") == MeshFormat::off);
-  CHECK(mesh_format("a.Stl") == MeshFormat::stl);
-  CHECK(mesh_format("a.ply") == MeshFormat::ply);
-  CHECK(mesh_format("a.msh") == MeshFormat::gmsh);
-  CHECK(mesh_format("a.NODE") == MeshFormat::tetgen);
-  CHECK(mesh_format("a.ele") == MeshFormat::tetgen);
+  const auto name_of = [](const fs::path& path) { return require_mesh_format(path).name; };
+  CHECK(name_of("a.obj") == "obj");
+  CHECK(name_of("folder.ply/a.b.OFF") == "off");
+  CHECK(name_of("a.Stl") == "stl");
+  CHECK(name_of("a.ply") == "ply");
+  CHECK(name_of("a.msh") == "gmsh");
+  CHECK(name_of("a.mesh") == "medit");
+  CHECK(name_of("a.NODE") == "tetgen");
+  CHECK(name_of("a.ele") == "tetgen");
   for (const std::string path : {"", "obj", ".obj", "a.objx", "a.xobj", "a", "a.", "a.obj/b"}) {
     CAPTURE(path);
     CHECK(!mesh_format(path));
   }
   const std::string known =
-      "a.fbx: not the extension of a known mesh format; known: .obj, .ply, .off, .stl, .msh, .node, .ele";
+      "a.fbx: not the extension of a known mesh format; known: .obj, .ply, .off, .stl, .msh, .mesh, .node, .ele";
   CHECK(error_of([] { read_mesh("a.fbx"); }).starts_with(known));
   CHECK(error_of([] { write_mesh("a.fbx", Mesh{}, Positions(0, 3)); }).starts_with(known));
 }
@@ -79,7 +81,7 @@ TEST_CASE("reading, writing and reading again gives the same mesh in every forma
       check_same(written_and_read(once, file), once);
       if (name == "stl") continue;  // drops vertices without triangles and is in single precision
       CHECK(once.vertices == mesh.vertices);
-      if (name == "msh") continue;  // holds tetrahedra, else no edges beside triangles
+      if (name == "msh" || name == "mesh") continue;  // hold tetrahedra, else no edges beside triangles
       CHECK(once.edges == mesh.edges);
       CHECK(once.triangles == (mesh.triangles.empty() ? boundary_triangles(mesh.tetrahedra) : mesh.triangles));
     }
@@ -89,7 +91,7 @@ TEST_CASE("reading, writing and reading again gives the same mesh in every forma
 TEST_CASE("numbers keep their bits in every format that has doubles") {
   Mesh mesh =
       mesh_of({{0.1, -0.0, 5e-324}, {1e308, 2, 1.0 / 3}, {4, 5e-5, 123456.789}, {1, 1, 1}}, {{0, 1, 2}, {1, 2, 3}});
-  for (const std::string file : {"b.obj", "b.ply", "b.off", "b.msh"})
+  for (const std::string file : {"b.obj", "b.ply", "b.off", "b.msh", "b.mesh"})
     check_same_elements(written_and_read(mesh, file), mesh);
 }
 
@@ -113,15 +115,15 @@ TEST_CASE("every truncation of a file is a mesh or an error, in every format") {
   mesh.edges = {{0, 8}};
   mesh.maps = {{"weight", std::vector<Real>(9, 0.5)}};
   const TemporaryFolder folder;
-  for (std::size_t f = 0; f < names.size(); ++f) {
-    const fs::path file = folder.path() / ("a." + std::string(names[f]));
+  for (const std::string_view name : names) {
+    const fs::path file = folder.path() / ("a." + std::string(name));
     write_mesh(file, mesh, mesh.vertices);
     const std::string bytes = TemporaryFolder::read(file);
     for (std::size_t length = 0; length < bytes.size(); ++length) {
-      const std::string message = refusal_of(bytes.substr(0, length), static_cast<MeshFormat>(f));
+      const std::string message = refusal_of(bytes.substr(0, length), require_mesh_format(file));
       const bool is_only_a_line_end = bytes.find_first_not_of("\r\n", length) == std::string::npos;
       // OBJ does not say how much is to come.
-      if (message.empty() && names[f] != "obj" && !is_only_a_line_end) FAIL(names[f] << " cut at " << length);
+      if (message.empty() && name != "obj" && !is_only_a_line_end) FAIL(name << " cut at " << length);
       CHECK(message.find('\n') == std::string::npos);
     }
   }

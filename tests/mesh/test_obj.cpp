@@ -24,14 +24,14 @@ const std::string four_vertices = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
 Mesh parsed(const std::string& text) {
   const TemporaryFolder folder;
-  return read_obj(folder.write("a.obj", text));
+  return read_mesh(folder.write("a.obj", text));
 }
 
 /// The message for a text, without the folder in front of the file's name.
 std::string refusal(const std::string& text) {
   const TemporaryFolder folder;
   const fs::path file = folder.write("a.obj", text);
-  const std::string message = error_of([&] { read_obj(file); });
+  const std::string message = error_of([&] { read_mesh(file); });
   const std::string start = folder.path().string() + "/";
   return message.starts_with(start) ? message.substr(start.size()) : message;
 }
@@ -155,7 +155,7 @@ TEST_CASE("words, line ends and continued lines at the edge of every block") {
       ++count;
     }
     const Mesh mesh = parsed(text);
-    CHECK(pliant::parse_obj(text, "a").vertices == mesh.vertices);
+    CHECK(pliant::parse_mesh(text, "a", pliant::require_mesh_format("a.obj")).vertices == mesh.vertices);
     REQUIRE(mesh.vertex_count() == count);
     for (Index v = 0; v < count; ++v) {
       if (row(mesh.vertices, v) != Vec3(v + 0.125, -v - 0.125, 1e-3)) FAIL(v);
@@ -289,13 +289,14 @@ TEST_CASE("a malformed file is refused with file, line and what is wrong") {
 
 TEST_CASE("what is no regular file is refused with its path, and not waited for") {
   const TemporaryFolder folder;
-  const auto message_for = [](const fs::path& path) { return error_of([&] { read_obj(path); }); };
+  const auto message_for = [](const fs::path& path) { return error_of([&] { read_mesh(path); }); };
   CHECK(message_for(folder.path() / "b.obj") == (folder.path() / "b.obj").string() + ": no such file; check the path");
-  CHECK(message_for("").starts_with(": no such file"));
-  CHECK(contains(message_for(folder.path()), ": is a directory;"));
+  fs::create_directory(folder.path() / "folder.obj");
+  CHECK(contains(message_for(folder.path() / "folder.obj"), ": is a directory;"));
   CHECK(contains(message_for(folder.write("file", "") / "b.obj"), ": no such file;"));
-  CHECK(contains(message_for("/dev/zero"), "/dev/zero: is not a regular file;"));
-  const fs::path pipe = folder.path() / "pipe";
+  fs::create_symlink("/dev/zero", folder.path() / "zero.obj");
+  CHECK(contains(message_for(folder.path() / "zero.obj"), "zero.obj: is not a regular file;"));
+  const fs::path pipe = folder.path() / "pipe.obj";
   REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
   CHECK(contains(message_for(pipe), "is not a regular file;"));
 }

@@ -14,11 +14,11 @@ namespace {
 const std::string quad = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
 
 Mesh parsed(const std::string& text) {
-  return parse_mesh(text, "a", MeshFormat::off);
+  return parse_mesh(text, "a", require_mesh_format("x.off"));
 }
 
 std::string refusal(const std::string& text) {
-  return refusal_of(text, MeshFormat::off);
+  return refusal_of(text, require_mesh_format("x.off"));
 }
 
 }  // namespace

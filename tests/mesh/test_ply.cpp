@@ -29,11 +29,11 @@ std::string of_faces(Index count) {
 }
 
 Mesh parsed(const std::string& text) {
-  return parse_mesh(text, "a", MeshFormat::ply);
+  return parse_mesh(text, "a", require_mesh_format("x.ply"));
 }
 
 std::string refusal(const std::string& text) {
-  return refusal_of(text, MeshFormat::ply);
+  return refusal_of(text, require_mesh_format("x.ply"));
 }
 
 /// Numbers as their bytes, in either order.
@@ -199,7 +199,7 @@ TEST_CASE("what is written as PLY reads back, in binary and in text") {
   Mesh mesh = parse_mesh(
       "v 0.1 -0 1e-320\nv 1e308 2 3.3333333333333335\nv 4 5e-5 123456.789\nv 1 1 1\nv 7 7 7\n"
       "vt .1 .7\nvt 0 1\nf -5/1 -4/2 3/1 4/2\nf 1/1 2/2 4/1\nl 1 3 5\n",
-      "a", MeshFormat::obj);
+      "a", require_mesh_format("x.obj"));
   mesh.maps = {{"a b", {1, 2, 3, 4, 0.1}}, {"x", {1, 1, 1, 1, 1}}, {"a_b", {0, 0, 0, 0, 0}}, {"short", {1}}};
   Mesh colors = torus({.major_segments = 3, .minor_segments = 3});
   for (const std::string name : {"red", "green", "blue"}) {

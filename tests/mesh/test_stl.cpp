@@ -39,11 +39,11 @@ std::string text_facet(const std::string& points) {
 }
 
 Mesh parsed(const std::string& text) {
-  return parse_mesh(text, "a", MeshFormat::stl);
+  return parse_mesh(text, "a", require_mesh_format("x.stl"));
 }
 
 std::string refusal(const std::string& text) {
-  return refusal_of(text, MeshFormat::stl);
+  return refusal_of(text, require_mesh_format("x.stl"));
 }
 
 const std::vector<Facet> two_facets = {{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}},

@@ -25,11 +25,11 @@ std::string elements(const std::string& rows, int count) {
 }
 
 Mesh gmsh(const std::string& text) {
-  return parse_mesh(text, "a", MeshFormat::gmsh);
+  return parse_mesh(text, "a", require_mesh_format("x.msh"));
 }
 
 Mesh tetgen(const std::string& text) {
-  return parse_mesh(text, "a", MeshFormat::tetgen);
+  return parse_mesh(text, "a", require_mesh_format("x.ele"));
 }
 
 }  // namespace
@@ -86,13 +86,14 @@ TEST_CASE("what Gmsh holds is written and read back") {
     check_same_elements(once, mesh);
     check_same(written_and_read(once, "b.msh"), once);
   }
-  const Mesh pentagon = parse_mesh("v 0 0 0\nv 1 0 0\nv 2 1 0\nv 1 2 0\nv 0 1 0\nf 1 2 3 4 5\n", "a", MeshFormat::obj);
+  const Mesh pentagon =
+      parse_mesh("v 0 0 0\nv 1 0 0\nv 2 1 0\nv 1 2 0\nv 0 1 0\nf 1 2 3 4 5\n", "a", require_mesh_format("x.obj"));
   CHECK(written_and_read(pentagon, "b.msh").triangles == pentagon.triangles);
 }
 
 TEST_CASE("a malformed .msh file is refused with its place") {
   const auto check = [](const std::string& text, const std::string& start) {
-    const std::string message = refusal_of(text, MeshFormat::gmsh);
+    const std::string message = refusal_of(text, require_mesh_format("x.msh"));
     CAPTURE(message);
     CHECK(message.starts_with(start));
     CHECK(message.find("; ") != std::string::npos);
@@ -144,12 +145,12 @@ TEST_CASE("TetGen's files, numbered from 0 or from 1, in two files or one text")
   folder.write("b.node", from_one);
   CHECK(contains(error_of([&] { read_mesh(folder.path() / "b.node"); }), "b.ele: no such file;"));
   CHECK(contains(error_of([&] { write_mesh(folder.path() / "c.node", mesh, mesh.vertices); }),
-                 "TetGen's files are not written;"));
+                 "tetgen files are read, not written; write .obj"));
 }
 
 TEST_CASE("malformed TetGen files are refused with their place") {
   const auto check = [](const std::string& text, const std::string& start) {
-    const std::string message = refusal_of(text, MeshFormat::tetgen);
+    const std::string message = refusal_of(text, require_mesh_format("x.ele"));
     CAPTURE(message);
     CHECK(message.starts_with(start));
     CHECK(message.find("; ") != std::string::npos);

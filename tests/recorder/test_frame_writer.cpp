@@ -7,7 +7,7 @@
 
 #include "pliant/core/error.h"
 #include "pliant/mesh/shapes.h"
-#include "pliant_io/mesh/obj.h"
+#include "pliant_io/mesh/mesh_file.h"
 #include "pliant_io/recorder/frame_writer.h"
 #include "tests/support/temporary_folder.h"
 
@@ -77,11 +77,11 @@ TEST_CASE("an npy file that cannot be made or written is an output error") {
 TEST_CASE("OBJ frames of one body keep its polygons") {
   const TemporaryFolder folder;
   const auto file = folder.write("quad.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\ng face\nf 1 2 3 4\n");
-  const std::vector<Body> bodies = {{"quad", read_obj(file), 0}};
+  const std::vector<Body> bodies = {{"quad", read_mesh(file), 0}};
   const auto writer = make_obj_writer(folder.path(), bodies);
   writer->add(frame(4, 0));
   writer->add(frame(4, 1));
-  const Mesh second = read_obj(folder.path() / "frame_00001.obj");
+  const Mesh second = read_mesh(folder.path() / "frame_00001.obj");
   CHECK(second.vertices == frame(4, 1));
   CHECK(second.faces.face_count() == 1);
   CHECK(second.groups.at(0).name == "face");
@@ -94,7 +94,7 @@ TEST_CASE("OBJ frames of several bodies are one file with an object each") {
                               {"rope", chain({.links = 2}), 14}};
   const auto writer = make_obj_writer(folder.path(), bodies);
   writer->add(frame(17, 3));
-  const Mesh all = read_obj(folder.path() / "frame_00000.obj");
+  const Mesh all = read_mesh(folder.path() / "frame_00000.obj");
   CHECK(all.vertices == frame(17, 3));
   CHECK(all.triangles.size() == 4 + 12);
   CHECK(all.edges == std::vector<Edge>{{14, 15}, {15, 16}});

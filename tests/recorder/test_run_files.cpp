@@ -7,7 +7,7 @@
 
 #include "pliant/core/error.h"
 #include "pliant/mesh/shapes.h"
-#include "pliant_io/mesh/obj.h"
+#include "pliant_io/mesh/mesh_file.h"
 #include "pliant_io/recorder/recorder.h"
 #include "pliant_io/recorder/run_files.h"
 #include "tests/support/temporary_folder.h"
@@ -67,7 +67,7 @@ TEST_CASE("a run's folder is made, with what stands there from the start on") {
   begin_run(runs, info, simulation);
   CHECK(names_in(runs) == Names{"mesh.obj", "run.json"});
   CHECK(TemporaryFolder::read(runs / "run.json").find("\"outcome\": \"running\"") != std::string::npos);
-  const Mesh mesh = read_obj(runs / "mesh.obj");
+  const Mesh mesh = read_mesh(runs / "mesh.obj");
   CHECK(mesh.vertices == simulation.state().positions);
   CHECK(mesh.triangles.size() == 4);
   CHECK(mesh.edges.size() == 2);

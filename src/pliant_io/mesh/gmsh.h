@@ -1,10 +1,15 @@
 #pragma once
-// Gmsh's .msh out; read_mesh in mesh_file.h reads it.
+// Gmsh's .msh in and out, behind read_mesh and write_mesh in mesh_file.h.
 #include <filesystem>
 
 #include "pliant/mesh/mesh.h"
 
 namespace pliant {
+
+class ByteSource;
+
+/// As MeshFormat::read.
+Mesh read_gmsh(const ByteSource& source);
 
 /// Writes the mesh as write_mesh does (mesh_file.h), as text of version 2.2, with its tetrahedra; without any, its
 /// polygons of up to four corners and its triangles; without those, its edges. Lost: everything else.

@@ -8,9 +8,11 @@
 
 #include <fmt/format.h>
 
+#include "pliant_io/files/detail/byte_source.h"
 #include "pliant_io/mesh/detail/polygon_builder.h"
-#include "pliant_io/mesh/detail/readers.h"
+#include "pliant_io/mesh/detail/tetrahedra.h"
 #include "pliant_io/mesh/detail/text_lexer.h"
+#include "pliant_io/mesh/gmsh.h"
 
 namespace pliant {
 
@@ -36,7 +38,7 @@ class GmshReader {
     if (mesh_.vertex_count() == 0) source_.fail("no $Nodes; give at least one node");
     if (!has_elements_) source_.fail("no $Elements; the file may be cut short");
     polygons_.finish();
-    keep_highest_dimension();
+    keep_highest_dimension(mesh_);
     return std::move(mesh_);
   }
 
@@ -233,15 +235,6 @@ class GmshReader {
     }
     for (const Index corner : corners) polygons_.add_corner(corner);
     return polygons_.finish_face();
-  }
-
-  /// Gmsh saves the borders of what it meshes as elements of a lower dimension.
-  void keep_highest_dimension() {
-    if (!mesh_.tetrahedra.empty()) {
-      mesh_.triangles = {};
-      mesh_.faces = {};
-    }
-    if (!mesh_.tetrahedra.empty() || !mesh_.triangles.empty()) mesh_.edges = {};
   }
 
   const ByteSource& source_;

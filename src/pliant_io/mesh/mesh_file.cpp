@@ -1,64 +1,16 @@
 #include "pliant_io/mesh/mesh_file.h"
 
-#include <algorithm>
-#include <array>
 #include <string>
-#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "pliant/core/error.h"
-#include "pliant_io/mesh/detail/readers.h"
-#include "pliant_io/mesh/gmsh.h"
-#include "pliant_io/mesh/obj.h"
-#include "pliant_io/mesh/off.h"
-#include "pliant_io/mesh/ply.h"
-#include "pliant_io/mesh/stl.h"
+#include "pliant_io/files/detail/byte_source.h"
 
 namespace pliant {
 
 namespace {
-
-constexpr std::array<std::pair<std::string_view, MeshFormat>, 7> extensions{{
-    {".obj", MeshFormat::obj},
-    {".ply", MeshFormat::ply},
-    {".off", MeshFormat::off},
-    {".stl", MeshFormat::stl},
-    {".msh", MeshFormat::gmsh},
-    {".node", MeshFormat::tetgen},
-    {".ele", MeshFormat::tetgen},
-}};
-
-bool is_writable(MeshFormat format) {
-  return format != MeshFormat::tetgen;
-}
-
-std::vector<std::string_view> extensions_where(bool (*holds)(MeshFormat)) {
-  std::vector<std::string_view> found;
-  for (const auto& [extension, format] : extensions) {
-    if (holds(format)) found.push_back(extension.substr(1));
-  }
-  return found;
-}
-
-Mesh read(const ByteSource& source, MeshFormat format) {
-  switch (format) {
-    case MeshFormat::obj:
-      return read_obj(source);
-    case MeshFormat::ply:
-      return read_ply(source);
-    case MeshFormat::off:
-      return read_off(source);
-    case MeshFormat::stl:
-      return read_stl(source);
-    case MeshFormat::gmsh:
-      return read_gmsh(source);
-    case MeshFormat::tetgen:
-      return read_tetgen(source);
-  }
-  source.fail("a format that has no reader; see mesh_file.h");
-}
 
 /// Scales, then turns the file's up axis to +z. Differences from 0 keep zeros positive.
 void place(Mesh& mesh, const ImportOptions& options, std::string_view name) {
@@ -82,55 +34,33 @@ void place(Mesh& mesh, const ImportOptions& options, std::string_view name) {
   }
 }
 
-/// The points and the elements, whichever of the two files is named; as it is written, in capitals or not.
-std::vector<std::filesystem::path> tetgen_files(const std::filesystem::path& path) {
+/// The two files of a format of pairs, whichever is named; as that one is written, in capitals or not.
+std::vector<std::filesystem::path> pair_of(const std::filesystem::path& path, const MeshFormat& format) {
   const std::string extension = path.extension().string();
-  const bool is_points = extension.size() == std::string_view(".node").size();
-  std::string other = is_points ? ".ele" : ".node";
+  const bool is_first = extension.size() == format.extensions[0].size() + 1;
+  std::string other = fmt::format(".{}", format.extensions[is_first ? 1 : 0]);
   if (extension[1] < 'a') {
     for (char& c : other) c = c >= 'a' ? static_cast<char>(c - 'a' + 'A') : c;
   }
   const std::filesystem::path second = std::filesystem::path(path).replace_extension(other);
-  return is_points ? std::vector{path, second} : std::vector{second, path};
+  return is_first ? std::vector{path, second} : std::vector{second, path};
 }
 
-Mesh read_files(const std::vector<std::filesystem::path>& files, MeshFormat format) {
-  if (format != MeshFormat::tetgen) return read(ByteSource(files[0]), format);
-  return read_tetgen(ByteSource(files[0]), ByteSource(files[1]));
+Mesh read_files(const std::vector<std::filesystem::path>& files, const MeshFormat& format) {
+  if (files.size() == 1) return format.read(ByteSource(files[0]));
+  return format.read_pair(ByteSource(files[0]), ByteSource(files[1]));
 }
 
 }  // namespace
 
-MeshFormat require_mesh_format(const std::filesystem::path& path) {
-  if (const auto format = mesh_format(path)) return *format;
-  fail_input(fmt::format("{}: not the extension of a known mesh format; known: .{}", path.string(),
-                         fmt::join(readable_mesh_extensions(), ", .")));
-}
-
-std::optional<MeshFormat> mesh_format(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  const auto* entry = std::ranges::find(extensions, extension, &decltype(extensions)::value_type::first);
-  return entry == extensions.end() ? std::nullopt : std::optional(entry->second);
-}
-
-std::vector<std::string_view> readable_mesh_extensions() {
-  return extensions_where([](MeshFormat) { return true; });
-}
-
-std::vector<std::string_view> writable_mesh_extensions() {
-  return extensions_where(is_writable);
-}
-
 std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& path) {
-  return require_mesh_format(path) == MeshFormat::tetgen ? tetgen_files(path) : std::vector{path};
+  const MeshFormat format = require_mesh_format(path);
+  return format.read_pair != nullptr ? pair_of(path, format) : std::vector{path};
 }
 
-Mesh parse_mesh(std::string_view bytes, std::string_view name, MeshFormat format, const ImportOptions& options) {
+Mesh parse_mesh(std::string_view bytes, std::string_view name, const MeshFormat& format, const ImportOptions& options) {
   check_options(name, options);
-  Mesh mesh = read(ByteSource(bytes, name), format);
+  Mesh mesh = format.read(ByteSource(bytes, name));
   place(mesh, options, name);
   return mesh;
 }
@@ -144,20 +74,12 @@ Mesh read_mesh(const std::filesystem::path& path, const ImportOptions& options) 
 }
 
 void write_mesh(const std::filesystem::path& path, const Mesh& mesh, const Positions& positions) {
-  switch (require_mesh_format(path)) {
-    case MeshFormat::obj:
-      return write_obj(path, mesh, positions);
-    case MeshFormat::ply:
-      return write_ply(path, mesh, positions);
-    case MeshFormat::off:
-      return write_off(path, mesh, positions);
-    case MeshFormat::stl:
-      return write_stl(path, mesh, positions);
-    case MeshFormat::gmsh:
-      return write_gmsh(path, mesh, positions);
-    case MeshFormat::tetgen:
-      fail_input(fmt::format("{}: TetGen's files are not written; write .msh", path.string()));
+  const MeshFormat format = require_mesh_format(path);
+  if (format.write == nullptr) {
+    fail_input(fmt::format("{}: {} files are read, not written; write .{}", path.string(), format.name,
+                           fmt::join(writable_mesh_extensions(), ", .")));
   }
+  format.write(path, mesh, positions);
 }
 
 }  // namespace pliant

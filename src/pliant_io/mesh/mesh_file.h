@@ -2,29 +2,14 @@
 // Meshes from files of every format and into them, chosen by the extension. docs/formats.md says what each one holds.
 #include <array>
 #include <filesystem>
-#include <optional>
 #include <string_view>
 #include <vector>
 
 #include "pliant/core/options.h"
 #include "pliant/mesh/mesh.h"
+#include "pliant_io/mesh/mesh_format.h"
 
 namespace pliant {
-
-/// A file format of meshes. The extensions are .obj, .ply, .off, .stl, .msh of Gmsh, and .node or .ele of TetGen.
-enum class MeshFormat { obj, ply, off, stl, gmsh, tetgen };
-constexpr std::array<std::string_view, 6> choice_names(MeshFormat) {
-  return {"obj", "ply", "off", "stl", "gmsh", "tetgen"};
-}
-
-/// The format that the extension stands for, in capitals or not; none when it stands for no known one.
-std::optional<MeshFormat> mesh_format(const std::filesystem::path& path);
-/// The same. @throws Error (input), listing the known ones
-MeshFormat require_mesh_format(const std::filesystem::path& path);
-
-/// The extensions of files that read_mesh and write_mesh take, without the point.
-std::vector<std::string_view> readable_mesh_extensions();
-std::vector<std::string_view> writable_mesh_extensions();
 
 /// Which axis of a file points up.
 enum class UpAxis { z, y, x };
@@ -34,8 +19,8 @@ constexpr std::array<std::string_view, 3> choice_names(UpAxis) {
 
 /// How the coordinates of a file become meters with +z up.
 struct ImportOptions {
-  Real scale = 1;
-  UpAxis up = UpAxis::z;
+  Real scale = 1;         ///< meters per unit of the file [m], > 0: 0.001 where it counts in millimeters
+  UpAxis up = UpAxis::z;  ///< the file's axis that becomes +z
 
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -61,13 +46,15 @@ Mesh read_mesh(const std::filesystem::path& path, const ImportOptions& options =
 std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& path);
 
 /// The same from bytes in memory, of TetGen the two files one after the other. `name` is what messages call them.
-Mesh parse_mesh(std::string_view bytes, std::string_view name, MeshFormat format, const ImportOptions& options = {});
+Mesh parse_mesh(std::string_view bytes, std::string_view name, const MeshFormat& format,
+                const ImportOptions& options = {});
 
 /// Writes the mesh with `positions` [m] (m × 3) in place of its rest positions, whole or not at all (atomic_file.h), in
 /// the format of the extension: polygons where the mesh came from polygons, else its triangles, else the surface of its
-/// tetrahedra (Gmsh: the tetrahedra themselves), and with them what the format holds. Coordinates stay in meters with
-/// +z up.
-/// @throws Error (input): an extension that is not known, or TetGen's, a count of positions other than the mesh's,
+/// tetrahedra (Gmsh and MEDIT: the tetrahedra themselves), and with them what the format holds. Coordinates stay in
+/// meters with +z up.
+/// @throws Error (input): an extension that is not known or that is only read, a count of positions other than the
+/// mesh's,
 ///   a position that is not finite or that the format cannot hold.
 /// @throws Error (output): the file cannot be written.
 void write_mesh(const std::filesystem::path& path, const Mesh& mesh, const Positions& positions);

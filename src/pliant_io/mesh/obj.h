@@ -1,11 +1,12 @@
 #pragma once
-// Wavefront OBJ in and out.
+// Wavefront OBJ in and out, behind read_mesh and write_mesh in mesh_file.h.
 #include <filesystem>
-#include <string_view>
 
 #include "pliant/mesh/mesh.h"
 
 namespace pliant {
+
+class ByteSource;
 
 /// Reads an OBJ file.
 ///
@@ -16,10 +17,7 @@ namespace pliant {
 /// @throws Error (input) `file:line: what; remedy`: not a regular readable file, a NUL byte, a malformed or non-finite
 ///   number, an index that is 0 or out of range, a face with fewer than three corners or a repeated one, a line with
 ///   fewer than two vertices, too few or too many coordinates, no vertices, more than 2³¹ − 1 of anything.
-Mesh read_obj(const std::filesystem::path& path);
-
-/// The same from bytes in memory. `name` is what messages call them.
-Mesh parse_obj(std::string_view bytes, std::string_view name);
+Mesh read_obj(const ByteSource& source);
 
 /// Writes the mesh with `positions` [m] (m × 3) in place of its rest positions, whole or not at all (atomic_file.h):
 /// the polygons if the mesh came from polygons, else its triangles, else the surface of its tetrahedra; texture

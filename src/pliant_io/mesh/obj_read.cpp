@@ -15,7 +15,6 @@
 #include "pliant_io/mesh/detail/colors.h"
 #include "pliant_io/mesh/detail/face_groups.h"
 #include "pliant_io/mesh/detail/polygon_builder.h"
-#include "pliant_io/mesh/detail/readers.h"
 #include "pliant_io/mesh/detail/text_lexer.h"
 #include "pliant_io/mesh/obj.h"
 
@@ -289,14 +288,6 @@ class ObjReader {
 
 Mesh read_obj(const ByteSource& source) {
   return ObjReader(source).read();
-}
-
-Mesh read_obj(const std::filesystem::path& path) {
-  return read_obj(ByteSource(path));
-}
-
-Mesh parse_obj(std::string_view bytes, std::string_view name) {
-  return read_obj(ByteSource(bytes, name));
 }
 
 }  // namespace pliant

@@ -1,10 +1,15 @@
 #pragma once
-// OFF out; read_mesh in mesh_file.h reads it.
+// OFF in and out, behind read_mesh and write_mesh in mesh_file.h.
 #include <filesystem>
 
 #include "pliant/mesh/mesh.h"
 
 namespace pliant {
+
+class ByteSource;
+
+/// As MeshFormat::read.
+Mesh read_off(const ByteSource& source);
 
 /// Writes the mesh as write_mesh does (mesh_file.h). Kept: polygons, edges (as faces of two corners), colors of
 /// vertices (COFF), texture coordinates where every corner has those of its vertex (STOFF). Lost: groups, materials and

@@ -6,10 +6,11 @@
 
 #include <fmt/format.h>
 
+#include "pliant_io/files/detail/byte_source.h"
 #include "pliant_io/mesh/detail/colors.h"
 #include "pliant_io/mesh/detail/polygon_builder.h"
-#include "pliant_io/mesh/detail/readers.h"
 #include "pliant_io/mesh/detail/text_lexer.h"
+#include "pliant_io/mesh/off.h"
 
 namespace pliant {
 

@@ -1,10 +1,15 @@
 #pragma once
-// PLY out; read_mesh in mesh_file.h reads it.
+// PLY in and out, behind read_mesh and write_mesh in mesh_file.h.
 #include <filesystem>
 
 #include "pliant/mesh/mesh.h"
 
 namespace pliant {
+
+class ByteSource;
+
+/// As MeshFormat::read.
+Mesh read_ply(const ByteSource& source);
 
 /// How the numbers of a PLY file are written: eight bytes each, the least significant first, or their shortest digits.
 /// Both read back to the same bits.

@@ -7,10 +7,11 @@
 
 #include <fmt/format.h>
 
+#include "pliant_io/files/detail/byte_source.h"
 #include "pliant_io/mesh/detail/ply_header.h"
 #include "pliant_io/mesh/detail/ply_rows.h"
 #include "pliant_io/mesh/detail/polygon_builder.h"
-#include "pliant_io/mesh/detail/readers.h"
+#include "pliant_io/mesh/ply.h"
 
 namespace pliant {
 

@@ -1,10 +1,15 @@
 #pragma once
-// STL out; read_mesh in mesh_file.h reads it.
+// STL in and out, behind read_mesh and write_mesh in mesh_file.h.
 #include <filesystem>
 
 #include "pliant/mesh/mesh.h"
 
 namespace pliant {
+
+class ByteSource;
+
+/// As MeshFormat::read.
+Mesh read_stl(const ByteSource& source);
 
 /// Writes the triangles as write_mesh does (mesh_file.h), in binary STL: three points each, in single precision. Lost:
 /// everything else, vertices without a triangle as well.

@@ -10,9 +10,10 @@
 
 #include <fmt/format.h>
 
+#include "pliant_io/files/detail/byte_source.h"
 #include "pliant_io/mesh/detail/polygon_builder.h"
-#include "pliant_io/mesh/detail/readers.h"
 #include "pliant_io/mesh/detail/text_lexer.h"
+#include "pliant_io/mesh/stl.h"
 
 namespace pliant {
 

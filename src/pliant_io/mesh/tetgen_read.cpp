@@ -7,9 +7,11 @@
 #include <fmt/format.h>
 
 #include "pliant/mesh/geometry.h"
+#include "pliant_io/files/detail/byte_source.h"
 #include "pliant_io/mesh/detail/polygon_builder.h"
-#include "pliant_io/mesh/detail/readers.h"
+#include "pliant_io/mesh/detail/tetrahedra.h"
 #include "pliant_io/mesh/detail/text_lexer.h"
+#include "pliant_io/mesh/tetgen.h"
 
 namespace pliant {
 
@@ -128,7 +130,7 @@ Mesh read_tetgen(const ByteSource& points_and_tetrahedra) {
   return reader.take();
 }
 
-Mesh read_tetgen(const ByteSource& points, const ByteSource& tetrahedra) {
+Mesh read_tetgen_pair(const ByteSource& points, const ByteSource& tetrahedra) {
   TetgenReader reader;
   TextLexer point_lexer(points, tetgen_syntax);
   reader.read_points(point_lexer);

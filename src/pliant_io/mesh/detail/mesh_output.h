@@ -50,7 +50,8 @@ class TextOutput {
   template <typename Number>
   requires std::is_arithmetic_v<Number> TextOutput& operator<<(Number number) {
     char digits[32];
-    text_.append(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
+    const char* end = std::to_chars(digits, digits + sizeof digits, number).ptr;
+    text_ += std::string_view(digits, static_cast<std::size_t>(end - digits));
     return *this;
   }
   void end_line();

@@ -1,9 +1,10 @@
+#include "pliant_io/mesh/detail/tetrahedra.h"
+
 #include <string>
 
 #include <fmt/format.h>
 
 #include "pliant/mesh/geometry.h"
-#include "pliant_io/mesh/detail/readers.h"
 
 namespace pliant {
 
@@ -22,6 +23,14 @@ std::string add_tetrahedron(Mesh& mesh, Tetrahedron tetrahedron, std::int64_t fi
   const bool is_inverted = volume(tetrahedron) < 0 && volume(swapped) > 0;
   mesh.tetrahedra.push_back(is_inverted ? swapped : tetrahedron);
   return {};
+}
+
+void keep_highest_dimension(Mesh& mesh) {
+  if (!mesh.tetrahedra.empty()) {
+    mesh.triangles = {};
+    mesh.faces = {};
+  }
+  if (!mesh.tetrahedra.empty() || !mesh.triangles.empty()) mesh.edges = {};
 }
 
 }  // namespace pliant
