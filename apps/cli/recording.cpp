@@ -68,7 +68,22 @@ std::optional<pliant::StepReport> step_unless_given_up(Scene& scene, const fs::p
   }
 }
 
-void simulate(Scene& scene, pliant::Recorder& recorder, const fs::path& checkpoint, const RecordingOptions& options) {
+void count_missed(const pliant::StepReport& report, double tolerance, pliant::MissedTolerance& missed) {
+  if (tolerance == 0 || report.reached_tolerance) return;
+  ++missed.steps;
+  missed.worst_residual = std::max(missed.worst_residual, report.residual);
+}
+
+void print_missed(const pliant::MissedTolerance& missed) {
+  if (missed.steps == 0) return;
+  print_to_stderr(
+      fmt::format("warning: settings.tolerance: missed in {} steps, with up to {:.3g} N left on a vertex; give more "
+                  "`iterations` or a larger tolerance\n",
+                  missed.steps, missed.worst_residual));
+}
+
+void simulate(Scene& scene, pliant::Recorder& recorder, const fs::path& checkpoint, const RecordingOptions& options,
+              pliant::RunInfo& info) {
   std::int64_t step = scene.simulation.state().step;
   Progress progress(step, scene.steps, options.quiet ? Progress::Show::never : Progress::Show::on_terminal);
   Warnings warnings;
@@ -78,6 +93,7 @@ void simulate(Scene& scene, pliant::Recorder& recorder, const fs::path& checkpoi
   while (step < scene.steps && !was_interrupted()) {
     const std::optional<pliant::StepReport> report = step_unless_given_up(scene, checkpoint);
     if (!report) break;
+    count_missed(*report, scene.simulation.settings().tolerance, info.missed_tolerance);
     recorder.record(scene.simulation, *report);
     ++step;
     if (every > 0 && step % every == 0 && step < scene.steps) pliant::write_checkpoint(checkpoint, scene);
@@ -120,7 +136,7 @@ void record_run(Scene& scene, pliant::Recorder& recorder, const fs::path& folder
     info.frames = recorder.frame_count();
   };
   try {
-    simulate(scene, recorder, folder / pliant::checkpoint_name, options);
+    simulate(scene, recorder, folder / pliant::checkpoint_name, options, info);
   } catch (...) {
     count();
     throw;
@@ -180,6 +196,7 @@ int record_scene(Scene& scene, const fs::path& folder, pliant::RunInfo info, con
   info.outcome = interrupted ? Outcome::interrupted : Outcome::ok;
   pliant::end_run(folder, info, scene.simulation);
   if (!options.quiet) print_summary(scene, info, folder);
+  print_missed(info.missed_tolerance);
   return interrupted ? exit_interrupted : 0;
 }
 

@@ -93,6 +93,17 @@ class Run(unittest.TestCase):
         self.assertEqual(info["output"], {"format": "npy", "every": 3, "files": files})
         self.assertEqual(info["used"]["backend"], "eigen")
 
+    def test_a_missed_tolerance_is_told_at_the_end(self):
+        done = self.pliant("run", self.write_scene(), "--out", self.out, "--steps", 7, "--iterations", 1,
+                           "--tolerance", 1e-9, "--quiet")
+        self.assertIn("warning: settings.tolerance: missed in 7 steps", done.stderr)
+        missed = self.run_info()["missed_tolerance"]
+        self.assertEqual(missed["steps"], 7)
+        self.assertGreater(missed["worst_residual"], 1e-9)
+        done = self.pliant("run", self.write_scene(), "--out", self.out, "--steps", 7, "--tolerance", 1e6, "--quiet")
+        self.assertEqual(done.stderr, "")
+        self.assertEqual(self.run_info()["missed_tolerance"], {"steps": 0, "worst_residual": 0})
+
     def test_two_runs_give_the_same_frames_and_replace_each_other(self):
         scene = self.write_scene()
         self.pliant("run", scene, "--out", self.out)

@@ -157,6 +157,20 @@ TEST_CASE("a tolerance ends the iterations early, and the step is converged to i
   CHECK(report.iterations == 7);
 }
 
+TEST_CASE("every step iterates at least once, whatever the tolerance") {
+  Simulation simulation({.tolerance = 1e6, .start = Start::positions});
+  const BodyId cloth = simulation.add_body(grid({.columns = 4, .rows = 4}), Mass::per_vertex(1e-3));
+  simulation.add(cloth, EdgeSpring{});
+  add_gravity(simulation);
+  const Real begin = simulation.state().positions.col(2).mean();
+  for (int step = 0; step < 60; ++step) {
+    const StepReport report = simulation.step();
+    CHECK(report.iterations == 1);
+    CHECK(report.reached_tolerance);
+  }
+  CHECK(simulation.state().positions.col(2).mean() - begin == doctest::Approx(-9.81 / 2).epsilon(0.03));
+}
+
 TEST_CASE("both starts lead to the same converged step, and differ before") {
   const auto run = [](Start start, Index iterations) {
     Simulation simulation = everything({.iterations = iterations, .tolerance = 1e-9, .start = start}, 4);

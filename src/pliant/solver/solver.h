@@ -75,7 +75,7 @@ class Solver {
   void take_substep(State& state, StepReport& report);
   void take_substeps(State& state, StepReport& report);
   Real substep() const { return settings_.time_step / static_cast<Real>(settings_.substeps); }
-  SetUpTimes prepare(const State& state);
+  void prepare(const State& state, StepReport& report);
   void lay_out_groups();
   void choose_order();
   void begin_groups(const State& state);
@@ -87,20 +87,22 @@ class Solver {
   bool stiffness_changed() const;
   [[noreturn]] void give_up(const State& state) const;
   void predict(const State& state);
+  void initial_guess(const State& state);
+  LocalResult local_step(const State& state, StepReport& report);
+  void global_step(const LocalResult& local, StepReport& report);
   void start_from_positions(const State& state);
   void apply_pins(Positions& q) const;
-  void record(const LocalResult& result);
   void check_finite(const State& state) const;
   [[noreturn]] void report_divergence(const State& state) const;
   std::string force_reason(const State& state, Index vertex) const;
-  bool keeps_energy() const { return settings_.energy_projection > 0; }
+  bool projects_energy() const { return settings_.energy_projection > 0; }
   void evaluate_elastic();
   void add_forces(const State& state);
   void begin_energy(const State& state);
   void find_outside_forces(const State& state);
   void count_external_groups();
   void evaluate_end(const State& state);
-  void keep_energy(const State& state);
+  void project_energy(const State& state);
   void commit_energy(State& state);
   void commit(State& state);
   void damp(State& state) const;
@@ -134,8 +136,8 @@ class Solver {
   RigidDamping damping_;
   EnergyProjection energy_;
   EnergyWork energy_work_;
-  State begin_;   // of a step with substeps
-  Real way_ = 1;  // share of the step's way that held vertices have gone with the substep under way
+  State step_start_;           // of a step with substeps
+  Real substep_fraction_ = 1;  // of the way to their targets that pinned vertices have gone with the substep under way
   std::vector<Real> history_;
 };
 

@@ -16,64 +16,69 @@ StepReport Solver::step(State& state) {
   const Stopwatch total;
   StepReport report;
   report.reached_tolerance = true;
-  settings_.substeps == 1 ? take_substep(state, report) : take_substeps(state, report);
+  if (settings_.substeps == 1) {
+    take_substep(state, report);
+  } else {
+    take_substeps(state, report);
+  }
   advance_time(state);
   report.seconds_total = total.seconds();
   return report;
 }
 
 void Solver::take_substep(State& state, StepReport& report) {
-  const Stopwatch preparation;
-  const SetUpTimes set_up = prepare(state);
-  if (set_up.numeric > 0 || report.seconds_factor == 0) report.set_up = set_up;
-  report.seconds_factor += preparation.seconds();
-
-  /* 1-2 */ predict(state);  // s = q + h v + h² M⁻¹ f
-  if (keeps_energy()) begin_energy(state);
-  /* 3   */ settings_.start == Start::prediction ? void(q_ = s_) : start_from_positions(state);
-  apply_pins(q_);
-  bool reached_tolerance = false;
-  /* 4   */ for (Index i = 0; i < settings_.iterations; ++i) {
-    if (stop_ && stop_()) give_up(state);
-    const Stopwatch local;
-    /* 5 */ const LocalResult found = local_step_.run(q_, s_, inertia_weights_, is_pinned_, residual_, *threads_);
-    if (!std::isfinite(found.residual)) report_divergence(state);
-    record(found);
-    report.residual = found.residual;
-    report.seconds_local += local.seconds();
-    report.seconds_projections += found.seconds_projections;
-    reached_tolerance = found.residual <= settings_.tolerance;
-    if (reached_tolerance) break;
-
-    const Stopwatch global;
-    /* 6 */ report.solves += global_step_.move(residual_, found.residual, q_, *threads_);
-    ++report.iterations;
-    report.seconds_global += global.seconds();
+  prepare(state, report);                                 //     factorizes if h, a stiffness or a stencil has changed
+  predict(state);                                         // 1-2 s = a + η b + η² M⁻¹ f
+  if (projects_energy()) begin_energy(state);             //
+  initial_guess(state);                                   // 3   q = s or qₙ, pins at their targets
+  bool reached_tolerance = false;                         //
+  for (Index i = 0; i < settings_.iterations; ++i) {      // 4
+    const LocalResult local = local_step(state, report);  // 5   r = M/η² (s − q) + Σ w SᵀAᵀ (p − z)
+    reached_tolerance = local.residual <= settings_.tolerance;
+    if (reached_tolerance && i > 0) break;  //                   never before the first: s knows no constraint
+    global_step(local, report);             //             6   q ← q + Y⁻¹ r
   }
   report.reached_tolerance = report.reached_tolerance && reached_tolerance;
   check_finite(state);
-  if (keeps_energy()) {
-    keep_energy(state);
-    check_finite(state);
-  }
-  /* 8   */ commit(state);  // v = (q − qₙ)/h, qₙ = q
+  if (projects_energy()) project_energy(state);
+  commit(state);  //                                       8   v = (q − a)/η, qₙ = q
+}
+
+/// Throws when a residual is not finite, and when the step is to be given up.
+LocalResult Solver::local_step(const State& state, StepReport& report) {
+  if (stop_ && stop_()) give_up(state);
+  const Stopwatch watch;
+  const LocalResult local = local_step_.run(q_, s_, inertia_weights_, is_pinned_, residual_, *threads_);
+  if (!std::isfinite(local.residual)) report_divergence(state);
+  if (history_.size() < history_.capacity()) history_.push_back(local.inertia + local.elastic);
+  report.residual = local.residual;
+  report.seconds_local += watch.seconds();
+  report.seconds_projections += local.seconds_projections;
+  return local;
+}
+
+void Solver::global_step(const LocalResult& local, StepReport& report) {
+  const Stopwatch watch;
+  report.solves += global_step_.move(residual_, local.residual, q_, *threads_);
+  ++report.iterations;
+  report.seconds_global += watch.seconds();
 }
 
 void Solver::take_substeps(State& state, StepReport& report) {
-  begin_ = state;
+  step_start_ = state;
   try {
     for (Index i = 0; i < settings_.substeps; ++i) {
-      way_ = static_cast<Real>(i + 1) / static_cast<Real>(settings_.substeps);
-      state.time = begin_.time + static_cast<Real>(i) * substep();
+      substep_fraction_ = static_cast<Real>(i + 1) / static_cast<Real>(settings_.substeps);
+      state.time = step_start_.time + static_cast<Real>(i) * substep();
       take_substep(state, report);
     }
   } catch (...) {
-    state = begin_;
+    state = step_start_;
     forget_prediction();
-    way_ = 1;
+    substep_fraction_ = 1;
     throw;
   }
-  state.time = begin_.time;
+  state.time = step_start_.time;
 }
 
 void Solver::give_up(const State& state) const {
@@ -94,28 +99,33 @@ void Solver::predict(const State& state) {
   }
 }
 
+void Solver::initial_guess(const State& state) {
+  if (settings_.start == Start::prediction) {
+    q_ = s_;
+  } else {
+    start_from_positions(state);
+  }
+  apply_pins(q_);
+}
+
 void Solver::start_from_positions(const State& state) {
   for (Index i = 0; i < vertex_count_; ++i) q_.row(i) = state.positions.row(local_groups_.vertex(i));
 }
 
 void Solver::apply_pins(Positions& q) const {
   for (ConstraintGroup* group : local_groups_.in_use()) {
-    const std::span<const Index> held = group->pinned_vertices();
+    const std::span<const Index> pinned = group->pinned_vertices();
     const std::span<const Real> targets = group->targets();
-    for (std::size_t i = 0; i < held.size(); ++i) {
+    for (std::size_t i = 0; i < pinned.size(); ++i) {
       const Eigen::Map<const Vec3> target(targets.data() + 3 * i);
-      if (way_ == 1) {
-        q.row(held[i]) = target.transpose();
+      if (substep_fraction_ == 1) {
+        q.row(pinned[i]) = target.transpose();
       } else {
-        const Vec3 begin = row(begin_.positions, local_groups_.vertex(held[i]));
-        q.row(held[i]) = (begin + way_ * (target - begin)).transpose();
+        const Vec3 begin = row(step_start_.positions, local_groups_.vertex(pinned[i]));
+        q.row(pinned[i]) = (begin + substep_fraction_ * (target - begin)).transpose();
       }
     }
   }
-}
-
-void Solver::record(const LocalResult& result) {
-  if (history_.size() < history_.capacity()) history_.push_back(result.inertia + result.elastic);
 }
 
 void Solver::commit(State& state) {
@@ -133,7 +143,11 @@ void Solver::commit(State& state) {
     state.velocities.row(v) = (q_.row(i) - from.transpose()) / predicted_step_;
     state.positions.row(v) = q_.row(i);
   }
-  keeps_energy() ? commit_energy(state) : state.energy_debts.clear();
+  if (projects_energy()) {
+    commit_energy(state);
+  } else {
+    state.energy_debts.clear();
+  }
   state.previous_time_step = is_bdf2 ? substep() : 0;
   if (settings_.damping > 0) damp(state);
 }
@@ -161,7 +175,11 @@ Evaluation Solver::evaluate(const State& state) {
   const bool is_new = !groups_laid_out_ || groups_changed();
   const bool is_predicted = predicted_step_ > 0;
   if (!is_predicted || is_new) begin_groups(state);
-  is_new ? lay_out_groups() : local_groups_.sync_parameters();
+  if (is_new) {
+    lay_out_groups();
+  } else {
+    local_groups_.sync_parameters();
+  }
   start_from_positions(state);
   if (!is_predicted) s_ = q_;
   weigh_inertia(state, is_predicted ? predicted_step_ : substep());

@@ -62,7 +62,8 @@ Real largest_eigenvalue(const LowerMatrix& K, const Vector& scale) {
 }  // namespace
 
 SystemInfo Solver::system_info(const State& state) {
-  prepare(state);
+  StepReport unused;
+  prepare(state, unused);
   SystemInfo info;
   const LowerMatrix& matrix = system_matrix_.matrix();
   info.matrix_entries = static_cast<std::int64_t>(matrix.rows.size());

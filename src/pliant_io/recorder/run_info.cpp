@@ -93,6 +93,8 @@ void write_run_info(const std::filesystem::path& path, const RunInfo& info, cons
                     {"time", simulation.state().time},
                     {"frames", info.frames},
                     {"wall_seconds", info.wall_seconds}};
+  json["missed_tolerance"] = {{"steps", info.missed_tolerance.steps},
+                              {"worst_residual", info.missed_tolerance.worst_residual}};
   // Names may hold bytes that are not UTF-8, such as a path's; they must not cost the file.
   write_file_atomically(path, json.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + '\n');
 }

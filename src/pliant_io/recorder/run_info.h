@@ -15,6 +15,12 @@ constexpr std::array<std::string_view, 5> choice_names(Outcome) {
   return {"ok", "diverged", "interrupted", "failed", "running"};
 }
 
+/// Steps whose iterations ended before a tolerance that was asked for was reached.
+struct MissedTolerance {
+  std::int64_t steps = 0;
+  double worst_residual = 0;  ///< largest force left on a vertex in any of them [N], before its last iteration
+};
+
 /// What the simulation does not know about its run.
 struct RunInfo {
   std::string scene;         ///< its name
@@ -25,6 +31,7 @@ struct RunInfo {
   std::int64_t frames = 0;
   std::optional<std::int64_t> resumed_from;  ///< step at which this run went on
   double wall_seconds = 0;
+  MissedTolerance missed_tolerance;  ///< since the start of the run, or since it was resumed
   Outcome outcome = Outcome::running;
   std::string error;  ///< the message when it did not end well
 };

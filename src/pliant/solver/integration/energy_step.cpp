@@ -14,7 +14,7 @@ void Solver::add_forces(const State& state) {
     }
   };
   force_.setZero();
-  if (!keeps_energy()) {
+  if (!projects_energy()) {
     for (Force* force : forces_) force->add_to(force_, state.view(), substep());
     return;
   }
@@ -101,7 +101,7 @@ void Solver::evaluate_end(const State& state) {
   count_external_groups();
 }
 
-void Solver::keep_energy(const State& state) {
+void Solver::project_energy(const State& state) {
   EnergyWork& work = energy_work_;
   const StepForm form(state, settings_.integrator, substep());
   for (Index i = 0; i < vertex_count_; ++i) {
@@ -116,6 +116,7 @@ void Solver::keep_energy(const State& state) {
   energy_.move(end, forces, work.way, inertia_weights_, q_);
   evaluate_end(state);
   energy_.finish(end, outside, work.velocities);
+  check_finite(state);
 }
 
 void Solver::commit_energy(State& state) {
