@@ -12,6 +12,7 @@
 #include "pliant/constraints/position.h"
 #include "pliant/constraints/triangle_strain.h"
 #include "pliant/forces/gravity.h"
+#include "pliant/forces/pressure.h"
 #include "pliant/mesh/shapes.h"
 #include "pliant_io/recorder/recorder.h"
 #include "tests/support/temporary_folder.h"
@@ -88,6 +89,31 @@ TEST_CASE("elastic energy, momenta and residual of a spring drawn apart") {
   CHECK(row.speed_sum == 5);
 }
 
+TEST_CASE("the energies of a row add up to its total, under pressure too") {
+  const TemporaryFolder folder;
+  Simulation simulation;
+  const Mesh tube = torus({});
+  const BodyId body = simulation.add_body(tube, Mass::total(1));
+  simulation.add(body, TriangleStrain{.stiffness = 200}, "skin");
+  simulation.add(body, EdgeSpring{.stiffness = 5}, "springs");
+  simulation.add_force(std::make_unique<Gravity>());
+  simulation.add_force(std::make_unique<Pressure>(tube, 0, PressureOptions{.pressure = 20}));
+  Recorder recorder(folder.path(), nullptr, 1, simulation.group_names());
+  for (int i = 0; i < 5; ++i) recorder.record(simulation, simulation.step());
+  const auto columns = read_columns(TemporaryFolder::read(folder.path() / "measurements.csv"));
+  REQUIRE(columns.at("total").size() == 5);
+  for (std::size_t i = 0; i < 5; ++i) {
+    CHECK(std::abs(columns.at("other_potential")[i]) > 1e-6);  // the volume has changed
+    Real sum = 0;
+    Real size = 0;
+    for (const char* name : {"kinetic", "elastic_skin", "elastic_springs", "gravitational", "other_potential"}) {
+      sum += columns.at(name)[i];
+      size += std::abs(columns.at(name)[i]);
+    }
+    CHECK(std::abs(columns.at("total")[i] - sum) <= 1e-14 * size);
+  }
+}
+
 TEST_CASE("the file has a row for each record, and numbers that read back to the same bits") {
   const TemporaryFolder folder;
   Simulation simulation;
@@ -109,7 +135,7 @@ TEST_CASE("the file has a row for each record, and numbers that read back to the
   REQUIRE(quoted != text.npos);
   text.replace(quoted, 20, "elastic_pins");
   const auto columns = read_columns(text);
-  CHECK(columns.size() == 18);
+  CHECK(columns.size() == 19);
   for (const auto& column : columns) {
     CAPTURE(column.first);
     REQUIRE(column.second.size() == rows.size());
@@ -149,7 +175,7 @@ TEST_CASE("groups that come and go have columns from the start, and 0 where they
   simulation.add(body, EdgeSpring{.stiffness = 5}, "springs");
   step();
   const auto columns = read_columns(TemporaryFolder::read(folder.path() / "measurements.csv"));
-  CHECK(columns.size() == 18);
+  CHECK(columns.size() == 19);
   const std::vector<Real>& of_springs = columns.at("elastic_springs");
   const std::vector<Real>& of_skin = columns.at("elastic_skin");
   REQUIRE(of_springs.size() == 4);

@@ -26,6 +26,7 @@ constexpr std::array before_elastic = {
 };
 constexpr std::array after_elastic = {
     Column{"gravitational", [](const Measurements& row) { return row.gravitational; }},
+    Column{"other_potential", [](const Measurements& row) { return row.other_potential; }},
     Column{"total", [](const Measurements& row) { return row.total; }},
     Column{"speed_sum", [](const Measurements& row) { return row.speed_sum; }},
     Column{"momentum", [](const Measurements& row) { return row.momentum.norm(); }},
@@ -82,7 +83,8 @@ Measurements measure(Simulation& simulation, const StepReport& report) {
   }
   for (const auto& [id, force] : simulation.forces()) {
     const Real potential = force->potential(state.view());
-    if (force->type() == "gravity") row.gravitational += potential;
+    Real& column = force->type() == "gravity" ? row.gravitational : row.other_potential;
+    column += potential;
     row.total += potential;
   }
   check_finite(row);

@@ -17,8 +17,9 @@ struct Measurements {
   Real kinetic = 0;                      ///< Σ m ‖v‖²/2
   std::vector<std::string> groups;       ///< names, in the order of Simulation::groups()
   std::vector<Real> elastic;             ///< of each of these groups
-  Real gravitational = 0;                ///< the potentials of all forces that have one
-  Real total = 0;                        ///< the sum of the energies
+  Real gravitational = 0;                ///< the potential of gravity
+  Real other_potential = 0;              ///< of all other forces that have one: pressure, mouse springs, your own
+  Real total = 0;                        ///< the sum of the energies: kinetic, elastic of all groups, both potentials
   Real speed_sum = 0;                    ///< Σ ‖v‖ [m/s]
   Vec3 momentum = Vec3::Zero();          ///< Σ m v [N·s]
   Vec3 angular_momentum = Vec3::Zero();  ///< Σ m x × v about the origin [N·m·s]
