@@ -206,6 +206,7 @@ void LiveScene::publish() {
   back_.parameters = parameters_;
   back_.statistics = statistics_.means(Clock::now());
   back_.step = simulation.state().step;
+  back_.single_steps = context_.single_steps;
   back_.time_step = simulation.settings().time_step;
   back_.is_playing = context_.is_playing;
   back_.is_behind = context_.is_playing && pacer_.steps_behind() > Pacer::most_behind - 1.5;

@@ -24,6 +24,7 @@ struct Snapshot {
   std::shared_ptr<const std::vector<Parameter>> parameters;
   FrameStatistics::Means statistics;
   std::int64_t step = 0;
+  std::int64_t single_steps = 0;  ///< still to take while paused
   double time_step = 0;
   bool is_playing = false;
   bool is_behind = false;      ///< as far behind the clock as the pacer allows

@@ -33,9 +33,13 @@ void LiveSource::step(int direction) {
   play_command_ = scene_.post(
       [](CommandContext& context) {
         context.is_playing = false;
-        context.single_steps = 1;  // so that a held key queues no backlog
+        ++context.single_steps;
       },
       LiveScene::Kind::steers);
+}
+
+bool LiveSource::is_stepping() const {
+  return snapshot_->single_steps > 0 || snapshot_->commands < play_command_;
 }
 
 void LiveSource::restart(bool keep_values) {

@@ -23,6 +23,7 @@ class LiveSource final : public ViewSource {
   bool is_playing() const override { return is_playing_; }
   void play(bool on) override;
   void step(int direction) override;
+  bool is_stepping() const override;
   void restart(bool keep_values) override;
   void draw_panel() override;
   LiveScene* live() override { return &scene_; }

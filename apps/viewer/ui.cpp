@@ -1,5 +1,9 @@
 #include "viewer/ui.h"
 
+#include <algorithm>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
@@ -17,7 +21,7 @@ bool is_dark(const pliant::Color& background) {
 }  // namespace
 
 Ui::Ui(Window& window, const pliant::Color& background)
-    : context_(ImGui::CreateContext()), ink_(pliant_render::ink_on(background)) {
+    : context_(ImGui::CreateContext()), ink_(pliant_render::ink_on(background)), window_(window) {
   ImGui::SetCurrentContext(context_);
   ImGui::GetIO().IniFilename = nullptr;
   const float scale = window.content_scale();
@@ -27,7 +31,12 @@ Ui::Ui(Window& window, const pliant::Color& background)
   if (pixels_a_unit > 0) ImGui::GetIO().FontGlobalScale = 1 / pixels_a_unit;
   style_.unit = pixels_a_unit > 0 ? scale / pixels_a_unit : scale;
   set_panel_style(is_dark(background), style_.unit);
+  // ImGui looks at the state of the keyboard once a frame and misses a key that is down for less: take() gives it one
+  // change after another instead.
+  glfwSetKeyCallback(window.handle(), nullptr);
+  glfwSetCharCallback(window.handle(), nullptr);
   ImGui_ImplGlfw_InitForOpenGL(window.handle(), true);
+  window.install_key_callbacks();
   ImGui_ImplOpenGL3_Init("#version 330 core");
 }
 
@@ -43,6 +52,35 @@ void Ui::begin() {
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   ImGui::NewFrame();
+  keys_changed_.clear();
+  has_command_waiting_ = false;
+}
+
+bool Ui::take(const KeyEvent& event) {
+  ImGui::SetCurrentContext(context_);
+  GLFWwindow* handle = window_.handle();
+  const bool is_release = event.kind == KeyEvent::Kind::release;
+  const bool is_modifier = event.key >= GLFW_KEY_LEFT_SHIFT && event.key <= GLFW_KEY_RIGHT_SUPER;
+  const bool is_down = std::ranges::find(keys_down_, event.key) != keys_down_.end();
+  if (is_release ? !is_down : !is_modifier && !takes_text()) return true;  // of no use to a panel
+  // In a frame the panels take characters before commands, so nothing may follow a command.
+  if (has_command_waiting_ && !is_release) return false;
+  if (event.kind == KeyEvent::Kind::character) {
+    ImGui_ImplGlfw_CharCallback(handle, event.character);
+    return true;
+  }
+  if (std::ranges::find(keys_changed_, event.key) != keys_changed_.end()) return false;
+  keys_changed_.push_back(event.key);
+  if (is_release) {
+    std::erase(keys_down_, event.key);
+  } else if (!is_down) {
+    keys_down_.push_back(event.key);
+  }
+  const bool has_control = (event.modifiers & GLFW_MOD_CONTROL) != 0;
+  if (!is_release && !is_modifier && (event.key >= GLFW_KEY_ESCAPE || has_control)) has_command_waiting_ = true;
+  const int action = is_release ? GLFW_RELEASE : event.kind == KeyEvent::Kind::repeat ? GLFW_REPEAT : GLFW_PRESS;
+  ImGui_ImplGlfw_KeyCallback(handle, event.key, event.scancode, action, event.modifiers);
+  return true;
 }
 
 void Ui::end() {
@@ -73,7 +111,7 @@ bool Ui::holds_mouse() const {
 }
 
 bool Ui::takes_text() const {
-  return context_->IO.WantTextInput;
+  return context_->ActiveId != 0 && context_->ActiveId == context_->InputTextState.ID;
 }
 
 pliant_render::AnnotationCanvas Ui::canvas(const Vec2f& picture) const {

@@ -19,6 +19,9 @@ class Ui {
   /// Panels and annotations are built between these two; end() draws them onto the framebuffer that is bound.
   void begin();
   void end();
+  /// Passes a key event on to the panels. They see the keyboard in one state per frame: returns false, and takes
+  /// nothing, if the event has to wait for the next frame because the panels would miss it or one before it.
+  bool take(const KeyEvent& event);
   /// Whether a panel covered a place in the last frame.
   bool has_panel_at(const Vec2f& place) const;
   /// Whether a panel is using the mouse, or the keyboard for text.
@@ -40,6 +43,10 @@ class Ui {
   ImFont* font_ = nullptr;
   PanelStyle style_;
   std::uint32_t ink_;
+  Window& window_;
+  std::vector<int> keys_down_;        // as the panels have been told
+  std::vector<int> keys_changed_;     // since the last frame
+  bool has_command_waiting_ = false;  // one of these edits or ends a field, as Backspace or Enter
 };
 
 }  // namespace pliant_viewer

@@ -40,6 +40,8 @@ class ViewSource {
   virtual void play(bool on) = 0;
   /// One step or frame forward, or backward where that is possible.
   virtual void step(int direction) = 0;
+  /// Whether a step that was asked for has not been taken yet.
+  virtual bool is_stepping() const { return false; }
   /// Starts over; `keep_values`: with the values set on the panel.
   virtual void restart(bool keep_values) = 0;
 

@@ -62,6 +62,7 @@ Viewer::Viewer(Window& window, ViewSource& source, ViewerOptions options)
 
 void Viewer::run(const std::function<bool()>& shall_end) {
   while (!window_.wants_to_close() && !shall_end()) turn(idle_turn);
+  window_.hide();
 }
 
 bool Viewer::turn(double most_wait) {

@@ -1,5 +1,6 @@
 #pragma once
 // The window as a whole: handles input and shows a source.
+#include <deque>
 #include <filesystem>
 #include <optional>
 
@@ -41,6 +42,7 @@ class Viewer {
  private:
   // viewer_input.cpp
   void take_input();
+  void take_keys();
   void take_key(const KeyEvent& event);
   MouseInteraction::View mouse_view();
   void toggle_color();
@@ -75,6 +77,7 @@ class Viewer {
   OrbitCamera camera_;
   OrbitCamera first_camera_;
   MouseInteraction interaction_;
+  std::deque<KeyEvent> keys_;  // that the panels and the shortcuts have not taken yet
   AutoRange auto_range_;
   std::optional<pliant_render::Renderer> renderer_;
   std::optional<pliant_render::RenderTarget> target_;

@@ -25,9 +25,7 @@ MouseInteraction::View Viewer::mouse_view() {
 }
 
 void Viewer::take_input() {
-  for (const KeyEvent& event : window_.take_key_events()) {
-    if (!ui_.takes_text()) take_key(event);
-  }
+  take_keys();
   for (const MouseEvent& event : window_.take_mouse_events()) {
     const bool begins = event.kind == MouseEvent::Kind::press || event.kind == MouseEvent::Kind::wheel;
     if (begins && !interaction_.is_busy() && (ui_.has_panel_at(event.place) || ui_.holds_mouse())) continue;
@@ -37,9 +35,29 @@ void Viewer::take_input() {
   interaction_.flush(mouse_view());
 }
 
+/// Gives each key to a field that is being typed into, or else to the shortcuts, in order: what follows the Enter that
+/// ends a field waits until the field has ended.
+void Viewer::take_keys() {
+  for (const KeyEvent& event : window_.take_key_events()) keys_.push_back(event);
+  while (!keys_.empty() && ui_.take(keys_.front())) {
+    const KeyEvent event = keys_.front();
+    keys_.pop_front();
+    const bool is_down = event.kind == KeyEvent::Kind::press || event.kind == KeyEvent::Kind::repeat;
+    if (is_down && !ui_.takes_text()) take_key(event);
+  }
+  if (!keys_.empty()) draws_left_ = std::max(draws_left_, 1);
+}
+
 void Viewer::take_key(const KeyEvent& event) {
+  const bool has_control = (event.modifiers & GLFW_MOD_CONTROL) != 0;
+  const bool has_shift = (event.modifiers & GLFW_MOD_SHIFT) != 0;
+  const bool is_repeated = event.kind == KeyEvent::Kind::repeat;
   LiveScene* live = source_.live();
-  if (event.key == GLFW_KEY_RIGHT || (event.key == GLFW_KEY_S && !event.control)) return source_.step(1);
+  if (event.key == GLFW_KEY_RIGHT || (event.key == GLFW_KEY_S && !has_control)) {
+    // A key that is held asks for no more steps than are taken; each press asks for one.
+    if (!is_repeated || !source_.is_stepping()) source_.step(1);
+    return;
+  }
   if (event.key == GLFW_KEY_LEFT) return source_.step(-1);
   if (event.key == GLFW_KEY_EQUAL || event.key == GLFW_KEY_KP_ADD || event.key == GLFW_KEY_RIGHT_BRACKET) {
     if (live != nullptr) interaction_.set_stiffness(std::min(interaction_.stiffness() * stiffer, 1e9), *live);
@@ -49,14 +67,14 @@ void Viewer::take_key(const KeyEvent& event) {
     if (live != nullptr) interaction_.set_stiffness(std::max(interaction_.stiffness() / stiffer, 1e-3), *live);
     return;
   }
-  if (event.is_repeated) return;
+  if (is_repeated) return;
   switch (event.key) {
     case GLFW_KEY_SPACE:
       return source_.play(!source_.is_playing());
     case GLFW_KEY_R:
-      return source_.restart(!event.shift);
+      return source_.restart(!has_shift);
     case GLFW_KEY_F:
-      return event.shift ? view_as_at_first() : frame_everything();
+      return has_shift ? view_as_at_first() : frame_everything();
     case GLFW_KEY_C:
       return toggle_color();
     case GLFW_KEY_W:
@@ -77,9 +95,6 @@ void Viewer::take_key(const KeyEvent& event) {
       return;
     case GLFW_KEY_ESCAPE:
       is_help_open_ = false;
-      return;
-    case GLFW_KEY_Q:
-      if (event.control) window_.close();
       return;
     default:
       return;

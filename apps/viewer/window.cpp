@@ -111,13 +111,7 @@ void Window::install_callbacks() {
     window.mouse_.push_back(
         {MouseEvent::Kind::wheel, MouseButton::left, cursor_of(handle), static_cast<float>(y), is_shift_down(handle)});
   });
-  glfwSetKeyCallback(window_, [](GLFWwindow* handle, int key, int, int action, int modifiers) {
-    Window& window = window_of(handle);
-    window.touched_ = true;
-    if (action == GLFW_RELEASE) return;
-    window.keys_.push_back(
-        {key, (modifiers & GLFW_MOD_SHIFT) != 0, (modifiers & GLFW_MOD_CONTROL) != 0, action == GLFW_REPEAT});
-  });
+  install_key_callbacks();
   const auto touch = [](GLFWwindow* handle) { window_of(handle).touched_ = true; };
   glfwSetWindowRefreshCallback(window_, touch);
   glfwSetWindowCloseCallback(window_, touch);
@@ -125,12 +119,32 @@ void Window::install_callbacks() {
   glfwSetWindowFocusCallback(window_, [](GLFWwindow* handle, int) { window_of(handle).touched_ = true; });
 }
 
+void Window::install_key_callbacks() {
+  glfwSetKeyCallback(window_, [](GLFWwindow* handle, int key, int scancode, int action, int modifiers) {
+    Window& window = window_of(handle);
+    window.touched_ = true;
+    if (key == GLFW_KEY_Q && action == GLFW_PRESS && (modifiers & GLFW_MOD_CONTROL) != 0) {
+      glfwSetWindowShouldClose(handle, GLFW_TRUE);
+    }
+    const auto kind = action == GLFW_PRESS    ? KeyEvent::Kind::press
+                      : action == GLFW_REPEAT ? KeyEvent::Kind::repeat
+                                              : KeyEvent::Kind::release;
+    window.keys_.push_back({kind, key, scancode, modifiers});
+  });
+  glfwSetCharCallback(window_, [](GLFWwindow* handle, unsigned int character) {
+    Window& window = window_of(handle);
+    window.touched_ = true;
+    window.keys_.push_back({.kind = KeyEvent::Kind::character, .character = character});
+  });
+}
+
 bool Window::wants_to_close() const {
   return glfwWindowShouldClose(window_) == GLFW_TRUE;
 }
 
-void Window::close() {
-  glfwSetWindowShouldClose(window_, GLFW_TRUE);
+void Window::hide() {
+  glfwHideWindow(window_);
+  glfwPollEvents();
 }
 
 Vec2f Window::size() const {

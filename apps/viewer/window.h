@@ -24,12 +24,14 @@ struct MouseEvent {
   bool shift = false;
 };
 
-/// A key that was pressed, or is held down and repeats.
+/// What happened at the keyboard, in the order in which it did. A key that writes something is followed by a character.
 struct KeyEvent {
-  int key = 0;  ///< GLFW_KEY_...
-  bool shift = false;
-  bool control = false;
-  bool is_repeated = false;
+  enum class Kind { press, repeat, release, character };
+  Kind kind = Kind::press;
+  int key = 0;                 ///< GLFW_KEY_..., unless it is a character
+  int scancode = 0;            ///< of the key, as GLFW gives it
+  int modifiers = 0;           ///< GLFW_MOD_... that were down
+  unsigned int character = 0;  ///< its code point
 };
 
 class Window {
@@ -44,8 +46,10 @@ class Window {
   Window& operator=(const Window&) = delete;
 
   GLFWwindow* handle() const { return window_; }
+  /// Whether the user has closed the window: by its button, or by Ctrl + Q, whatever else has the keyboard.
   bool wants_to_close() const;
-  void close();
+  /// Takes the window off the screen, which may have to wait for a step before its program ends.
+  void hide();
 
   Vec2f size() const;                           ///< in window units, as the mouse is measured
   std::array<int, 2> framebuffer_size() const;  ///< in pixels; 0 while it is minimized
@@ -65,6 +69,8 @@ class Window {
   std::vector<KeyEvent> take_key_events();
   bool was_touched();
   void swap();
+  /// Queues key events, and leaves them to nobody else; to be called again by whoever has let others set callbacks.
+  void install_key_callbacks();
 
  private:
   void install_callbacks();
