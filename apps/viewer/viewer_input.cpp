@@ -45,7 +45,7 @@ void Viewer::take_keys() {
     const bool is_down = event.kind == KeyEvent::Kind::press || event.kind == KeyEvent::Kind::repeat;
     if (is_down && !ui_.takes_text()) take_key(event);
   }
-  if (!keys_.empty()) draws_left_ = std::max(draws_left_, 1);
+  if (!keys_.empty()) draws_left_ = std::max(draws_left_, 2);  // this picture, and one without a wait
 }
 
 void Viewer::take_key(const KeyEvent& event) {

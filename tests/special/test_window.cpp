@@ -100,6 +100,13 @@ struct Desk {
     }
     throw std::logic_error("no such parameter");
   }
+  /// Turns a slider into a field, which takes what is typed from then on.
+  void type_into(const std::string& key) {
+    const auto rect = source.parameter_panel().place_of(key).value();
+    move({(rect[0] + rect[2]) / 2, (rect[1] + rect[3]) / 2});
+    xdotool("keydown ctrl click 1 keyup ctrl");
+    turns(4);
+  }
   /// Lets the sheet hang still; it goes on in real time.
   void settle() {
     source.live()->post([](CommandContext& context) { context.pacer.set_speed(Pacer::unlimited); });
@@ -226,6 +233,29 @@ TEST_CASE("a slider changes what it stands for, and a restart keeps that") {
   desk.turn_until([&] { return desk.parameter(name) == 20; });
   // Beside the sliders nothing of this has turned the camera or taken hold of the sheet.
   CHECK(desk.shown().pins.size() == 2);
+}
+
+TEST_CASE("keys that come between two pictures are neither lost nor taken for others") {
+  Desk desk;
+  desk.key("space");
+  desk.turn_until([&] { return !desk.shown().is_playing; });
+  const std::int64_t step = desk.shown().step;
+  xdotool("key s s s");  // nobody looks until it is over
+  desk.turn_until([&] { return desk.shown().step >= step + 3; });
+  CHECK(desk.shown().step == step + 3);
+  const std::string name = "settings.iterations";
+  desk.type_into(name);
+  xdotool("key 3 BackSpace 4 5 Return space");
+  desk.turn_until([&] { return desk.shown().is_playing; });  // the space after the Return that ends the field
+  CHECK(desk.parameter(name) == 45);
+}
+
+TEST_CASE("Ctrl+Q closes the window while a field has the keyboard") {
+  Desk desk;
+  desk.type_into("settings.iterations");
+  CHECK_FALSE(desk.window.wants_to_close());
+  desk.key("ctrl+q");
+  CHECK(desk.window.wants_to_close());
 }
 
 TEST_CASE("the camera turns, moves, nears, and frames everything again") {

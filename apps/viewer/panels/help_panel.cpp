@@ -1,5 +1,6 @@
 #include "viewer/panels/help_panel.h"
 
+#include <algorithm>
 #include <array>
 #include <span>
 
@@ -32,13 +33,21 @@ constexpr std::array<Key, 6> appearance_keys = {Key{"C", "color by the next quan
                                                 Key{"Tab", "hide or show the panel"},
                                                 Key{"H or F1", "this help"}};
 
-void draw_keys(const char* title, std::span<const Key> keys, float column) {
+/// What a key does stands in a column that begins at `column` and ends at `right`, as all text does.
+void draw_keys(const char* title, std::span<const Key> keys, float column, float right) {
   ImGui::Spacing();
   ImGui::TextDisabled("%s", title);
   for (const Key& key : keys) {
+    const float top = ImGui::GetCursorPosY();
+    ImGui::PushTextWrapPos(column);
     ImGui::TextUnformatted(key.key);
-    ImGui::SameLine(column);
+    ImGui::PopTextWrapPos();
+    const float below = ImGui::GetCursorPosY();
+    ImGui::SetCursorPos({column + ImGui::GetStyle().ItemSpacing.x, top});
+    ImGui::PushTextWrapPos(right);
     ImGui::TextUnformatted(key.what);
+    ImGui::PopTextWrapPos();
+    ImGui::SetCursorPosY(std::max(below, ImGui::GetCursorPosY()));
   }
 }
 
@@ -53,12 +62,14 @@ bool draw_help(bool is_live, const Vec2f& picture, const PanelStyle& style) {
   ImGui::Begin("Help", &is_open,
                ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoNav);
-  const float column = 190 * style.unit;
-  if (is_live) draw_keys("the bodies", body_keys, column);
-  draw_keys("the camera", camera_keys, column);
-  draw_keys("time", is_live ? std::span<const Key>(live_keys) : std::span<const Key>(run_keys), column);
-  draw_keys("the picture", appearance_keys, column);
-  draw_keys("the program", std::array{Key{"Ctrl + Q", "end it"}}, column);
+  const ImGuiStyle& spaces = ImGui::GetStyle();
+  const float right = picture.x() - spaces.WindowPadding.x - spaces.ScrollbarSize;
+  const float column = std::min(182 * style.unit, 0.4F * right);
+  if (is_live) draw_keys("the bodies", body_keys, column, right);
+  draw_keys("the camera", camera_keys, column, right);
+  draw_keys("time", is_live ? std::span<const Key>(live_keys) : std::span<const Key>(run_keys), column, right);
+  draw_keys("the picture", appearance_keys, column, right);
+  draw_keys("the program", std::array{Key{"Ctrl + Q", "end it"}}, column, right);
   ImGui::Spacing();
   if (ImGui::Button("Close")) is_open = false;
   ImGui::End();

@@ -15,9 +15,9 @@ std::string milliseconds(double seconds) {
   return fmt::format("{:.{}f} ms", ms, ms < 1 ? 3 : ms < 10 ? 2 : ms < 100 ? 1 : 0);
 }
 
-void row(const char* label, const std::string& value, const char* help = "") {
+void row(const char* label, const std::string& value, const std::string& help = {}) {
   row_label(label, help);
-  ImGui::TextUnformatted(value.c_str());
+  wrapped_text(value);
 }
 
 /// "1.00 × real time", and whether that is less than was asked for.
@@ -55,11 +55,10 @@ void LiveSource::draw_pace() {
       "global: triangular solves\nfactor, after changes of stiffness, pins, time step: {:.3g}\nforces, prediction and "
       "others: {:.3g}",
       1e3 * statistics.factor, 1e3 * rest);
-  row_label("phases", help);
   const std::string phases = statistics.total > 0 ? fmt::format("local {:.3g}, global {:.3g} ms",
                                                                 1e3 * statistics.local, 1e3 * statistics.global)
                                                   : "-";
-  ImGui::TextDisabled("%s", phases.c_str());
+  row("phases", phases, help);
   row_label("speed", "simulated seconds in a second, where the machine can; Ctrl + click: type a number");
   double speed = speed_;
   constexpr double slowest = 0.01, fastest = 10;

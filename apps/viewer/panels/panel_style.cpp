@@ -1,5 +1,6 @@
 #include "viewer/panels/panel_style.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <imgui.h>
@@ -81,21 +82,25 @@ bool section_header(const char* title, bool is_open_at_first) {
 
 void row_label(const std::string& label, const std::string& help) {
   ImGui::AlignTextToFramePadding();
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float room = label_share * ImGui::GetWindowWidth() - ImGui::GetStyle().WindowPadding.x - 3;
-  ImGui::PushClipRect(at, {at.x + room, at.y + ImGui::GetFrameHeight()}, true);
-  ImGui::TextUnformatted(label.c_str());
-  ImGui::PopClipRect();
-  const bool is_cut = ImGui::GetItemRectSize().x > room;
-  explain(is_cut ? label + (help.empty() ? "" : "\n") + help : help);
-  ImGui::SameLine(label_share * ImGui::GetWindowWidth());
+  const float widget = label_share * ImGui::GetWindowWidth();
+  const bool fits = ImGui::GetCursorPosX() + ImGui::CalcTextSize(label.c_str()).x < widget - 3;
+  wrapped_text(label);
+  explain(help);
+  if (fits) ImGui::SameLine(widget);
   ImGui::SetNextItemWidth(-1);
+}
+
+void wrapped_text(const std::string& text) {
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
 }
 
 void explain(const std::string& help) {
   if (help.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
   ImGui::BeginTooltip();
-  ImGui::PushTextWrapPos(24 * ImGui::GetFontSize());
+  const float most = ImGui::GetIO().DisplaySize.x - 4 * ImGui::GetStyle().WindowPadding.x;
+  ImGui::PushTextWrapPos(std::min(24 * ImGui::GetFontSize(), most));
   ImGui::TextUnformatted(help.c_str());
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();

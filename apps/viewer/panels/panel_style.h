@@ -14,8 +14,12 @@ void set_panel_style(bool is_dark, float unit);
 /// A printf format for a number of about this size with its unit, without an exponent where possible.
 std::string number_format(double number, const std::string& unit);
 
-/// Draws the label on the left of a row; the widget that follows takes the rest. `help` is the label's tooltip.
+/// Draws the label on the left of a row; the widget that follows takes the rest, or the next line where the label is
+/// too long for that. `help` is the label's tooltip.
 void row_label(const std::string& label, const std::string& help);
+
+/// Text that continues on a new line where the panel is too narrow for it.
+void wrapped_text(const std::string& text);
 
 /// A heading that folds its section; returns whether the section is unfolded.
 bool section_header(const char* title, bool is_open_at_first = true);

@@ -9,7 +9,7 @@ namespace pliant_viewer {
 
 void Playback::draw_panel() {
   row_label("time", "");
-  ImGui::TextUnformatted(fmt::format("{:.2f} of {:.2f} s", time(place_), time(count() - 1)).c_str());
+  wrapped_text(fmt::format("{:.2f} of {:.2f} s", time(place_), time(count() - 1)));
   row_label("frame", "");
   ImGui::TextUnformatted(fmt::format("{} of {}", place_ + 1, count()).c_str());
   row_label("speed", "seconds of the run in a second; Ctrl + click: type a number");
