@@ -1,8 +1,11 @@
 # Every third-party package, once.
 
-# What the library links, and with it every program that uses the installed library: pliantConfig.cmake makes the same
-# calls. Eigen and Threads are part of the interface; fmt and zlib are only linked.
-set(pliant_library_packages "Eigen3 3.4" "fmt 9" "Threads" "ZLIB")
+# What the algorithm links, and with it every program that uses the installed library: pliantConfig.cmake makes the same
+# calls. Eigen and Threads are part of the interface; fmt is only linked.
+set(pliant_library_packages "Eigen3 3.4" "fmt 9" "Threads")
+
+# What pliant::io links besides.
+set(pliant_io_packages "ZLIB")
 
 # CHOLMOD and OpenBLAS. CHOLMOD's Supernodal, Modify and MatrixOps modules are under the GPL (the others under the
 # LGPL), so a program that is linked with this back end and given to others falls under the GPL. Without it Pliant
@@ -15,13 +18,19 @@ if(PLIANT_CHOLMOD)
 endif()
 message(STATUS "Pliant: CHOLMOD back end: ${PLIANT_CHOLMOD}")
 
-foreach(package IN LISTS pliant_library_packages)
+set(needed_packages ${pliant_library_packages})
+if(PLIANT_BUILD_IO)
+  list(APPEND needed_packages ${pliant_io_packages})
+endif()
+foreach(package IN LISTS needed_packages)
   separate_arguments(package UNIX_COMMAND "${package}")
   find_package(${package} REQUIRED)
 endforeach()
 
-# Headers that the library's own sources include; nothing of them shows in the interface.
-find_package(nlohmann_json 3.11 REQUIRED)
+# Headers that pliant::io's own sources include; nothing of them shows in the interface.
+if(PLIANT_BUILD_IO)
+  find_package(nlohmann_json 3.11 REQUIRED)
+endif()
 
 if(PLIANT_BUILD_CLI)
   find_package(CLI11 2.1 REQUIRED)

@@ -5,11 +5,18 @@ include(GNUInstallDirs)
 set(PLIANT_SCENES_INSTALL_DIR "${CMAKE_INSTALL_DATADIR}/pliant/scenes")
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/pliant")
 
-install(TARGETS pliant pliant_io EXPORT pliantTargets INCLUDES DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
+set(header_folders "${PROJECT_SOURCE_DIR}/src/pliant" "${PROJECT_BINARY_DIR}/generated/pliant")
+install(TARGETS pliant EXPORT pliantTargets INCLUDES DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
+install(EXPORT pliantTargets NAMESPACE pliant:: DESTINATION "${package_dir}")
+if(PLIANT_BUILD_IO)
+  list(APPEND header_folders "${PROJECT_SOURCE_DIR}/src/pliant_io")
+  install(TARGETS pliant_io EXPORT pliantIoTargets INCLUDES DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
+  install(EXPORT pliantIoTargets NAMESPACE pliant:: DESTINATION "${package_dir}")
+endif()
 if(PLIANT_BUILD_CLI)
   install(TARGETS pliant_cli)
 endif()
-install(DIRECTORY "${PROJECT_SOURCE_DIR}/src/pliant" "${PROJECT_SOURCE_DIR}/src/pliant_io" "${PROJECT_BINARY_DIR}/generated/pliant"
+install(DIRECTORY ${header_folders}
   DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" FILES_MATCHING PATTERN "*.h" PATTERN "detail" EXCLUDE)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/scenes/" DESTINATION "${PLIANT_SCENES_INSTALL_DIR}")
 
@@ -17,10 +24,13 @@ set(PLIANT_FIND_DEPENDENCIES "")
 foreach(package IN LISTS pliant_library_packages)
   string(APPEND PLIANT_FIND_DEPENDENCIES "find_dependency(${package})\n")
 endforeach()
+set(PLIANT_FIND_IO_PACKAGES "")
+foreach(package IN LISTS pliant_io_packages)
+  string(APPEND PLIANT_FIND_IO_PACKAGES "find_package(${package} QUIET)\n")
+endforeach()
 configure_package_config_file(cmake/pliantConfig.cmake.in "${PROJECT_BINARY_DIR}/pliantConfig.cmake"
   INSTALL_DESTINATION "${package_dir}" PATH_VARS PLIANT_SCENES_INSTALL_DIR)
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/pliantConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
-install(EXPORT pliantTargets NAMESPACE pliant:: DESTINATION "${package_dir}")
 install(FILES
   "${PROJECT_BINARY_DIR}/pliantConfig.cmake" "${PROJECT_BINARY_DIR}/pliantConfigVersion.cmake"
   "${PROJECT_SOURCE_DIR}/cmake/FindCHOLMOD.cmake"

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Installs a finished build to a place of its own, then builds and runs examples/consumer against what was installed.
+# Installs a finished build to a place of its own, then builds and runs examples/consumer against what was installed; then
+# builds and installs the algorithm alone, with headers in the way that refuse JSON and zlib, and examples/algorithm_only.
 #   scripts/check_install.sh [PRESET]   release when none is given; it must have been built
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -8,9 +9,24 @@ preset="${1:-release}"
 work="$(mktemp -d)"
 trap 'rm -rf "$work"' EXIT
 cmake --install "build/$preset" --prefix "$work/prefix" >"$work/install.log"
-cp -r examples/consumer "$work/source" # away from this tree, so that nothing but the installed package is found
-cmake -S "$work/source" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$work/prefix"
-cmake --build "$work/build"
-(cd "$work/build" && ./consumer)
+
+# Builds and runs an example against what was installed under a prefix, away from this tree, so that nothing else is found.
+#   run_example NAME PREFIX [CMAKE_OPTION...]
+run_example() {
+  cp -r "examples/$1" "$work/$1"
+  cmake -S "$work/$1" -B "$work/$1/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$2" "${@:3}"
+  cmake --build "$work/$1/build"
+  (cd "$work/$1/build" && "./$1")
+}
+run_example consumer "$work/prefix"
 (cd "$work" && prefix/bin/pliant --version)
-echo "The installed package works."
+
+mkdir -p "$work/refused/nlohmann"
+echo '#error "the algorithm needs no JSON"' >"$work/refused/nlohmann/json.hpp"
+echo '#error "the algorithm needs no zlib"' >"$work/refused/zlib.h"
+without_files=(-DCMAKE_CXX_FLAGS="-I$work/refused" -DCMAKE_DISABLE_FIND_PACKAGE_ZLIB=ON -DCMAKE_DISABLE_FIND_PACKAGE_nlohmann_json=ON)
+cmake --preset "$preset" -B "$work/algorithm" -DPLIANT_BUILD_IO=OFF "${without_files[@]}"
+cmake --build "$work/algorithm"
+cmake --install "$work/algorithm" --prefix "$work/algorithm/prefix" >>"$work/install.log"
+run_example algorithm_only "$work/algorithm/prefix" "${without_files[@]}"
+echo "The installed package works, and so does the algorithm alone."
