@@ -138,7 +138,7 @@ TEST_CASE("pins are set, moved and taken away, those of the scene as well") {
   steps(session, 20);
   CHECK((position(session, 5) - held).norm() > 1e-3F);
 
-  // The scene moves this one from .5 s on; a hand takes it over.
+  // The scene moves this one from 0.5 s on; the user takes it over.
   session.move_pin(132, {0, -0.5F, 1});
   steps(session, 60);
   CHECK((position(session, 132) - Vec3f(0, -0.5F, 1)).norm() < 1e-5F);

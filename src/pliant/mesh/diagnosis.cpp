@@ -38,9 +38,9 @@ class SpreadOf {
   std::int64_t count_ = 0;
 };
 
-class Examination {
+class MeshChecker {
  public:
-  explicit Examination(Mesh mesh) : mesh_(std::move(mesh)) {}
+  explicit MeshChecker(Mesh mesh) : mesh_(std::move(mesh)) {}
 
   Diagnosis run() {
     count();
@@ -349,7 +349,7 @@ const Defect* Diagnosis::find(DefectKind kind) const {
 }
 
 Diagnosis diagnose(Mesh mesh) {
-  return Examination(std::move(mesh)).run();
+  return MeshChecker(std::move(mesh)).run();
 }
 
 }  // namespace pliant
