@@ -202,7 +202,7 @@ TEST_CASE("the system matrix is M/h² plus the sum of w SᵀAᵀAS") {
       expected(held, held) = diagonal;
     }
   }
-  system.sum(masses, time_step, groups, is_pinned);
+  system.assemble(masses, time_step, groups, is_pinned);
   CHECK((dense_of(system.matrix()) - expected).cwiseAbs().maxCoeff() < 1e-12 * expected.maxCoeff());
 }
 

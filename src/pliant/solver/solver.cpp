@@ -84,7 +84,7 @@ void Solver::prepare(const State& state, StepReport& report) {
   begin_groups(state);
   const Stopwatch watch;
   if (!groups_laid_out_ || groups_changed()) {
-    lay_out_groups();
+    build_layout();
     times.layout = watch.seconds();
   } else {
     local_groups_.sync_parameters();
@@ -111,7 +111,7 @@ void Solver::choose_order() {
   local_step_.set_groups(vertex_count_, groups_);
 }
 
-void Solver::lay_out_groups() {
+void Solver::build_layout() {
   s_ = local_groups_.in_simulation_order(s_);
   choose_order();
   s_ = local_groups_.in_local_order(s_);
@@ -161,7 +161,7 @@ void Solver::factorize(const State& state, SetUpTimes& times) {
   for (std::size_t g = 0; g < groups_.size(); ++g) stamps_[g].stiffness = groups_[g]->stiffness();
   factor_step_ = 0;  // until this succeeds
   weigh_inertia(state, step);
-  system_matrix_.sum(masses_, step, local_groups_.in_use(), is_pinned_);
+  system_matrix_.assemble(masses_, step, local_groups_.in_use(), is_pinned_);
   times.assembly = watch.lap();
   if (!pattern_analyzed_) global_step_.analyze(system_matrix_.matrix());
   pattern_analyzed_ = true;

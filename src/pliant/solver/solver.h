@@ -65,7 +65,7 @@ class Solver {
   /// What the energy projection works with, in the order of the local groups, but for what has that of the simulation.
   /// Empty where it is not asked for.
   struct EnergyWork {
-    Positions velocities, elastic_forces, outside, not_conservative, way;
+    Positions velocities, elastic_forces, outside, not_conservative, direction;
     Positions applied, end_positions, end_velocities, end_force;  // order of the simulation
     std::vector<Real> elastic;                                    // of each part
     std::vector<Real> debts, no_weights, slot;
@@ -76,7 +76,7 @@ class Solver {
   void take_substeps(State& state, StepReport& report);
   Real substep() const { return settings_.time_step / static_cast<Real>(settings_.substeps); }
   void prepare(const State& state, StepReport& report);
-  void lay_out_groups();
+  void build_layout();
   void choose_order();
   void begin_groups(const State& state);
   void start_threads(Index asked);

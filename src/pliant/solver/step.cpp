@@ -88,7 +88,7 @@ void Solver::give_up(const State& state) const {
 
 void Solver::predict(const State& state) {
   predicted_step_ = 0;  // until commit: s is of a step that may yet be refused
-  const StepForm form(state, settings_.integrator, substep());
+  const IntegratorCoefficients form(state, settings_.integrator, substep());
   const Real h = form.inertia_step();
   weigh_inertia(state, h);
   add_forces(state);
@@ -130,7 +130,7 @@ void Solver::apply_pins(Positions& q) const {
 
 void Solver::commit(State& state) {
   const bool is_bdf2 = settings_.integrator == Integrator::bdf2;
-  const StepForm form(state, settings_.integrator, substep());
+  const IntegratorCoefficients form(state, settings_.integrator, substep());
   predicted_step_ = form.inertia_step();
   if (is_bdf2) make_room_for_history(state);
   for (Index i = 0; i < vertex_count_; ++i) {
@@ -176,7 +176,7 @@ Evaluation Solver::evaluate(const State& state) {
   const bool is_predicted = predicted_step_ > 0;
   if (!is_predicted || is_new) begin_groups(state);
   if (is_new) {
-    lay_out_groups();
+    build_layout();
   } else {
     local_groups_.sync_parameters();
   }

@@ -83,7 +83,8 @@ SystemInfo Solver::system_info(const State& state) {
   std::ranges::sort(info.free_parts, {}, &FreePart::first_vertex);
 
   SystemMatrix elastic = system_matrix_;
-  elastic.sum(masses_, std::numeric_limits<Real>::infinity(), local_groups_.in_use(), is_pinned_);  // M/h² vanishes
+  elastic.assemble(masses_, std::numeric_limits<Real>::infinity(), local_groups_.in_use(),
+                   is_pinned_);  // M/h² vanishes
   Vector scale(vertex_count_);
   for (Index i = 0; i < vertex_count_; ++i) scale[i] = is_pinned_[at(i)] ? 0 : 1 / std::sqrt(masses_[at(i)]);
   info.fastest_frequency = std::sqrt(largest_eigenvalue(elastic.matrix(), scale));

@@ -103,8 +103,8 @@ SystemMatrix::UnitMatrix SystemMatrix::unit_matrix(const ConstraintGroup& group,
   return unit;
 }
 
-void SystemMatrix::sum(std::span<const Real> masses, Real time_step, std::span<const ConstraintGroup* const> groups,
-                       std::span<const char> is_pinned) {
+void SystemMatrix::assemble(std::span<const Real> masses, Real time_step,
+                            std::span<const ConstraintGroup* const> groups, std::span<const char> is_pinned) {
   std::ranges::fill(matrix_.values, Real(0));
   const Index m = matrix_.size();
   for (Index i = 0; i < m; ++i) {

@@ -25,8 +25,8 @@ class SystemMatrix {
   bool set_groups(Index vertex_count, std::span<const ConstraintGroup* const> groups);
 
   /// Sums the matrix for these masses [kg], this time step [s] and the groups' stiffnesses.
-  void sum(std::span<const Real> masses, Real time_step, std::span<const ConstraintGroup* const> groups,
-           std::span<const char> is_pinned);
+  void assemble(std::span<const Real> masses, Real time_step, std::span<const ConstraintGroup* const> groups,
+                std::span<const char> is_pinned);
 
   const LowerMatrix& matrix() const { return matrix_; }
 

@@ -54,8 +54,8 @@ RigidMotion EnergyProjection::rigid_motion(std::size_t part, const Positions& po
 }
 
 /// Σ m/2 ‖v − v_rigid‖² [J]
-Real EnergyProjection::vibration(std::size_t part, const RigidMotion& rigid, const Positions& positions,
-                                 const Positions& velocities) const {
+Real EnergyProjection::non_rigid_energy(std::size_t part, const RigidMotion& rigid, const Positions& positions,
+                                        const Positions& velocities) const {
   Real energy = 0;
   for (const Index v : parts_.part(part)) {
     if (is_pinned_[at(v)]) continue;
@@ -72,7 +72,7 @@ void EnergyProjection::begin(const StepEnd& begin, std::span<const Real> masses,
   for (std::size_t p = 0; p < parts_.count(); ++p) {
     const RigidMotion rigid = rigid_motion(p, positions_, velocities_);
     Balance& balance = balances_[p];
-    balance.target = begin.elastic[p] + vibration(p, rigid, positions_, velocities_) +
+    balance.target = begin.elastic[p] + non_rigid_energy(p, rigid, positions_, velocities_) +
                      turning_energy(rigid.inertia, rigid.angular_momentum);
     balance.center = rigid.center;
     balance.velocity = rigid.velocity;
@@ -96,14 +96,14 @@ EnergyProjection::Work EnergyProjection::outside_work(std::size_t part, const Ri
   const Vec3 shift = rigid.center - balance.center;
   Work work;
   for (const Index v : parts_.part(part)) {
-    const Vec3 way = row(end.positions, v) - row(positions_, v);
+    const Vec3 displacement = row(end.positions, v) - row(positions_, v);
     if (is_pinned_[at(v)]) {
-      work.add(-(row(elastic_forces_, v) + row(end.elastic_forces, v)).dot(way) / 2);
+      work.add(-(row(elastic_forces_, v) + row(end.elastic_forces, v)).dot(displacement) / 2);
       continue;
     }
     const Vec3 force = row(outside.all, v);
-    work.add(force.dot(way - shift));
-    work.braked -= std::min(Real(0), row(outside.not_conservative, v).dot(way - shift));
+    work.add(force.dot(displacement - shift));
+    work.braked -= std::min(Real(0), row(outside.not_conservative, v).dot(displacement - shift));
     if (!is_free_[part]) continue;
     const Vec3 arm = (row(positions_, v) + row(end.positions, v) - balance.center - rigid.center) / 2;
     work.torque += arm.cross(force);
@@ -115,7 +115,7 @@ void EnergyProjection::balance_part(std::size_t part, const StepEnd& end, const 
                                     Real share) {
   const RigidMotion rigid = rigid_motion(part, end.positions, end.velocities);
   const Work work = outside_work(part, rigid, end, outside);
-  const Real energy = end.elastic[part] + vibration(part, rigid, end.positions, end.velocities) +
+  const Real energy = end.elastic[part] + non_rigid_energy(part, rigid, end.positions, end.velocities) +
                       turning_energy(rigid.inertia, rigid.angular_momentum);
   Balance& balance = balances_[part];
   balance.noise = rounding * (balance.target + work.size + energy);
@@ -159,30 +159,30 @@ Vec3 EnergyProjection::allowed_momentum(std::size_t part, const RigidMotion& rig
   const Real linear = rigid.turning.dot(change);
   if (square + linear <= room + balance.noise) return balance.angular_momentum;
   if (!(room > 0)) return rigid.angular_momentum;
-  const Real way = 2 * room / (linear + std::sqrt(linear * linear + 4 * square * room));
-  return rigid.angular_momentum + std::min(Real(1), way) * change;
+  const Real part_of_change = 2 * room / (linear + std::sqrt(linear * linear + 4 * square * room));
+  return rigid.angular_momentum + std::min(Real(1), part_of_change) * change;
 }
 
-void EnergyProjection::move(const StepEnd& end, const Positions& forces, const Positions& way,
+void EnergyProjection::move(const StepEnd& end, const Positions& forces, const Positions& direction,
                             std::span<const Real> weights, Positions& positions) {
   for (std::size_t p = 0; p < parts_.count(); ++p) {
     Real slope = 0;
     Real curvature = 0;
     for (const Index v : parts_.part(p)) {
-      const Real along = row(forces, v).dot(row(way, v));
+      const Real along = row(forces, v).dot(row(direction, v));
       slope += along;
-      curvature += along - weights[at(v)] * way.row(v).squaredNorm();
+      curvature += along - weights[at(v)] * direction.row(v).squaredNorm();
     }
     Balance& balance = balances_[p];
     const RigidMotion rigid = rigid_motion(p, end.positions, end.velocities);
-    const Real scaled = vibration(p, rigid, end.positions, end.velocities);
+    const Real scaled = non_rigid_energy(p, rigid, end.positions, end.velocities);
     const Vec3 angular_momentum = allowed_momentum(p, rigid, balance.elastic, scaled);
     const Real missing = balance.target - balance.elastic - scaled - turning_energy(rigid.inertia, angular_momentum);
-    // The elastic energy is no steeper along the way than a parabola with Y − M/h² as its matrix.
+    // The elastic energy is no steeper along it than a parabola with Y − M/h² as its matrix.
     curvature = std::clamp(curvature, Real(0), std::max(Real(0), slope));
     const Real excess = factor_of(scaled + curvature / 2, slope - curvature, missing, balance.noise) - 1;
     if (excess == 0) continue;
-    for (const Index v : parts_.part(p)) positions.row(v) -= excess * way.row(v);
+    for (const Index v : parts_.part(p)) positions.row(v) -= excess * direction.row(v);
   }
 }
 
@@ -192,7 +192,7 @@ void EnergyProjection::finish(const StepEnd& end, const OutsideForces& outside, 
     const RigidMotion rigid = rigid_motion(p, end.positions, end.velocities);
     if (!rigid.turning.allFinite()) continue;
     balance.target += outside_work(p, rigid, end, outside).sum - balance.work;
-    const Real scaled = vibration(p, rigid, end.positions, end.velocities);
+    const Real scaled = non_rigid_energy(p, rigid, end.positions, end.velocities);
     const Vec3 angular_momentum = allowed_momentum(p, rigid, end.elastic[p], scaled);
     const Vec3 turning = angular_velocity(rigid.inertia, angular_momentum);
     const Real missing = balance.target - end.elastic[p] - scaled - turning.dot(angular_momentum) / 2;

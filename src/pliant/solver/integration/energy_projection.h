@@ -50,9 +50,9 @@ class EnergyProjection {
   /// force −∇H on each vertex, m × 3 [N], zero at held ones.
   void balance(const StepEnd& end, const OutsideForces& outside, Real h, Real share, Positions& forces);
 
-  /// Moves the positions at that end along `way`, which is Y⁻¹ of those forces. weights: M/h² of each vertex.
+  /// Moves the positions at that end along `direction`, which is Y⁻¹ of those forces. weights: M/h² of each vertex.
   /// `positions` may be those of the end.
-  void move(const StepEnd& end, const Positions& forces, const Positions& way, std::span<const Real> weights,
+  void move(const StepEnd& end, const Positions& forces, const Positions& direction, std::span<const Real> weights,
             Positions& positions);
 
   /// Gives the velocities what is missing still where move() has left the positions; their V and the forces are now
@@ -87,8 +87,8 @@ class EnergyProjection {
   };
 
   RigidMotion rigid_motion(std::size_t part, const Positions& positions, const Positions& velocities) const;
-  Real vibration(std::size_t part, const RigidMotion& rigid, const Positions& positions,
-                 const Positions& velocities) const;
+  Real non_rigid_energy(std::size_t part, const RigidMotion& rigid, const Positions& positions,
+                        const Positions& velocities) const;
   Work outside_work(std::size_t part, const RigidMotion& rigid, const StepEnd& end, const OutsideForces& outside) const;
   Vec3 allowed_momentum(std::size_t part, const RigidMotion& rigid, Real elastic, Real scaled) const;
   void balance_part(std::size_t part, const StepEnd& end, const OutsideForces& outside, Real h, Real share);

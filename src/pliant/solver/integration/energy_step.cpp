@@ -35,7 +35,7 @@ void Solver::begin_energy(const State& state) {
   work.elastic.resize(energy_.part_count());
   work.no_weights.assign(inertia_weights_.size(), 0);
   work.none_held.assign(inertia_weights_.size(), 0);
-  for (Positions* x : {&work.velocities, &work.elastic_forces, &work.outside, &work.not_conservative, &work.way,
+  for (Positions* x : {&work.velocities, &work.elastic_forces, &work.outside, &work.not_conservative, &work.direction,
                        &work.end_positions, &work.end_velocities, &work.end_force}) {
     x->resize(vertex_count_, 3);
   }
@@ -103,7 +103,7 @@ void Solver::evaluate_end(const State& state) {
 
 void Solver::project_energy(const State& state) {
   EnergyWork& work = energy_work_;
-  const StepForm form(state, settings_.integrator, substep());
+  const IntegratorCoefficients form(state, settings_.integrator, substep());
   for (Index i = 0; i < vertex_count_; ++i) {
     work.velocities.row(i) = (q_.row(i) - form.position(local_groups_.vertex(i))) / form.inertia_step();
   }
@@ -112,8 +112,8 @@ void Solver::project_energy(const State& state) {
   evaluate_end(state);
   Positions& forces = residual_;
   energy_.balance(end, outside, substep(), settings_.energy_projection, forces);
-  global_step_.solve(forces, forces.cwiseAbs().maxCoeff(), work.way, *threads_);
-  energy_.move(end, forces, work.way, inertia_weights_, q_);
+  global_step_.solve(forces, forces.cwiseAbs().maxCoeff(), work.direction, *threads_);
+  energy_.move(end, forces, work.direction, inertia_weights_, q_);
   evaluate_end(state);
   energy_.finish(end, outside, work.velocities);
   check_finite(state);

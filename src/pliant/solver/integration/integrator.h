@@ -26,9 +26,9 @@ inline Real inertia_step(Integrator integrator, Real h) {
 Real amplification(Integrator integrator, Real h_omega);
 
 /// One step's form; refers to the state that it is made of.
-class StepForm {
+class IntegratorCoefficients {
  public:
-  StepForm(const State& state, Integrator integrator, Real h)
+  IntegratorCoefficients(const State& state, Integrator integrator, Real h)
       : state_(state),
         is_bdf2_(integrator == Integrator::bdf2 && has_history(state, h)),
         inertia_step_(is_bdf2_ ? pliant::inertia_step(Integrator::bdf2, h) : h) {}
