@@ -1,4 +1,5 @@
-# Headers, library, program, scenes, and the package files for find_package(pliant).
+# Headers, library, program with its man page and completions, scenes and their schema, documents, and the package files
+# for find_package(pliant).
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 
@@ -15,10 +16,21 @@ if(PLIANT_BUILD_IO)
 endif()
 if(PLIANT_BUILD_CLI)
   install(TARGETS pliant_cli)
+  set(manual_dir "${PROJECT_BINARY_DIR}/generated/manual")  # see apps/cli
+  install(FILES "${manual_dir}/pliant.1" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1")
+  install(FILES "${manual_dir}/pliant.bash"
+    DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions" RENAME pliant)
+  install(FILES "${manual_dir}/_pliant" DESTINATION "${CMAKE_INSTALL_DATADIR}/zsh/site-functions")
+  install(FILES "${manual_dir}/pliant.fish" DESTINATION "${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d")
 endif()
 install(DIRECTORY ${header_folders}
   DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" FILES_MATCHING PATTERN "*.h" PATTERN "detail" EXCLUDE)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/scenes/" DESTINATION "${PLIANT_SCENES_INSTALL_DIR}")
+install(FILES "${PROJECT_SOURCE_DIR}/docs/scene.schema.json" DESTINATION "${CMAKE_INSTALL_DATADIR}/pliant")
+install(FILES
+  "${PROJECT_SOURCE_DIR}/README.md" "${PROJECT_SOURCE_DIR}/CHANGELOG.md" "${PROJECT_SOURCE_DIR}/LICENSE"
+  DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 
 set(PLIANT_FIND_DEPENDENCIES "")
 foreach(package IN LISTS pliant_library_packages)

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Installs a finished build to a place of its own, then builds and runs examples/consumer against what was installed; then
-# builds and installs the algorithm alone, with headers in the way that refuse JSON and zlib, and examples/algorithm_only.
+# Installs a finished build to a place of its own, sees that all is there, then builds and runs examples/consumer against
+# what was installed; then builds and installs the algorithm alone, with headers in the way that refuse JSON and zlib, and
+# examples/algorithm_only.
 #   scripts/check_install.sh [PRESET]   release when none is given; it must have been built
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -9,6 +10,14 @@ preset="${1:-release}"
 work="$(mktemp -d)"
 trap 'rm -rf "$work"' EXIT
 cmake --install "build/$preset" --prefix "$work/prefix" >"$work/install.log"
+for file in bin/pliant share/man/man1/pliant.1 share/bash-completion/completions/pliant \
+  share/zsh/site-functions/_pliant share/fish/vendor_completions.d/pliant.fish share/pliant/scene.schema.json \
+  share/pliant/scenes/curtain.json share/doc/pliant/README.md share/doc/pliant/LICENSE share/doc/pliant/docs/scenes.md; do
+  if [[ ! -s "$work/prefix/$file" ]]; then
+    echo "check_install.sh: $file was not installed, or is empty; see cmake/install.cmake" >&2
+    exit 1
+  fi
+done
 
 # Builds and runs an example against what was installed under a prefix, away from this tree, so that nothing else is found.
 #   run_example NAME PREFIX [CMAKE_OPTION...]

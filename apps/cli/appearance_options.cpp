@@ -33,7 +33,7 @@ std::array<pliant::Index, 2> parse_size(const std::string& text) {
     }
   }
   if (!is_good || place != 1 || std::ranges::min(size) < least || std::ranges::max(size) > most) {
-    pliant::fail_input(fmt::format("--size: '{}' is no size; give width x height from {} to {}, as in 1280x720",
+    pliant::fail_input(fmt::format("--size: '{}' is not a size; give width x height from {} to {}, as in 1280x720",
                                    pliant::printable(text), least, most));
   }
   return size;
@@ -52,6 +52,7 @@ pliant::ViewSettings view_of_checkpoint(const fs::path& checkpoint) {
 
 /// Of the scene that the run was made from, as its checkpoint has it.
 pliant::ViewSettings view_of_run(const AppearanceArguments& arguments) {
+  check_import(arguments);
   const pliant::SceneOverrides& overrides = arguments.overrides;
   const bool has_others =
       overrides.steps || overrides.time_step || overrides.iterations || overrides.tolerance || overrides.threads ||
@@ -79,9 +80,10 @@ pliant::ViewSettings view_of_run(const AppearanceArguments& arguments) {
 }  // namespace
 
 void add_appearance_options(CLI::App& command, AppearanceArguments& arguments) {
-  command.add_option("--size", arguments.size, "Width and height in pixels; default: the scene's, or 1280x720");
-  add_choice(command, "--color,--colour", arguments.color, "What colors tell: none, stretch, energy or speed");
-  add_choice(command, "--shading", arguments.shading, "smooth, or flat: each face by itself");
+  command.add_option("--size", arguments.size, "Width and height in pixels; default: the scene's, or 1280x720")
+      ->type_name("WIDTHxHEIGHT");
+  add_choice(command, "--color,--colour", arguments.color, "What colors show: none, stretch, energy or speed");
+  add_choice(command, "--shading", arguments.shading, "smooth, or flat: each face has one shade");
   command.add_flag("--wireframe", arguments.wireframe, "Draw the edges too");
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "bench/bench.h"
 #include "bench/report.h"
@@ -52,8 +53,9 @@ std::vector<BaselineKind> choose_baselines(const std::vector<std::string>& words
     const auto found = std::ranges::find(names, std::string_view(word));
     if (found == names.end()) {
       std::vector<std::string_view> known(names.begin(), names.end());
-      pliant::fail_input(fmt::format("--baselines: there is no '{}'; give all, none, or some of: {}",
-                                     pliant::printable(word), pliant::nearest_names_text(word, known)));
+      pliant::fail_input(fmt::format("--baselines: unknown baseline '{}'{} (known: all, none, or some of {})",
+                                     pliant::printable(word), pliant::did_you_mean(word, known),
+                                     fmt::join(known, ", ")));
     }
     kinds.push_back(static_cast<BaselineKind>(found - names.begin()));
   }
@@ -68,7 +70,7 @@ std::vector<int> choose_threads(const std::vector<std::string>& words) {
     int count = 0;
     for (const char c : word) count = c >= '0' && c <= '9' && count <= most ? 10 * count + (c - '0') : most + 1;
     if (word.empty() || count < 1 || count > most) {
-      pliant::fail_input(fmt::format("--threads: '{}' is no number of threads; give some from 1 to {}, as in 1,2",
+      pliant::fail_input(fmt::format("--threads: '{}' is not a number of threads; give some from 1 to {}, as in 1,2",
                                      pliant::printable(word), most));
     }
     threads.push_back(count);
@@ -91,7 +93,7 @@ BenchOptions check(const BenchArguments& arguments) {
     if (workload.order == MeshOrder::shuffled) workload.name += "-shuffled";
   }
   if (arguments.json == "-" && arguments.csv == "-") {
-    pliant::fail_input("--json and --csv both to the standard output; give one of them a file");
+    pliant::fail_input("--json and --csv cannot both go to the standard output; give one of them a file");
   }
   return options;
 }
@@ -148,8 +150,10 @@ void add_bench_command(CLI::App& program) {
   add_choice(*command, "--projections", arguments->options.projections,
              "Measure the constraint types by themselves: with the workloads, not, or alone");
   add_choice(*command, "--bandwidth", arguments->options.bandwidth, "Measure how fast one thread reads memory");
-  command->add_option("--json", arguments->json, "Write the results as JSON; -: to the standard output");
-  command->add_option("--csv", arguments->csv, "Write the results as CSV; -: to the standard output");
+  command->add_option("--json", arguments->json, "Write the results as JSON; -: to the standard output")
+      ->type_name("FILE");
+  command->add_option("--csv", arguments->csv, "Write the results as CSV; -: to the standard output")
+      ->type_name("FILE");
   command->footer(
       "Examples:\n"
       "  pliant bench                                        all workloads, about a minute and a half\n"

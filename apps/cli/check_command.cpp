@@ -10,10 +10,12 @@
 #include <sys/resource.h>
 
 #include "commands.h"
+#include "import_options.h"
 #include "pliant/core/printable.h"
 #include "pliant/mesh/geometry.h"
 #include "pliant/solver/integration/integrator.h"
 #include "scene_options.h"
+#include "terminal.h"
 
 namespace pliant_cli {
 namespace {
@@ -28,6 +30,7 @@ using pliant::SystemInfo;
 
 struct CheckOptions : SceneArguments {
   bool as_json = false;
+  bool as_scene = false;
 };
 
 /// The most memory that this process has held so far [bytes].
@@ -246,16 +249,21 @@ void print_text(const Json& json) {
              text_of(json["backend"]), text_of(system["precision"]), megabytes(system["bytes"]),
              megabytes(system["peak_memory"]));
   fmt::print("fastest vibration: {}\n", json["fastest_frequency"]["text"].get<std::string>());
-  for (const Json& warning : json["warnings"]) fmt::print("warning: {}\n", text_of(warning));
-  fmt::print("The scene is sound.\n");
+  for (const Json& warning : json["warnings"]) {
+    fmt::print("{} {}\n", in_tone(Tone::warning, "warning:"), text_of(warning));
+  }
+  fmt::print("{}\n", in_tone(Tone::good, "The scene is sound."));
 }
 
 void check_scene(const CheckOptions& options) {
   Scene scene = open_scene(options);
+  if (options.as_scene) return fmt::print("{}\n", scene.source.texts.front().text);
+  const std::string assumptions = assumptions_text(options, scene);
   const Json json = describe(scene);
   if (options.as_json) {
     fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
   } else {
+    fmt::print("{}{}", assumptions, assumptions.empty() ? "" : "\n");
     print_text(json);
   }
 }
@@ -263,12 +271,19 @@ void check_scene(const CheckOptions& options) {
 }  // namespace
 
 void add_check_command(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("check", "Say what is in a scene, and what is wrong with it");
+  CLI::App* command =
+      program.add_subcommand("check", "Say what is in a scene or a mesh to be simulated, and what is wrong with it");
   const auto options = std::make_shared<CheckOptions>();
   add_scene_arguments(*command, *options);
   add_setting_options(*command, *options);
+  add_import_options(*command, options->import);
   command->add_flag("--json", options->as_json, "As JSON, for programs");
-  command->footer("Example:\n  pliant check my_scene.json --set settings.time_step=0.002");
+  command->add_flag("--scene", options->as_scene,
+                    "Print the scene file alone: of a built-in scene, or the one made for a mesh");
+  command->footer(
+      "Examples:\n"
+      "  pliant check my_scene.json --set settings.time_step=0.002\n"
+      "  pliant check shirt.obj --scene > shirt.json");
   command->callback([options] { check_scene(*options); });
 }
 

@@ -8,6 +8,8 @@ namespace pliant_cli {
 inline constexpr int exit_interrupted = 130;
 inline constexpr std::size_t message_limit = 900;  // bytes of a message on the terminal
 
+void add_completion_command(CLI::App& program);
+void add_man_command(CLI::App& program);
 void add_bench_command(CLI::App& program);
 void add_convert_command(CLI::App& program);
 void add_experiment_command(CLI::App& program, int& exit_code);

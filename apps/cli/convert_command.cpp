@@ -91,7 +91,8 @@ void refuse_to_replace(const ConvertOptions& options) {
   }
   for (const fs::path& input : inputs) {
     if (!may_replace(options.out, input)) continue;
-    pliant::fail_input(fmt::format("{}: is what is to be converted; give another name for the output", input.string()));
+    pliant::fail_input(
+        fmt::format("{}: this would replace the input; give another name for the output", input.string()));
   }
 }
 
@@ -121,10 +122,10 @@ Animation read_animation(const ConvertOptions& options) {
   }
   if (options.mesh) {
     pliant::fail_input(
-        fmt::format("{}: is no point cache; --mesh is for those: .pc2, .mdd or .npy", options.in.string()));
+        fmt::format("{}: not a point cache; --mesh is for those: .pc2, .mdd or .npy", options.in.string()));
   }
   if (!pliant::mesh_format(options.in)) {
-    pliant::fail_input(fmt::format("{}: neither a run's folder nor a point cache ({}) nor a mesh; meshes: {}",
+    pliant::fail_input(fmt::format("{}: neither the folder of a run nor a point cache ({}) nor a mesh ({})",
                                    options.in.string(), fmt::join(choice_names(pliant::PointCacheFormat{}), ", "),
                                    fmt::join(pliant::readable_mesh_extensions(), ", ")));
   }
@@ -158,7 +159,7 @@ void warn_of_tolerance(const ConvertOptions& options, const pliant::ExportReport
   if (report.largest_error <= wanted) return;
   print_to_stderr(
       fmt::format("warning: the error {:.2g} is past the tolerance {:.2g}, since at most {} keyframes are "
-                  "kept; raise --max-keyframes to lessen it\n",
+                  "kept; raise --max-keyframes to reduce it\n",
                   report.largest_error, wanted, options.exported.max_keyframes));
 }
 
@@ -186,7 +187,7 @@ void convert(const ConvertOptions& options) {
   }
 }
 
-constexpr const char* footer = R"(A name OUT with #### gets one mesh file a frame, with its number there.
+constexpr const char* convert_footer = R"(A name OUT with #### gets one mesh file a frame, with its number there.
 Examples:
   pliant convert out/flag flag.glb                       an animation for browsers and game engines
   pliant convert out/flag flag.usda                      for Blender, Houdini, Omniverse
@@ -201,9 +202,11 @@ Examples:
 void add_convert_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand("convert", "Convert meshes; export runs and point caches as animations");
   const auto options = std::make_shared<ConvertOptions>();
-  command->add_option("in", options->in, "A mesh, the folder of a run, or a point cache (pc2, mdd, npy)")->required();
-  command->add_option("out", options->out, "The file to write")->required();
-  command->add_option("--mesh", options->mesh, "The mesh that the point cache IN moves");
+  command->add_option("in", options->in, "A mesh, the folder of a run, or a point cache (pc2, mdd, npy)")
+      ->type_name("FILE")
+      ->required();
+  command->add_option("out", options->out, "The file to write")->type_name("FILE")->required();
+  command->add_option("--mesh", options->mesh, "The mesh that the point cache IN moves")->type_name("FILE");
   add_number(*command, "--scale", options->import.scale, "Meters per unit of a mesh or point cache IN");
   add_choice(*command, "--up", options->import.up, "Its axis that points up: z (default), y or x");
   add_number(*command, "--in-fps", options->cache.frames_per_second,
@@ -219,7 +222,7 @@ void add_convert_command(CLI::App& program) {
   add_number(*command, "--max-keyframes", options->exported.max_keyframes,
              "glb, gltf: keep at most these, default 256");
   add_choice(*command, "--normals", options->exported.normals, "glb, gltf: smooth (default) or flat");
-  command->footer(fmt::format("Formats of OUT, by its extension; {}.\n{}", writable_formats(), footer));
+  command->footer(fmt::format("Formats of OUT, by its extension; {}.\n{}", writable_formats(), convert_footer));
   command->callback([options] { convert(*options); });
 }
 

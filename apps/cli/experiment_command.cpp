@@ -3,6 +3,7 @@
 #include <memory>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "bench/bench.h"
 #include "commands.h"
@@ -45,8 +46,8 @@ std::vector<Experiment> choose(const std::vector<std::string>& names) {
   for (const Experiment& experiment : all) known.push_back(experiment.name);
   for (const std::string& name : names) {
     if (std::ranges::find(known, std::string_view(name)) != known.end()) continue;
-    pliant::fail_input(fmt::format("there is no experiment '{}'; give all, or some of: {}", pliant::printable(name),
-                                   pliant::nearest_names_text(name, known)));
+    pliant::fail_input(fmt::format("unknown experiment '{}'{} (known: {})", pliant::printable(name),
+                                   pliant::did_you_mean(name, known), fmt::join(known, ", ")));
   }
   const auto is_asked = [&](std::string_view name) { return std::ranges::find(names, name) != names.end(); };
   std::vector<Experiment> chosen;
@@ -58,7 +59,7 @@ std::vector<Experiment> choose(const std::vector<std::string>& names) {
 
 /// That the report can be written is known before anything is measured.
 void probe(const fs::path& folder) {
-  if (folder.empty()) pliant::fail_input("--out: there is no folder without a name; give one");
+  if (folder.empty()) pliant::fail_input("--out: the name of the folder is empty; give one");
   std::error_code failed;
   if (fs::exists(folder / "index.html", failed) && !fs::exists(folder / "report.json", failed)) {
     throw pliant::Error(pliant::ErrorKind::output,
@@ -95,14 +96,17 @@ void show(const ExperimentArguments& arguments, std::string_view what) {
   if (!arguments.quiet && has_error_terminal()) print_to_stderr(fmt::format("\r\x1b[K{}", what));
 }
 
+/// As wide as the longest.
 std::string verdict_text(Verdict verdict) {
-  return verdict == Verdict::holds ? "holds" : verdict == Verdict::fails ? "DOES NOT HOLD" : "reported";
+  if (verdict == Verdict::holds) return in_tone(Tone::good, "holds         ");
+  if (verdict == Verdict::fails) return in_tone(Tone::bad, "DOES NOT HOLD ");
+  return "reported      ";
 }
 
 void print_chapter(const pliant_report::Chapter& chapter) {
   fmt::print("{} ({:.1f} s)\n", chapter.title, chapter.seconds);
   for (const pliant_report::Claim& claim : chapter.claims) {
-    fmt::print("  {:<14} {}\n                 {}\n", verdict_text(claim.verdict), claim.text, claim.evidence);
+    fmt::print("  {} {}\n                 {}\n", verdict_text(claim.verdict), claim.text, claim.evidence);
   }
   std::fflush(stdout);
 }
@@ -197,8 +201,9 @@ void add_experiment_command(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand(
       "experiment", "Repeat the experiments of the thesis and the paper; write a report with figures and verdicts");
   const auto arguments = std::make_shared<ExperimentArguments>();
-  command->add_option("names", arguments->names, "all, or some; without any they are listed");
-  command->add_option("--out", arguments->out, "Folder for index.html and report.json, default report");
+  command->add_option("experiments", arguments->names, "all, or some by name; without any, they are listed");
+  command->add_option("--out", arguments->out, "Folder for index.html and report.json, default report")
+      ->type_name("FOLDER");
   command->add_flag("--no-pictures", arguments->without_pictures, "Leave out what needs OpenGL");
   command->add_flag("--quiet", arguments->quiet, "No progress and no verdicts, only the summary");
   command->footer(

@@ -244,6 +244,7 @@ void add_info_command(CLI::App& program) {
   command
       ->add_option("file", options->file,
                    fmt::format("A mesh: {}", fmt::join(pliant::readable_mesh_extensions(), ", ")))
+      ->type_name("FILE")
       ->required();
   add_import_options(*command, options->import);
   command->add_flag("--json", options->json, "Print JSON, in meters and square meters");

@@ -23,7 +23,7 @@ Number to_number(const std::string& option, const std::string& text, std::string
   const bool is_number = stop == end && error != std::errc::invalid_argument;
   if (is_number && error == std::errc{} && !(number < least) && !(most < number)) return number;
   pliant::fail_input(fmt::format("{}: '{}' {}; give {}", option, pliant::printable(text, 60),
-                                 is_number ? "is out of range" : "is not what is wanted", wanted));
+                                 is_number ? "is out of range" : "is not a number of that kind", wanted));
 }
 
 template <class Number>

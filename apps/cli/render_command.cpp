@@ -1,6 +1,7 @@
 // pliant render: a scene or a run to a picture or a film, without a display.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 
@@ -8,6 +9,7 @@
 
 #include "appearance_options.h"
 #include "commands.h"
+#include "import_options.h"
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
 #include "pliant_io/files/atomic_file.h"
@@ -55,6 +57,10 @@ std::int64_t steps_a_frame(const pliant::Scene& scene, std::int64_t fps) {
 
 Clip clip_of_scene(const RenderArguments& arguments) {
   pliant::Scene scene = open_scene(arguments);
+  if (!arguments.quiet) {
+    fmt::print("{}", assumptions_text(arguments, scene));
+    std::fflush(stdout);  // before it takes its time
+  }
   apply_appearance(arguments, scene.view);
   scene.simulation.set_stop(waits_no_longer);
   return pliant_render::clip_from_scene(scene, steps_a_frame(scene, arguments.fps), [&](std::int64_t step) {
@@ -219,17 +225,21 @@ void add_render_command(CLI::App& program, int& exit_code) {
   CLI::App* command =
       program.add_subcommand("render", "Make a picture or a film of a scene or a run, without a display");
   const auto arguments = std::make_shared<RenderArguments>();
-  add_scene_arguments(*command, *arguments);
-  command->add_option("--out", arguments->out, "Film (.mp4, .webm, .gif) or picture (.png)")->required();
+  add_scene_arguments(*command, *arguments, scene_or_run_help);
+  command->add_option("--out", arguments->out, "Film (.mp4, .webm, .gif) or picture (.png)")
+      ->type_name("FILE")
+      ->required();
   add_appearance_options(*command, *arguments);
   add_number(*command, "--fps", arguments->fps, {1, 240},
-             "Frames a second of a film, which plays in real time where it can");
-  add_number(*command, "--samples", arguments->samples, {1, 16}, "Of a pixel; 1: hard edges, in less time; default 4");
+             "Frames per second of a film, which plays in real time where it can");
+  add_number(*command, "--samples", arguments->samples, {1, 16},
+             "Samples per pixel; 1: hard edges, in less time; default 4");
   add_number(*command, "--frames", arguments->frames, {1, 100'000},
-             "That many, evenly from first to last; default: a film all, a picture the last");
+             "Number of frames, spread evenly; default: all for a film, the last for a picture");
   command->add_flag("--sheet", arguments->sheet, "All frames in one picture; default: 12 of them");
   command->add_flag("--quiet", arguments->quiet, "No progress");
   add_setting_options(*command, *arguments);
+  add_import_options(*command, arguments->import);
   command->footer(
       "Examples:\n"
       "  pliant render curtain_wind --out curtain.mp4\n"

@@ -51,10 +51,11 @@ void add_resume_command(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand(
       "resume", "Go on with a run that was interrupted or killed, or add steps to one that ended");
   const auto arguments = std::make_shared<ResumeArguments>();
-  command->add_option("folder", arguments->folder, "The folder of the run")->required();
+  command->add_option("folder", arguments->folder, "The folder of the run")->type_name("FOLDER")->required();
   add_number(*command, "--steps", arguments->options.steps,
-             "Steps in all, with those taken; default: as many as before");
-  add_number(*command, "--threads", arguments->options.threads, "0: one a processor; results do not depend on it");
+             "Total number of steps, including those already taken, not more of them; default: as planned before");
+  add_number(*command, "--threads", arguments->options.threads,
+             "Number of threads at most, 0: one for each processor; results do not depend on it");
   add_recording_options(*command, arguments->recording);
   command->footer(
       "Frames and measurements after the checkpoint are taken again; all have the bits of a run without a\n"

@@ -1,10 +1,12 @@
 // pliant run: a scene to files.
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 
 #include <fmt/format.h>
 
 #include "commands.h"
+#include "import_options.h"
 #include "pliant_io/recorder/recorder.h"
 #include "pliant_io/recorder/run_files.h"
 #include "recording.h"
@@ -40,6 +42,10 @@ int run_scene(const RunOptions& options) {
   refuse_to_replace(options.scene, folder, info.frame_format);
   pliant::make_run_folder(folder);
   const pliant_system::FolderLock lock(folder);
+  if (!options.recording.quiet) {
+    fmt::print("{}", assumptions_text(options, scene));
+    std::fflush(stdout);  // before it takes its time
+  }
   pliant::begin_run(folder, info, scene.simulation);
   return record_scene(scene, folder, info, options.recording);
 }
@@ -47,17 +53,25 @@ int run_scene(const RunOptions& options) {
 }  // namespace
 
 void add_run_command(CLI::App& program, int& exit_code) {
-  CLI::App* command = program.add_subcommand("run", "Simulate a scene; write frames, measurements and a checkpoint");
+  CLI::App* command =
+      program.add_subcommand("run", "Simulate a scene or a mesh; write frames, measurements and a checkpoint");
   const auto options = std::make_shared<RunOptions>();
   pliant::SceneOverrides& overrides = options->overrides;
   add_scene_arguments(*command, *options);
-  command->add_option("--out", options->out,
-                      "Folder for the files, default out/SCENE; what an earlier run left there is replaced");
+  command
+      ->add_option("--out", options->out,
+                   "Folder for the files, default out/SCENE; files of an earlier run there are replaced")
+      ->type_name("FOLDER");
   add_setting_options(*command, *options);
-  add_choice(*command, "--format", overrides.format, "Of the frames: npy, pc2, obj, ply or none");
+  add_import_options(*command, options->import);
+  add_choice(*command, "--format", overrides.format, "Format of the frames: npy, pc2, obj, ply or none");
   add_number(*command, "--every", overrides.every, "Record the start and every n-th step");
   add_recording_options(*command, options->recording);
-  command->footer("Example:\n  pliant run curtain_wind --out out/curtain --steps 120 --format obj");
+  command->footer(
+      "A mesh file is simulated by itself, as cloth, a skin, a solid or ropes; what was assumed is printed.\n"
+      "Examples:\n"
+      "  pliant run curtain_wind --out out/curtain --steps 120 --format obj\n"
+      "  pliant run shirt.obj --scale 0.01 --up y --set bodies[0].mass.total=0.2");
   command->callback([options, &exit_code] { exit_code = run_scene(*options); });
 }
 

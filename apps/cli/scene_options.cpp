@@ -1,22 +1,52 @@
 #include "scene_options.h"
 
 #include <filesystem>
+#include <numeric>
 
 #include <fmt/format.h>
 
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
+#include "pliant/mesh/geometry.h"
 #include "pliant_io/scene/builtin_scenes.h"
+#include "pliant_io/scene/mesh_scene.h"
 #include "pliant_io/scene/nearest_names.h"
 
 namespace pliant_cli {
 namespace fs = std::filesystem;
 
-void add_scene_arguments(CLI::App& command, SceneArguments& arguments) {
-  command.add_option("scene", arguments.scene, "A scene file, or the name of a built-in scene")->required();
+namespace {
+
+bool has_mesh_name(const SceneArguments& arguments) {
+  return pliant::mesh_format(arguments.scene).has_value();
+}
+
+std::string groups_text(const pliant::Simulation& simulation) {
+  std::string text;
+  for (const auto& [id, group] : simulation.groups()) {
+    text += fmt::format("  {:<9} {} of type {}", pliant::printable(group.name), group.set.count, group.type);
+    if (const auto stiffness = simulation.stiffness(id)) text += fmt::format(", stiffness {:.4g}", *stiffness);
+    text += "\n";
+  }
+  return text;
+}
+
+std::string forces_text(const pliant::Simulation& simulation) {
+  std::string text;
+  for (const auto& [id, force] : simulation.forces()) {
+    text += (text.empty() ? "" : ", ") + pliant::printable(simulation.name(id));
+  }
+  if (text.empty()) return "none";
+  return simulation.find_force("wind") ? text : text + "; no wind";
+}
+
+}  // namespace
+
+void add_scene_arguments(CLI::App& command, SceneArguments& arguments, const std::string& help) {
+  command.add_option("scene", arguments.scene, help)->type_name("FILE")->required();
   command
       .add_option("--set", arguments.overrides.set,
-                  "PATH=VALUE: take another value, such as settings.iterations=20, bodies[0].mass.total=2 or "
+                  "Change a value of the scene, such as settings.iterations=20, bodies[0].mass.total=2 or "
                   "'bodies[curtain].constraints[bend].stiffness=1e-3'; may be given several times")
       ->type_name("PATH=VALUE")
       ->expected(1)
@@ -25,16 +55,53 @@ void add_scene_arguments(CLI::App& command, SceneArguments& arguments) {
 
 void add_setting_options(CLI::App& command, SceneArguments& arguments) {
   pliant::SceneOverrides& overrides = arguments.overrides;
-  add_number(command, "--steps", overrides.steps, "Steps to take");
-  add_number(command, "--iterations", overrides.iterations, "Local and global steps in each step");
+  add_number(command, "--steps", overrides.steps, "Number of steps");
+  add_number(command, "--iterations", overrides.iterations, "Iterations (a local and a global step each) in each step");
   add_number(command, "--time-step", overrides.time_step, "Length of a step [s]");
   add_number(command, "--tolerance", overrides.tolerance,
-             "Iterate no further below this residual [N]; 0: only at exact rest");
-  add_number(command, "--threads", overrides.threads, "0: one a processor; results do not depend on it");
-  add_choice(command, "--backend", overrides.backend, "Library that factorizes: automatic, eigen or cholmod");
+             "Stop iterating below this residual [N]; 0: only at exact rest");
+  add_number(command, "--threads", overrides.threads,
+             "Number of threads at most, 0: one for each processor; results do not depend on it");
+  add_choice(command, "--backend", overrides.backend,
+             "Library that factorizes the system matrix: automatic, eigen or cholmod");
+}
+
+bool is_mesh(const SceneArguments& arguments) {
+  std::error_code ignored;
+  return has_mesh_name(arguments) && fs::exists(arguments.scene, ignored) &&
+         !fs::is_directory(arguments.scene, ignored);
+}
+
+void check_import(const SceneArguments& arguments) {
+  const pliant::ImportOptions plain;
+  const bool is_placed = arguments.import.scale != plain.scale || arguments.import.up != plain.up;
+  if (!is_placed || has_mesh_name(arguments)) return;
+  pliant::fail_input(
+      "--scale, --up: these are for a mesh by itself; a scene has \"scale\" and \"up\" with its meshes, see "
+      "docs/scenes.md");
+}
+
+std::string assumptions_text(const SceneArguments& arguments, const pliant::Scene& scene) {
+  if (!is_mesh(arguments)) return "";
+  const pliant::Simulation& simulation = scene.simulation;
+  const pliant::SolverSettings& settings = simulation.settings();
+  const auto& masses = simulation.state().masses;
+  const pliant::BoundingBox box = pliant::bounding_box(simulation.state().positions);
+  const pliant::Vec3 size = box.max - box.min;
+  const std::string name = pliant::printable_place(arguments.scene);
+  std::string text = fmt::format("{}: {}\n", name, pliant::printable(scene.description, 1000));
+  text += fmt::format("  size      {:.3g} x {:.3g} x {:.3g} m, z is up\n", size.x(), size.y(), size.z());
+  text += fmt::format("  mass      {:.4g} kg\n", std::accumulate(masses.begin(), masses.end(), pliant::Real(0)));
+  text += groups_text(simulation);
+  text += fmt::format("  forces    {}\n", forces_text(simulation));
+  text += fmt::format("  steps     {} of {:.4g} s, {} iterations each\n", scene.steps, settings.time_step,
+                      settings.iterations);
+  return text + fmt::format("  --set changes this; `pliant check {} --scene` prints it as a scene file\n", name);
 }
 
 pliant::Scene open_scene(const SceneArguments& arguments) {
+  check_import(arguments);
+  if (is_mesh(arguments)) return pliant::make_mesh_scene(arguments.scene, arguments.import, arguments.overrides);
   std::error_code error;
   const fs::file_status status = fs::status(arguments.scene, error);
   if (fs::exists(status) && !fs::is_directory(status)) return pliant::load_scene(arguments.scene, arguments.overrides);
@@ -43,11 +110,15 @@ pliant::Scene open_scene(const SceneArguments& arguments) {
     if (scene.name == arguments.scene) return pliant::parse_scene(scene.text, {}, scene.name, arguments.overrides);
     names.push_back(scene.name);
   }
+  if (has_mesh_name(arguments) && status.type() == fs::file_type::not_found) {
+    pliant::fail_input(pliant::printable_place(arguments.scene) + ": no such file; give a mesh that exists");
+  }
   const bool is_hidden = status.type() != fs::file_type::not_found && error != std::errc::filename_too_long;
   if (is_hidden) return pliant::load_scene(arguments.scene, arguments.overrides);  // says what is wrong with it
-  pliant::fail_input(
-      fmt::format("{}: neither a file nor a built-in scene; `pliant scenes` lists those, the nearest first: {}",
-                  pliant::printable_place(arguments.scene), pliant::nearest_names_text(arguments.scene, names)));
+  const std::string suggestion = pliant::did_you_mean(arguments.scene, names);
+  pliant::fail_input(fmt::format("unknown scene '{}': neither a file nor a built-in scene{}",
+                                 pliant::printable_place(arguments.scene),
+                                 suggestion.empty() ? "; `pliant scenes` lists those" : suggestion));
 }
 
 }  // namespace pliant_cli

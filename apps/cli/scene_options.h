@@ -6,6 +6,7 @@
 
 #include "choice_option.h"
 #include "number_option.h"
+#include "pliant_io/mesh/mesh_file.h"
 #include "pliant_io/scene/scene.h"
 
 namespace pliant_cli {
@@ -14,15 +15,30 @@ namespace pliant_cli {
 struct SceneArguments {
   std::string scene;
   pliant::SceneOverrides overrides;
+  pliant::ImportOptions import = {};  ///< where the scene is a mesh
 };
 
+inline constexpr const char* scene_help = "A scene file, a mesh file, or the name of a built-in scene";
+inline constexpr const char* scene_or_run_help =
+    "A scene file, a mesh file, the name of a built-in scene, or the folder of a run";
+
 /// Adds the scene and `--set` to a sub-command.
-void add_scene_arguments(CLI::App& command, SceneArguments& arguments);
+void add_scene_arguments(CLI::App& command, SceneArguments& arguments, const std::string& help = scene_help);
 
 /// Adds the options that take the place of the scene's settings.
 void add_setting_options(CLI::App& command, SceneArguments& arguments);
 
-/// A file where there is one of that name, else a built-in scene; a folder hides none.
+/// Refuses --scale and --up without a mesh, whatever else the scene is.
+void check_import(const SceneArguments& arguments);
+
+/// Whether the scene is a mesh file, to be simulated by itself.
+bool is_mesh(const SceneArguments& arguments);
+
+/// A file where there is one of that name, a mesh among them (make_mesh_scene), else a built-in scene; a folder hides
+/// none.
 pliant::Scene open_scene(const SceneArguments& arguments);
+
+/// What was assumed about the mesh of such a scene, one line each; "" where the scene is none.
+std::string assumptions_text(const SceneArguments& arguments, const pliant::Scene& scene);
 
 }  // namespace pliant_cli

@@ -182,11 +182,14 @@ void add_sweep_command(CLI::App& program, int& exit_code) {
       ->expected(1)
       ->take_all()
       ->required();
-  command->add_option("--out", arguments->out, "Folder for the runs, the table and the plots")->required();
+  command->add_option("--out", arguments->out, "Folder for the runs, the table and the plots")
+      ->type_name("FOLDER")
+      ->required();
   add_setting_options(*command, *arguments);
-  add_choice(*command, "--format", overrides.format, "Of the frames: npy, pc2, obj, ply or none; default: none");
+  add_choice(*command, "--format", overrides.format, "Format of the frames: npy, pc2, obj, ply or none; default: none");
   add_number(*command, "--every", overrides.every, "Record the start and every n-th step");
-  add_number(*command, "--jobs", arguments->jobs, {1, 256}, "Runs at a time; default: as many as the processors carry");
+  add_number(*command, "--jobs", arguments->jobs, {1, 256},
+             "Number of runs at a time; default: as many as the processors can take");
   command->add_flag("--dry-run", arguments->dry_run, "Check and list the runs only");
   command->add_flag("--restart", arguments->restart, "Remove the runs of an earlier sweep in that folder");
   command->add_flag("--quiet", arguments->quiet, "Print warnings and errors only");

@@ -1,5 +1,7 @@
 #pragma once
 // What depends on the operating system: signals, terminals and the three standard streams.
+#include <array>
+#include <string>
 #include <string_view>
 
 namespace pliant_cli {
@@ -11,8 +13,11 @@ void guard_streams();
 /// Lets no allocation go past the memory that is free now, so that a scene too large for this machine ends in
 /// std::bad_alloc, and not with the system killing this program or another.
 void limit_memory();
-/// Writes to the standard error. What cannot be written there has nowhere else to go: it is dropped.
+/// Writes to the standard error; in color where it has some: labels such as "warning:", and lines of progress. What
+/// cannot be written there has nowhere else to go: it is dropped.
 void print_to_stderr(std::string_view text);
+/// A line of progress begins with this: it takes the place of the line before.
+inline constexpr std::string_view rewritten_line = "\r\x1b[K";
 
 /// From now on an interrupt ends the program at once, with the exit code of interrupts: nothing has to be finished.
 void end_at_interrupts();
@@ -23,6 +28,18 @@ bool was_interrupted();
 /// Whether that was longer ago than a step may take that is to be finished.
 bool waits_no_longer();
 inline constexpr unsigned patience = 2;  // [s]
+
+/// Whether what is printed has colors: where people read it on a terminal, always, or never. Without a choice NO_COLOR
+/// (no-color.org) and TERM=dumb say never.
+enum class Ansi { automatic, always, never };
+constexpr std::array<std::string_view, 3> choice_names(Ansi) {
+  return {"auto", "always", "never"};
+}
+void choose_ansi(Ansi choice);
+
+enum class Tone { good, warning, bad };
+/// Text for the standard output, in color where it has some.
+std::string in_tone(Tone tone, std::string_view text);
 
 /// True when people read the standard error on a terminal.
 bool has_error_terminal();

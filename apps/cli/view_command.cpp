@@ -1,4 +1,5 @@
 // pliant view: a window in which a scene is simulated, or a run played.
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
@@ -14,7 +15,6 @@
 #include "pliant/core/printable.h"
 #include "terminal.h"
 #include "viewer/live_source.h"
-#include "viewer/mesh_scene.h"
 #include "viewer/playback.h"
 #include "viewer/viewer.h"
 
@@ -24,25 +24,12 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ViewArguments : AppearanceArguments {
-  pliant::ImportOptions import;
   std::optional<std::int64_t> samples;
   bool is_paused = false;
 };
 
 void check(const ViewArguments& arguments) {
-  std::error_code ignored;
-  const bool exists = fs::exists(arguments.scene, ignored);
-  const bool is_mesh_name = pliant::mesh_format(arguments.scene).has_value();
-  if (is_mesh_name && !exists) {
-    pliant::fail_input(pliant::printable_place(arguments.scene) + ": no such file; give a mesh that there is");
-  }
-  const pliant::ImportOptions plain;
-  const bool is_placed = arguments.import.scale != plain.scale || arguments.import.up != plain.up;
-  if (is_placed && !is_mesh_name) {
-    pliant::fail_input(
-        "--scale, --up: only a mesh alone is scaled and turned so; a scene has \"scale\" and \"up\" with its meshes, "
-        "see docs/scenes.md");
-  }
+  check_import(arguments);
   if (arguments.overrides.steps) pliant::fail_input("--steps: a window goes on until it is closed; leave it out");
 }
 
@@ -60,30 +47,8 @@ bool is_run(const ViewArguments& arguments) {
   return fs::is_directory(arguments.scene, ignored);
 }
 
-/// A file of a known format: a scene may have the name of a mesh and not be one.
-bool is_mesh(const ViewArguments& arguments) {
-  std::error_code ignored;
-  return fs::exists(arguments.scene, ignored) && pliant::mesh_format(arguments.scene).has_value();
-}
-
-pliant::Scene open_mesh(const ViewArguments& arguments) {
-  const pliant::SceneOverrides& overrides = arguments.overrides;
-  if (!overrides.set.empty()) {
-    pliant::fail_input("--set: a mesh is no scene, so it has no such path; give a scene file, or leave --set out");
-  }
-  pliant::Scene scene = pliant_viewer::make_mesh_scene(arguments.scene, arguments.import);
-  pliant::SolverSettings settings = scene.simulation.settings();
-  settings.iterations = overrides.iterations.value_or(settings.iterations);
-  settings.time_step = overrides.time_step.value_or(settings.time_step);
-  settings.tolerance = overrides.tolerance.value_or(settings.tolerance);
-  settings.threads = overrides.threads.value_or(settings.threads);
-  settings.backend = overrides.backend.value_or(settings.backend);
-  scene.simulation.set_settings(settings);
-  return scene;
-}
-
 pliant::Scene make_scene(const ViewArguments& arguments) {
-  pliant::Scene scene = is_mesh(arguments) ? open_mesh(arguments) : open_scene(arguments);
+  pliant::Scene scene = open_scene(arguments);
   apply_appearance(arguments, scene.view);
   return scene;
 }
@@ -118,7 +83,8 @@ int view_run(const ViewArguments& arguments) {
 
 int view_scene(const ViewArguments& arguments) {
   auto scene = std::make_shared<pliant::Scene>(make_scene(arguments));
-  if (is_mesh(arguments)) fmt::print("{}\n", scene->description);
+  fmt::print("{}", assumptions_text(arguments, *scene));
+  std::fflush(stdout);  // before the window opens
   pliant_viewer::Window window(scene->name + " - Pliant", scene->view.size[0], scene->view.size[1]);
   pliant_viewer::LiveSource source(scene_maker(arguments, std::move(scene)), window.is_software() ? spare_threads() : 0,
                                    !arguments.is_paused, pliant_viewer::Window::wake);
@@ -138,11 +104,11 @@ int view(const ViewArguments& arguments) {
 void add_view_command(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand("view", "Open a window: pull at a scene or a mesh, or play a run");
   const auto arguments = std::make_shared<ViewArguments>();
-  add_scene_arguments(*command, *arguments);
+  add_scene_arguments(*command, *arguments, scene_or_run_help);
   add_appearance_options(*command, *arguments);
   add_number(*command, "--samples", arguments->samples, {1, 16},
-             "Of a pixel; default: 4 on a graphics card, 1 where the processor draws");
-  command->add_flag("--paused", arguments->is_paused, "Wait for the space bar");
+             "Samples per pixel; default: 4 on a graphics card, 1 where the processor draws");
+  command->add_flag("--paused", arguments->is_paused, "Start paused; the space bar continues");
   add_import_options(*command, arguments->import);
   add_setting_options(*command, *arguments);
   command->footer(

@@ -37,7 +37,7 @@ class CommandLine(HostileTest):
         self.attack([Case("sub-command", ["rnu"], expect=(INPUT,), says="rnu"),
                      Case("option", ["run", "scene.json", "--stesp", "3"], SCENE, expect=(INPUT,), says="--stesp"),
                      Case("value", ["run", "scene.json", "--steps", "3x"], SCENE, expect=(INPUT,), says="3x", place="--steps"),
-                     Case("scene", ["run", "curtian"], expect=(INPUT,), says="nearest first: curtain")])
+                     Case("scene", ["run", "curtian"], expect=(INPUT,), says="did you mean 'curtain'")])
 
     def test_every_option_with_every_value(self):
         """What takes long, or for ever, is interrupted."""

@@ -35,7 +35,7 @@ class Experiment(unittest.TestCase):
     def test_an_unknown_name_is_refused_with_the_nearest(self):
         result = pliant("experiment", "dampin", "--out", self.folder / "report")
         self.assertEqual(result.returncode, 2)
-        self.assertRegex(result.stderr, r"there is no experiment 'dampin'; give all, or some of: .*damping")
+        self.assertRegex(result.stderr, r"unknown experiment 'dampin'; did you mean 'damping'\? \(known: all, .*damping")
         self.assertFalse((self.folder / "report").exists())
 
     def test_a_report_that_cannot_be_written_is_refused_before_anything_is_measured(self):

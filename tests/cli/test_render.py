@@ -166,11 +166,11 @@ class Render(unittest.TestCase):
     def test_slips_name_the_option(self):
         for words, message in ((["--out", "film.avi"], "--out: 'film.avi' has no known ending"),
                                (["--out", "film"], "--out: 'film' has no known ending"),
-                               (["--out", "c.png", "--size", "640"], "--size: '640' is no size"),
-                               (["--out", "c.png", "--size", "8x8"], "--size: '8x8' is no size"),
-                               (["--out", "c.png", "--size", "99999999999x9"], "--size: '99999999999x9' is no size"),
+                               (["--out", "c.png", "--size", "640"], "--size: '640' is not a size"),
+                               (["--out", "c.png", "--size", "8x8"], "--size: '8x8' is not a size"),
+                               (["--out", "c.png", "--size", "99999999999x9"], "--size: '99999999999x9' is not a size"),
                                (["--out", "c.png", "--fps", "0"], "--fps: '0' is out of range; give a whole number from 1 up to 240"),
-                               (["--out", "c.png", "--fps", "2.5"], "--fps: '2.5' is not what is wanted; give a whole"),
+                               (["--out", "c.png", "--fps", "2.5"], "--fps: '2.5' is not a number of that kind; give a whole"),
                                (["--out", "c.png", "--samples", "99"], "--samples: '99' is out of range; give a whole"),
                                (["--out", "c.png", "--frames", "0"], "--frames: '0' is out of range; give a whole"),
                                (["--out", "c.mp4", "--sheet"], "--sheet: the frames of a sheet are one picture")):

@@ -178,7 +178,7 @@ class Resume(unittest.TestCase):
         self.assertIn("checkpoint.pliant: no such file", error)
         out = self.run_whole()
         error = self.pliant("resume", out, "--steps", 5, expect=2).stderr
-        self.assertIn("5 steps are asked for, and 120 are taken", error)
+        self.assertIn("5 steps in all were asked for, but 120 have been taken", error)
         (out / "frames.npy").write_bytes(b"mine")
         error = self.pliant("resume", out, "--steps", 130, expect=2).stderr
         self.assertIn("frames.npy: not 121 frames of 10 vertices", error)

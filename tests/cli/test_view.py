@@ -77,7 +77,8 @@ class WithDisplay(unittest.TestCase):
         self.refuse("flag", "--set", "nonsense=1", says=["nonsense"])
         mesh = self.folder / "quad.obj"
         mesh.write_text(QUAD)
-        self.refuse(mesh, "--set", "steps=1", says=["--set"])
+        self.refuse(mesh, "--set", "nonsense=1", says=["nonsense"])
+        self.refuse("flag", "--scale", "2", says=["--scale", "mesh"])
 
     def test_without_opengl_it_says_what_is_missing(self):
         self.refuse("flag", says=["OpenGL", "`pliant render`"],
@@ -117,10 +118,11 @@ class WithDisplay(unittest.TestCase):
         mesh = self.folder / "shown.obj"
         mesh.write_text(QUAD)
         process = self.start(mesh)
+        self.assertIn("cloth of 4 vertices", process.stdout.readline())  # at once, not when it ends
+        self.assertIn("size      1 x 0 x 1 m", process.stdout.readline())
         self.wait_for_window(process, "shown - Pliant")
         process.terminate()
-        output, _ = process.communicate()
-        self.assertIn("cloth of 4 vertices", output)
+        process.communicate()
         run = self.folder / "run"
         subprocess.run([PLIANT, "run", "flag", "--steps", "5", "--out", run, "--quiet"], check=True)
         process = self.start(run, "--color", "speed")

@@ -46,7 +46,7 @@ class Convert(ExportCase):
             with self.subTest(arguments=arguments):
                 self.assertIn("meshes: obj, ply, off, stl, msh; animations: gltf, glb, usda, pc2, mdd, npy",
                               self.error(*arguments))
-        self.assertIn("a point cache (pc2, mdd, npy) nor a mesh; meshes: obj, ply, off, stl, msh, node, ele",
+        self.assertIn("a point cache (pc2, mdd, npy) nor a mesh (obj, ply, off, stl, msh, mesh, node, ele)",
                       self.error("scene.json", "a.glb"))
         self.assertIn("no such file", self.error("none.obj", "a.glb"))
         self.assertIn("no run.json", self.error(self.folder, "a.glb"))
@@ -63,20 +63,20 @@ class Convert(ExportCase):
                           ["own.npy", "run/mesh.obj", "--mesh", "run/mesh.obj", "--time", 0],
                           ["run", "run/frames.npy"], ["run", "run/mesh.obj", "--time", 0]]:
             with self.subTest(arguments=arguments):
-                self.assertIn("is what is to be converted", self.error(*arguments))
+                self.assertIn("this would replace the input", self.error(*arguments))
         self.assertEqual((self.folder / "patch.obj").read_text(), PATCH)
         run = self.folder / "frames_run"
         self.pliant("run", "scene.json", "--out", run, "--format", "obj", "--steps", 3)
         before = (run / "frame_00001.obj").read_bytes()
-        self.assertIn("is what is to be converted", self.error(run, run / "frame_#####.obj", "--frames", 1))
+        self.assertIn("this would replace the input", self.error(run, run / "frame_#####.obj", "--frames", 1))
         shutil.copy(self.folder / "patch.obj", self.folder / "patch_00.obj")
-        self.assertIn("is what is to be converted", self.error("patch_00.obj", "patch_##.obj"))
+        self.assertIn("this would replace the input", self.error("patch_00.obj", "patch_##.obj"))
         self.assertEqual((run / "frame_00001.obj").read_bytes(), before)
 
     def test_what_does_not_go_together(self):
         self.assertIn("--mesh", self.error("run/frames.npy", "a.glb"))
         self.assertIn("leave out --mesh", self.error("run", "a.glb", "--mesh", "patch.obj"))
-        self.assertIn("is no point cache", self.error("patch.obj", "a.glb", "--mesh", "patch.obj"))
+        self.assertIn("not a point cache", self.error("patch.obj", "a.glb", "--mesh", "patch.obj"))
         self.assertIn("the mesh has 7 vertices, but the cache", self.error("run/frames.npy", "a.glb", "--mesh", "patch.obj"))
         self.assertIn("leave it out", self.error("run", "a.pc2", "--tolerance", 0.1))
         self.assertIn("41 frames do not fit a file of one", self.error("run", "a.obj"))

@@ -144,7 +144,7 @@ TEST_CASE("a checkpoint says how far to go, and can be asked to go further") {
   CHECK(read_checkpoint(folder.path() / "c.pliant", {.steps = 12}).steps == 12);
   CHECK(read_checkpoint(folder.path() / "c.pliant", {.threads = 2}).simulation.settings().threads == 2);
   const std::string message = refusal(TemporaryFolder::read(folder.path() / "c.pliant"), {.steps = 8});
-  CHECK(message == "run.pliant: 8 steps are asked for, and 9 are taken; ask for more");
+  CHECK(message == "run.pliant: 8 steps in all were asked for, but 9 have been taken; ask for more");
 }
 
 TEST_CASE("a checkpoint cut at any length is refused by name") {

@@ -172,8 +172,8 @@ Scene parse_checkpoint(std::string_view bytes, std::string_view name, const Resu
   const Node state = root.require("state");
   state.locate([&] { simulation.restore(read_state(state, simulation.state())); });
   if (scene.steps < simulation.state().step) {
-    fail_input(fmt::format("{}: {} steps are asked for, and {} are taken; ask for more", name, scene.steps,
-                           simulation.state().step));
+    fail_input(fmt::format("{}: {} steps in all were asked for, but {} have been taken; ask for more", name,
+                           scene.steps, simulation.state().step));
   }
   return scene;
 }

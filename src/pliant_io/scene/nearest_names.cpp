@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 #include "pliant/core/printable.h"
 
@@ -15,6 +16,23 @@ std::string in_small_letters(std::string_view text) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   }
   return small;
+}
+
+/// Insertions, deletions and replacements of bytes, and swaps of neighbors, that turn a into b.
+std::size_t slip_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
+  std::iota(last.begin(), last.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    row[0] = i + 1;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      row[j + 1] = std::min({last[j] + (a[i] == b[j] ? 0U : 1U), last[j + 1] + 1, row[j] + 1});
+      const bool is_swap = i > 0 && j > 0 && a[i] == b[j - 1] && a[i - 1] == b[j];
+      if (is_swap) row[j + 1] = std::min(row[j + 1], before[j - 1] + 1);
+    }
+    std::swap(before, last);
+    std::swap(last, row);
+  }
+  return last.back();
 }
 
 /// Insertions, deletions and replacements of bytes that turn a into b.
@@ -64,6 +82,29 @@ std::string nearest_names_text(std::string_view word, std::vector<std::string_vi
     text += (i == 0 ? "" : ", ") + printable(ordered[i], 64);
   }
   return ordered.size() > shown ? text + ", ..." : text;
+}
+
+std::string did_you_mean(std::string_view word, std::vector<std::string_view> names) {
+  constexpr std::size_t most = 3;
+  constexpr std::size_t compared = 64;
+  const std::string small_word = in_small_letters(word.substr(0, compared));
+  std::vector<std::pair<std::size_t, std::string_view>> near;
+  for (const std::string_view name : names) {
+    const std::string small_name = in_small_letters(name.substr(0, compared));
+    const bool is_beginning = !word.empty() && small_name.starts_with(small_word);
+    const std::size_t slips = is_beginning ? 0 : slip_distance(small_word, small_name);
+    if (3 * slips <= std::max(small_word.size(), small_name.size()) && (is_beginning || !word.empty())) {
+      near.emplace_back(slips, name);
+    }
+  }
+  std::ranges::stable_sort(near, {}, [](const auto& entry) { return entry.first; });
+  near.resize(std::min(near.size(), most));
+  std::string text;
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    text += i == 0 ? "; did you mean '" : i + 1 == near.size() ? "' or '" : "', '";
+    text += printable(near[i].second, 64);
+  }
+  return text.empty() ? text : text + "'?";
 }
 
 }  // namespace pliant

@@ -13,4 +13,8 @@ std::vector<std::string_view> nearest_names(std::string_view word, std::vector<s
 /// The first two dozen of them as text: "columns, rows, size".
 std::string nearest_names_text(std::string_view word, std::vector<std::string_view> names);
 
+/// "; did you mean 'columns' or 'rows'?" for at most three names that begin with `word`, or that few slips of the pen
+/// (letters put in, left out, replaced or swapped: at most one in three) turn into it; "" when no name is that near.
+std::string did_you_mean(std::string_view word, std::vector<std::string_view> names);
+
 }  // namespace pliant
