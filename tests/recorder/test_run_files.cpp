@@ -76,6 +76,25 @@ TEST_CASE("a run's folder is made, with what stands there from the start on") {
   CHECK(TemporaryFolder::read(runs / "run.json").find("\"outcome\": \"ok\"") != std::string::npos);
 }
 
+TEST_CASE("the mesh of a run keeps names of materials, but names no library that is not beside it") {
+  const TemporaryFolder folder;
+  const std::string text = "mtllib cloth.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n";
+  for (const int body_count : {1, 2}) {
+    Simulation simulation;
+    for (int i = 0; i < body_count; ++i) simulation.add_body(read_mesh(folder.write("a.obj", text)), Mass::total(1));
+    RunInfo info;
+    info.frame_format = "obj";
+    const auto run = folder.path() / std::to_string(body_count);
+    begin_run(run, info, simulation);
+    make_obj_writer(run, simulation.bodies())->add(simulation.state().positions);
+    for (const char* name : {"mesh.obj", "frame_00000.obj"}) {
+      const std::string written = TemporaryFolder::read(run / name);
+      CHECK(written.find("usemtl red\n") != written.npos);
+      CHECK(written.find("mtllib") == written.npos);
+    }
+  }
+}
+
 TEST_CASE("without frames there is no mesh") {
   const TemporaryFolder folder;
   begin(folder, "none");

@@ -46,12 +46,12 @@ class MeshFrames final : public FrameWriter {
 
 std::unique_ptr<FrameWriter> make_obj_writer(const std::filesystem::path& folder, std::span<const Body> bodies,
                                              std::int64_t kept_frames) {
-  return std::make_unique<MeshFrames>(folder, "obj", one_mesh(bodies), kept_frames);
+  return std::make_unique<MeshFrames>(folder, "obj", one_mesh_of_run(bodies), kept_frames);
 }
 
 std::unique_ptr<FrameWriter> make_ply_writer(const std::filesystem::path& folder, std::span<const Body> bodies,
                                              std::int64_t kept_frames) {
-  return std::make_unique<MeshFrames>(folder, "ply", one_mesh(bodies), kept_frames);
+  return std::make_unique<MeshFrames>(folder, "ply", one_mesh_of_run(bodies), kept_frames);
 }
 
 }  // namespace pliant

@@ -16,7 +16,7 @@ void begin_run(const fs::path& folder, RunInfo info, const Simulation& simulatio
   info.outcome = Outcome::running;
   write_run_info(folder / "run.json", info, simulation);
   if (info.frame_format == "none") return;
-  write_mesh(folder / "mesh.obj", one_mesh(simulation.bodies()), simulation.state().positions);
+  write_mesh(folder / "mesh.obj", one_mesh_of_run(simulation.bodies()), simulation.state().positions);
 }
 
 void end_run(const fs::path& folder, const RunInfo& info, const Simulation& simulation) {

@@ -84,4 +84,10 @@ Mesh one_mesh(std::span<const Body> bodies) {
   return bodies.size() == 1 ? bodies.front().mesh : objects_of_one_mesh(bodies);
 }
 
+Mesh one_mesh_of_run(std::span<const Body> bodies) {
+  Mesh mesh = one_mesh(bodies);
+  mesh.material_libraries.clear();
+  return mesh;
+}
+
 }  // namespace pliant

@@ -13,4 +13,8 @@ PolygonFaces visible_faces(const Mesh& mesh);
 /// without maps.
 Mesh one_mesh(std::span<const Body> bodies);
 
+/// The same for a folder that has none of the files beside the user's mesh: the materials' names stay, the libraries
+/// that define them are not named.
+Mesh one_mesh_of_run(std::span<const Body> bodies);
+
 }  // namespace pliant
