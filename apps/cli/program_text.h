@@ -15,8 +15,7 @@ struct ExitCode {
   int code;
   std::string_view meaning;
 };
-inline constexpr std::array<ExitCode, 6> exit_codes = {{{0, "done"},
-                                                        {1, "an error inside the program"},
+inline constexpr std::array<ExitCode, 5> exit_codes = {{{0, "done"},
                                                         {2, "bad input"},
                                                         {3, "the simulation diverged"},
                                                         {4, "the output could not be written"},
