@@ -39,7 +39,7 @@ Workload tetrahedra(std::string name) {
 Simulation simulate(const Workload& workload, Backend backend) {
   Simulation simulation({.iterations = workload.iterations, .backend = backend, .threads = 1});
   const BodyId body = simulation.add_body(workload.mesh, Mass::per_vertex(1));
-  simulation.add_force(std::make_unique<Gravity>());
+  simulation.add(Gravity{});
   if (workload.mesh.tetrahedra.empty()) {
     const auto side = static_cast<Index>(std::lround(std::sqrt(workload.mesh.vertex_count())));
     const Index last = workload.mesh.vertex_count() - 1;

@@ -25,8 +25,8 @@ Simulation make() {
   simulation.add(curtain, HingeBending{.stiffness = 1e-3}, "hinges");
   simulation.add(curtain, Position{.on = {9900, 9999}}, "pins");
   simulation.add(curtain, TriangleStrain{.stiffness = 10}, "skin");
-  simulation.add_force(std::make_unique<Gravity>());
-  simulation.add_wind(curtain, {.velocity = {0, 1, 0}}, "wind");
+  simulation.add(Gravity{});
+  simulation.add(curtain, Wind{.velocity = {0, 1, 0}}, "wind");
   return simulation;
 }
 
@@ -107,11 +107,10 @@ std::vector<Edit> edits() {
        }},
       {"wind changed",
        [](Simulation& s, int i) {
-         s.replace(*s.find_force("wind"), s.make_wind(curtain, {.velocity = {0, 1 + 1e-3 * i, 0}}));
+         s.replace(*s.find_force("wind"), Wind{.velocity = {0, 1 + 1e-3 * i, 0}});
        }},
-      {"gravity changed", [](Simulation& s, int i) {
-         s.replace(*s.find_force("gravity"), std::make_unique<Gravity>(Vec3(0, 1e-3 * i, -9.81)));
-       }}};
+      {"gravity changed",
+       [](Simulation& s, int i) { s.replace(*s.find_force("gravity"), Gravity{Vec3(0, 1e-3 * i, -9.81)}); }}};
 }
 
 }  // namespace

@@ -29,8 +29,8 @@ Scene make_scene(Index columns, Index iterations) {
   scene.simulation.add(curtain, EdgeSpring{.stiffness = 1e3}, "springs");
   scene.simulation.add(curtain, Bending{.stiffness = 1e-3}, "bending");
   scene.simulation.add(curtain, Position{.on = {columns * (columns - 1), columns * columns - 1}}, "pins");
-  scene.simulation.add_force(std::make_unique<Gravity>());
-  scene.simulation.add_wind(curtain, {.velocity = {0, 1, 0}}, "wind");
+  scene.simulation.add(Gravity{});
+  scene.simulation.add(curtain, Wind{.velocity = {0, 1, 0}}, "wind");
   return scene;
 }
 

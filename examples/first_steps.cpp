@@ -11,8 +11,8 @@ int main() {
   simulation.add(cloth, pliant::EdgeSpring{.stiffness = 1e3});
   simulation.add(cloth, pliant::Bending{.stiffness = 1e-4});
   simulation.add(cloth, pliant::Position{.on = {992, 1023}});
-  simulation.add_force(std::make_unique<pliant::Gravity>());
-  simulation.add_wind({.velocity = {0, 3, 0}, .gust_strength = 0.5});
+  simulation.add(pliant::Gravity{});
+  simulation.add(pliant::Wind{.velocity = {0, 3, 0}, .gust_strength = 0.5});
 
   for (int i = 0; i < 60; ++i) simulation.step();
   pliant::write_obj("curtain.obj", simulation.body(cloth).mesh, simulation.state().positions);

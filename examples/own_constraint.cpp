@@ -43,7 +43,7 @@ int main() {
   simulation.add(cloth, pliant::Position{.on = {0, 29, 870, 899}});
   const std::array<double, 4> sphere = {0.5, 0.5, -0.3, 0.3};
   simulation.add_set(cloth, outside_sphere(simulation.state().vertex_count(), sphere), "outside_sphere");
-  simulation.add_force(std::make_unique<pliant::Gravity>());
+  simulation.add(pliant::Gravity{});
   for (int i = 0; i < 90; ++i) simulation.step();
 
   const pliant::Vec3 center(sphere[0], sphere[1], sphere[2]);

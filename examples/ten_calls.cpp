@@ -24,8 +24,8 @@ int main() {
     //! [constraints]
 
     //! [forces]
-    simulation.add_force(std::make_unique<pliant::Gravity>());
-    simulation.add_wind({.velocity = {0, 2, 0}});  // m/s
+    simulation.add(pliant::Gravity{});
+    simulation.add(pliant::Wind{.velocity = {0, 2, 0}});  // m/s
     //! [forces]
 
     //! [step]

@@ -144,7 +144,7 @@ Simulation make_simulation(const Workload& workload, Mesh mesh, SolverSettings s
   Positions velocities = start - mesh.vertices;  // as if it had taken a second
   const BodyId body = simulation.add_body(std::move(mesh), Mass::per_vertex(1),
                                           {.start = std::move(start), .velocities = std::move(velocities)});
-  simulation.add_force(std::make_unique<Gravity>());
+  simulation.add(Gravity{});
   if (workload.kind == Kind::bar) {
     simulation.add(body, TetrahedronStrain{.stiffness = 1e5});
   } else {

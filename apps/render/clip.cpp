@@ -46,8 +46,9 @@ void append(std::vector<std::uint32_t>& list, std::span<const Index> vertices) {
 std::vector<std::uint32_t> find_markers(const pliant::Simulation& simulation) {
   std::vector<std::uint32_t> markers = pinned_vertices(simulation);
   for (const auto& [id, force] : simulation.forces()) {
-    const auto* test = dynamic_cast<const pliant::TestForce*>(force.get());
-    if (test != nullptr && test->is_active(simulation.state().step)) append(markers, test->vertices());
+    const auto* test = simulation.options<pliant::TestForce>(id);
+    if (test == nullptr || !test->is_active(simulation.state().step)) continue;
+    append(markers, pliant::selected_vertices(force->type(), simulation.scope(id), test->vertices));
   }
   sort_and_trim(markers);
   return markers;
@@ -56,11 +57,11 @@ std::vector<std::uint32_t> find_markers(const pliant::Simulation& simulation) {
 /// The first wind that blows.
 std::optional<WindAnnotation> find_wind(const pliant::Simulation& simulation) {
   for (const auto& [id, force] : simulation.forces()) {
-    const auto* wind = dynamic_cast<const pliant::Wind*>(force.get());
+    const auto* wind = simulation.options<pliant::Wind>(id);
     if (wind == nullptr) continue;
-    const Vec3f velocity = wind->options().velocity.cast<float>();
+    const Vec3f velocity = wind->velocity.cast<float>();
     if (!(velocity.norm() > 0)) continue;
-    const bool is_relative = wind->options().model == pliant::WindModel::relative;
+    const bool is_relative = wind->model == pliant::WindModel::relative;
     return WindAnnotation{velocity, fmt::format("wind {:.3g} {}", velocity.norm(), is_relative ? "m/s" : "N/m²")};
   }
   return {};

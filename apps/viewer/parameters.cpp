@@ -1,6 +1,7 @@
 #include "viewer/parameters.h"
 
 #include <cmath>
+#include <functional>
 #include <set>
 #include <tuple>
 
@@ -8,9 +9,7 @@
 
 #include "pliant/constraints/builtin.h"
 #include "pliant/core/error.h"
-#include "pliant/forces/gravity.h"
-#include "pliant/forces/pressure.h"
-#include "pliant/forces/wind.h"
+#include "pliant/forces/builtin.h"
 
 namespace pliant_viewer {
 namespace {
@@ -18,9 +17,6 @@ namespace {
 using pliant::OptionInfo;
 using pliant::Simulation;
 using pliant::Vec3;
-
-/// Forces whose options can be changed: those with `options()` and `with(options)`.
-using ChangeableForces = std::tuple<pliant::Wind, pliant::Gravity, pliant::Pressure>;
 
 /// Calls f with a null pointer to each of the types.
 template <class... Types>
@@ -51,7 +47,8 @@ struct Lister {
     added.choices.assign(names.begin(), names.end());
     added.range = {0, static_cast<Real>(names.size() - 1)};
   }
-  void operator()(const OptionInfo&, const pliant::Selection&) const {}
+  template <class Other>
+  requires(!std::is_enum_v<Other>) void operator()(const OptionInfo&, const Other&) const {}  // a list: no slider
 };
 
 /// Sets the option of a name; to be handed to `visit`.
@@ -87,7 +84,8 @@ struct Setter {
     check_whole(info, static_cast<Real>(choice_names(Choice{}).size() - 1));
     choice = static_cast<Choice>(static_cast<int>(value[0]));
   }
-  void operator()(const OptionInfo&, const pliant::Selection&) const {}
+  template <class Other>
+  requires(!std::is_enum_v<Other>) void operator()(const OptionInfo&, Other&) const {}
 };
 
 /// "group:stretch", and with a number behind it where that name was taken.
@@ -110,14 +108,14 @@ void for_each_group(const Simulation& simulation, auto&& f) {
   }
 }
 
-/// Calls f with the section of each force that can be changed, its id, and the force as its own type.
+/// Calls f with the section of each force that can be changed, its id, and its options.
 void for_each_force(const Simulation& simulation, auto&& f) {
   std::set<std::string> taken;
   for (const auto& [id, force] : simulation.forces()) {
     const std::string section = unique_section(taken, "force", simulation.name(id));
-    for_each_type(static_cast<ChangeableForces*>(nullptr), [&, &id = id, &force = force](auto* type) {
+    for_each_type(static_cast<pliant::BuiltinForces*>(nullptr), [&, &id = id](auto* type) {
       using Type = std::remove_pointer_t<decltype(type)>;
-      if (const auto* changeable = dynamic_cast<const Type*>(force.get())) f(section, id, *changeable);
+      if (const auto* options = simulation.options<Type>(id)) f(section, id, *options);
     });
   }
 }
@@ -148,10 +146,8 @@ std::vector<Parameter> list_parameters(const Simulation& simulation, std::option
     const Lister lister{section, heading_of(group.type, group.name), list};
     lister(stiffness_info(group.type), *simulation.stiffness(id));
   });
-  for_each_force(simulation, [&](const std::string& section, pliant::ForceId id, const auto& force) {
-    const auto options = force.options();
-    std::remove_const_t<decltype(options)>::visit(options,
-                                                  Lister{section, heading_of(force.type(), simulation.name(id)), list});
+  for_each_force(simulation, [&](const std::string& section, pliant::ForceId id, const auto& options) {
+    options.visit(options, Lister{section, heading_of(options.info.name, simulation.name(id)), list});
   });
   return list;
 }
@@ -178,17 +174,14 @@ bool set_parameter(Simulation& simulation, std::string_view key, const Vec3& val
     if (was_found) simulation.set_stiffness(*found_group, stiffness);
     return was_found;
   }
-  std::unique_ptr<pliant::Force> changed;
-  pliant::ForceId changed_id{};
-  for_each_force(simulation, [&](const std::string& section, pliant::ForceId id, const auto& force) {
-    if (section != wanted) return;
-    auto options = force.options();
-    decltype(options)::visit(options, setter);
-    if (!was_found) return;
-    changed = force.with(options);
-    changed_id = id;
+  std::function<void()> change;  // once the list of forces is no longer gone through
+  for_each_force(simulation, [&](const std::string& section, pliant::ForceId id, const auto& options) {
+    if (section != wanted || was_found) return;
+    auto changed = options;
+    changed.visit(changed, setter);
+    if (was_found) change = [&simulation, id, changed] { simulation.replace(id, changed); };
   });
-  if (changed) simulation.replace(changed_id, std::move(changed));
+  if (change) change();
   return was_found;
 }
 

@@ -9,7 +9,7 @@ int main() {
   const auto chain = simulation.add_body(pliant::chain({.links = 20, .direction = {1, 0, 0}}), pliant::Mass::per_vertex(0.01));
   simulation.add(chain, pliant::EdgeSpring{.stiffness = 1e4});
   simulation.add(chain, pliant::Position{.on = {0}});
-  simulation.add_force(std::make_unique<pliant::Gravity>());
+  simulation.add(pliant::Gravity{});
   for (int i = 0; i < 60; ++i) simulation.step();
 
   const pliant::Vec3 end = simulation.state().positions.row(20).transpose();

@@ -73,7 +73,7 @@ Return pull(const ExperimentContext& context, double force, Bend bend) {
   const std::vector<Index> tips = fingertips(simulation.state().positions);
   for (std::size_t i = 0; i < tips.size(); ++i) {
     const Vec3 pull_force = force * ways[i].normalized();
-    simulation.add_force(std::make_unique<pliant::TestForce>(std::vector<Index>{tips[i]}, pull_force, 0, pull_frames));
+    simulation.add(pliant::TestForce{.vertices = {tips[i]}, .force = pull_force, .frames = {0, pull_frames}});
   }
   Return result;
   result.is_finite = context.try_steps(scene, pull_frames);

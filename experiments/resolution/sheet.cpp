@@ -86,9 +86,7 @@ Scene pulled(const ExperimentContext& context, const Material& material, const T
   Simulation& simulation = scene.simulation;
   simulation.remove(simulation.find_group("rail").value());
   const Mesh& mesh = rest_of(scene);
-  std::vector<Index> vertices(static_cast<std::size_t>(mesh.vertex_count()));
-  for (std::size_t i = 0; i < vertices.size(); ++i) vertices[i] = static_cast<Index>(i);
-  simulation.add_force(std::make_unique<TestForce>(vertices, border_forces(mesh, direction(degrees), tension)));
+  simulation.add(TestForce{.force = border_forces(mesh, direction(degrees), tension)});
   bring_to_rest(context, scene);
   return scene;
 }

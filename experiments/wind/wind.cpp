@@ -65,10 +65,9 @@ double limit_of_rise(const ExperimentContext& context, double time_step) {
   pliant::Scene scene = scene_of(context, wind, time_step, "current");
   const pliant::ForceId gale = scene.simulation.find_force("gale").value();
   for (;; wind *= 1.01) {
-    const auto& now = dynamic_cast<const pliant::Wind&>(*scene.simulation.forces().at(gale));
-    pliant::WindOptions options = now.options();
+    pliant::Wind options = *scene.simulation.options<pliant::Wind>(gale);
     options.velocity = {0, wind, 0.3 * wind};
-    scene.simulation.replace(gale, now.with(options));
+    scene.simulation.replace(gale, options);
     try {
       context.step(scene, steps_of_a_rise);
     } catch (const pliant::Error& error) {

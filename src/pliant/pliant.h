@@ -2,10 +2,7 @@
 // Everything that a first program needs of the algorithm; pliant_io/pliant_io.h has files.
 #include "pliant/constraints/builtin.h"
 #include "pliant/core/error.h"
-#include "pliant/forces/gravity.h"
-#include "pliant/forces/mouse_spring.h"
-#include "pliant/forces/test_force.h"
-#include "pliant/forces/wind.h"
+#include "pliant/forces/builtin.h"
 #include "pliant/mesh/mass.h"
 #include "pliant/mesh/shapes.h"
 #include "pliant/mesh/topology.h"

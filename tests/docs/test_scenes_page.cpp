@@ -6,9 +6,7 @@
 #include <doctest/doctest.h>
 
 #include "pliant/constraints/builtin.h"
-#include "pliant/forces/mouse_spring.h"
-#include "pliant/forces/pressure.h"
-#include "pliant/forces/wind.h"
+#include "pliant/forces/builtin.h"
 #include "pliant/mesh/shapes.h"
 #include "pliant_io/mesh/mesh_file.h"
 #include "pliant_io/scene/event_options.h"
@@ -106,14 +104,10 @@ void check_shape() {
   check_rows<Shape>("\n#### `" + std::string(Shape::shape) + "`\n");
 }
 
-template <class Constraint>
-void check_constraint() {
-  check_rows<Constraint>("\n### `" + std::string(Constraint::info.name) + "`\n");
-}
-
-template <class... Constraint>
-void check_constraints(std::tuple<Constraint...>*) {
-  (check_constraint<Constraint>(), ...);
+/// Types of constraints or of forces.
+template <class... Type>
+void check_types(std::tuple<Type...>*) {
+  (check_rows<Type>("\n### `" + std::string(Type::info.name) + "`\n"), ...);
 }
 
 TEST_CASE("the example is a sound scene") {
@@ -131,9 +125,6 @@ TEST_CASE("the tables list every option") {
   check_rows<ViewSettings>();
   check_rows<Camera>();
   check_rows<ImportOptions>();
-  check_rows<WindOptions>();
-  check_rows<MouseSpringOptions>();
-  check_rows<PressureOptions>("\n### `pressure`\n");
   check_shape<GridOptions>();
   check_shape<NetOptions>();
   check_shape<PillowOptions>();
@@ -148,7 +139,8 @@ TEST_CASE("the tables list every option") {
   check_rows<FollowOptions>();
   check_rows<FileOptions>();
   check_rows<RampOptions>();
-  check_constraints(static_cast<BuiltinConstraints*>(nullptr));
+  check_types(static_cast<BuiltinConstraints*>(nullptr));
+  check_types(static_cast<BuiltinForces*>(nullptr));
 }
 
 }  // namespace

@@ -24,14 +24,14 @@ struct Held {
   Positions still = Positions::Zero(mesh.vertex_count(), 3);
 
   StateView at(const Positions& x) const { return {x, still, masses, 0, 0}; }
-  Positions forces(Pressure& pressure, const Positions& x) const {
+  Positions forces(PressureForce& pressure, const Positions& x) const {
     Positions f = Positions::Zero(x.rows(), 3);
     pressure.add_to(f, at(x), 1);
     return f;
   }
 };
 
-std::vector<PressureOptions> every_model() {
+std::vector<Pressure> every_model() {
   return {{.pressure = 70},
           {.pressure = -70},
           {.model = PressureModel::gas, .pressure = 70},
@@ -43,15 +43,15 @@ Mesh inside_out(Mesh mesh) {
   return mesh;
 }
 
-std::string refusal(const Mesh& mesh, const PressureOptions& options = {}) {
-  return error_of([&] { Pressure(mesh, 0, options); });
+std::string refusal(const Mesh& mesh, const Pressure& options = {}) {
+  return error_of([&] { PressureForce(mesh, 0, options); });
 }
 
 }  // namespace
 
 TEST_CASE("pressure pushes outward with p A n, a third to each vertex") {
   const Held box{bar({.cells = {1, 1, 1}, .size = {2, 3, 4}, .cut = TetrahedronCut::five})};
-  Pressure pressure(box.mesh, 0, {.pressure = 5});
+  PressureForce pressure(box.mesh, 0, {.pressure = 5});
   CHECK(pressure.rest_volume() == doctest::Approx(24).epsilon(1e-14));
   const Positions f = box.forces(pressure, box.mesh.vertices);
   Vec3 right = Vec3::Zero();
@@ -63,9 +63,9 @@ TEST_CASE("pressure pushes outward with p A n, a third to each vertex") {
 
 TEST_CASE("on a closed surface of any shape the forces and their torques sum to zero") {
   Random random;
-  for (const PressureOptions& options : every_model()) {
+  for (const Pressure& options : every_model()) {
     const Held ring{torus({.major_segments = 9, .minor_segments = 7})};
-    Pressure pressure(ring.mesh, 0, options);
+    PressureForce pressure(ring.mesh, 0, options);
     const Positions x = ring.mesh.vertices + 0.05 * random.positions(ring.mesh.vertex_count(), 1);
     const Positions f = ring.forces(pressure, x);
     CHECK(f.cwiseAbs().maxCoeff() > 0.1);
@@ -78,9 +78,9 @@ TEST_CASE("on a closed surface of any shape the forces and their torques sum to 
 
 TEST_CASE("the forces are minus the gradient of the potential, and their work is p dV") {
   Random random;
-  for (const PressureOptions& options : every_model()) {
+  for (const Pressure& options : every_model()) {
     const Held ball{sphere({.subdivisions = 1, .radius = 0.4})};
-    Pressure pressure(ball.mesh, 0, options);
+    PressureForce pressure(ball.mesh, 0, options);
     CHECK(std::abs(pressure.potential(ball.at(ball.mesh.vertices))) < 1e-12);
     const Positions x = 1.2 * ball.mesh.vertices + 0.05 * random.positions(ball.mesh.vertex_count(), 1);
     const Positions f = ball.forces(pressure, x);
@@ -98,7 +98,7 @@ TEST_CASE("the forces are minus the gradient of the potential, and their work is
 
 TEST_CASE("a gas keeps P V; squeezed flat or turned inside out it stays finite, and its potential continuous") {
   const Mesh box = bar({.cells = {1, 1, 1}, .size = {1, 1, 1}});
-  const Pressure gas(box, 0, {.model = PressureModel::gas, .pressure = 20, .ambient = 100});
+  const PressureForce gas(box, 0, {.model = PressureModel::gas, .pressure = 20, .ambient = 100});
   for (const Real volume : {0.02, 0.5, 1.0, 3.0}) {
     CHECK((gas.pressure_at(volume) + 100) * volume == doctest::Approx(120).epsilon(1e-13));
   }
@@ -118,13 +118,13 @@ TEST_CASE("a gas keeps P V; squeezed flat or turned inside out it stays finite, 
 
 TEST_CASE("which way the triangles run makes no difference, nor where the body's vertices begin") {
   const Held ball{sphere({.subdivisions = 1})};
-  Pressure outward(ball.mesh, 0, {.pressure = 10});
-  Pressure inward(inside_out(ball.mesh), 0, {.pressure = 10});
+  PressureForce outward(ball.mesh, 0, {.pressure = 10});
+  PressureForce inward(inside_out(ball.mesh), 0, {.pressure = 10});
   CHECK(outward.rest_volume() == doctest::Approx(inward.rest_volume()).epsilon(1e-14));
   const Positions f = ball.forces(outward, ball.mesh.vertices);
   CHECK((f - ball.forces(inward, ball.mesh.vertices)).cwiseAbs().maxCoeff() < 1e-14);
 
-  Pressure later(ball.mesh, 3, {.pressure = 10});
+  PressureForce later(ball.mesh, 3, {.pressure = 10});
   Positions x = Positions::Zero(ball.mesh.vertex_count() + 3, 3);
   x.bottomRows(ball.mesh.vertex_count()) = ball.mesh.vertices;
   Positions g = Positions::Zero(x.rows(), 3);
@@ -144,8 +144,8 @@ TEST_CASE("a spherical membrane grows until Laplace's law holds: p = 2 T/r") {
   const Mesh mesh = sphere({.subdivisions = 2, .radius = 0.5});
   const BodyId ball = simulation.add_body(mesh, Mass::area_density(200));
   simulation.add(ball, TriangleStrain{.stiffness = k});
-  auto force = std::make_unique<Pressure>(mesh, 0, PressureOptions{.pressure = p});
-  const Pressure& pressure = *force;
+  auto force = std::make_unique<PressureForce>(mesh, 0, Pressure{.pressure = p});
+  const PressureForce& pressure = *force;
   const Real rest_volume = force->rest_volume();
   simulation.add_force(std::move(force));
   for (int i = 0; i < 80; ++i) {
@@ -167,8 +167,7 @@ TEST_CASE("the warning's limit is the gas spring's own") {
   const auto warned = [&](Real pressure, Real time_step, Real mass) {
     Simulation simulation({.time_step = time_step});
     simulation.add_body(box, Mass::per_vertex(mass));
-    simulation.add_force(
-        std::make_unique<Pressure>(box, 0, PressureOptions{.model = PressureModel::gas, .pressure = pressure}));
+    simulation.add(Pressure{.model = PressureModel::gas, .pressure = pressure});
     simulation.step();
     return !simulation.warnings().empty();
   };
@@ -186,8 +185,7 @@ TEST_CASE("the warning's limit is the gas spring's own") {
     start.col(2) *= 0.999;
     const BodyId body = simulation.add_body(box, Mass::per_vertex(1), {.start = start});
     simulation.add(body, TetrahedronStrain{.stiffness = 1});
-    simulation.add_force(std::make_unique<Pressure>(
-        box, 0, PressureOptions{.model = PressureModel::gas, .pressure = 1e-3, .ambient = 99.999}));
+    simulation.add(Pressure{.model = PressureModel::gas, .pressure = 1e-3, .ambient = 99.999});
     return !error_of([&] { advance(simulation, 200); }, ErrorKind::diverged).empty() ||
            simulation.state().velocities.cwiseAbs().maxCoeff() > 0.1;
   };
@@ -218,7 +216,7 @@ TEST_CASE("what a pressure refuses") {
 
 TEST_CASE("only the selected, closed part of a body holds the pressure") {
   const Mesh both = joined(sphere({.subdivisions = 0}), grid({.columns = 2, .rows = 2}));
-  PressureOptions options;
+  Pressure options;
   CHECK(contains(refusal(both, options), "4 boundary edges"));
   std::vector<Index> ball(12);
   for (Index v = 0; v < 12; ++v) ball[static_cast<std::size_t>(v)] = v;

@@ -5,6 +5,7 @@
 #include "../core/random.h"
 #include "../mesh/meshes.h"
 #include "../simulation/run.h"
+#include "force_on.h"
 #include "pliant/constraints/builtin.h"
 #include "pliant/forces/wind.h"
 #include "pliant/mesh/shapes.h"
@@ -20,14 +21,14 @@ constexpr Real h = 1.0 / 60;
 
 /// One triangle of area 1/2 in the plane z = 0 at rest, and its state.
 struct OneTriangle {
-  Positions positions = mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}).vertices;
+  Mesh mesh = mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+  Positions positions = mesh.vertices;
   Positions velocities = Positions::Zero(3, 3);
   std::vector<Real> masses = {1, 2, 4};
 
-  Positions forces(const WindOptions& options, Real time = 0, Real time_step = h) const {
-    Wind wind({{0, 1, 2}}, {0.5}, options);
+  Positions forces(const Wind& options, Real time = 0, Real time_step = h) const {
     Positions f = Positions::Zero(3, 3);
-    wind.add_to(f, {positions, velocities, masses, 0, time}, time_step);
+    force_on(mesh, options)->add_to(f, {positions, velocities, masses, 0, time}, time_step);
     return f;
   }
 };
@@ -42,13 +43,13 @@ Real damped(Real share_of_area, Real drag, Real mass, Real time_step = h) {
 
 TEST_CASE("thesis wind: A (n·d) n, a third to each vertex") {
   OneTriangle triangle;
-  const WindOptions options{.velocity = {1, 2, 3}, .model = WindModel::thesis};
+  const Wind options{.velocity = {1, 2, 3}, .model = WindModel::thesis};
   for (int i = 0; i < 3; ++i) CHECK((row(triangle.forces(options), i) - Vec3(0, 0, 0.5)).norm() < 1e-15);
   triangle.velocities = Positions::Constant(3, 3, 5);  // it has no drag
   for (int i = 0; i < 3; ++i) CHECK((row(triangle.forces(options), i) - Vec3(0, 0, 0.5)).norm() < 1e-15);
   triangle.positions *= 2;
   CHECK(row(triangle.forces(options), 0)[2] == doctest::Approx(2).epsilon(1e-14));
-  WindOptions rest = options;
+  Wind rest = options;
   rest.area = WindArea::rest;
   CHECK(row(triangle.forces(rest), 0)[2] == doctest::Approx(0.5).epsilon(1e-14));
 }
@@ -63,7 +64,7 @@ TEST_CASE("relative wind: c A (n·(u − v)) n on every vertex, times (1 − exp
   const Vec3 v = triangle.velocities.colwise().mean().transpose();
   for (const WindArea which : {WindArea::current, WindArea::rest}) {
     const Real area = which == WindArea::current ? 0.5 * 1.5 * 1.5 : 0.5;
-    const WindOptions options{.velocity = {3, -2, 5}, .area = which, .drag = 7};
+    const Wind options{.velocity = {3, -2, 5}, .area = which, .drag = 7};
     const Positions f = triangle.forces(options);
     for (int i = 0; i < 3; ++i) {
       const Real scale = damped(area / 3, 7, triangle.masses[static_cast<std::size_t>(i)]);
@@ -90,7 +91,7 @@ TEST_CASE("a free triangle takes on the wind's normal velocity without overshoot
     for (const Real time_step : {1e-3, h, 8.0}) {
       Simulation simulation({.time_step = time_step, .iterations = 1});
       simulation.add_body(mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}), Mass::area_density(0.2));
-      simulation.add_wind({.velocity = {3, 0, 5}, .drag = drag});
+      simulation.add(Wind{.velocity = {3, 0, 5}, .drag = drag});
       Real last = 0;
       for (int step = 1; step <= 50; ++step) {
         simulation.step();
@@ -110,7 +111,7 @@ TEST_CASE("so does a sheet, whose border has less drag a vertex and is drawn alo
   const BodyId sheet = simulation.add_body(grid({.columns = 6, .rows = 6}), Mass::area_density(0.2));
   simulation.add(sheet, TriangleStrain{.stiffness = 100});
   simulation.add(sheet, Bending{.stiffness = 0.01});
-  simulation.add_wind({.velocity = {3, 5, 0}, .drag = 10});
+  simulation.add(Wind{.velocity = {3, 5, 0}, .drag = 10});
   for (int step = 0; step < 120; ++step) {
     simulation.step();
     CHECK(simulation.state().velocities.col(1).maxCoeff() <= 5 * (1 + 1e-6));
@@ -120,9 +121,9 @@ TEST_CASE("so does a sheet, whose border has less drag a vertex and is drawn alo
 
 TEST_CASE("gusts vary the wind by their share and no more, and come again as one knows them") {
   const OneTriangle triangle;
-  const auto strength = [&](const WindOptions& options, Real time) { return triangle.forces(options, time)(0, 2); };
-  const WindOptions steady{.velocity = {0, 0, 2}};
-  const WindOptions gusty{.velocity = {0, 0, 2}, .gust_strength = 0.3, .gust_period = 1.7};
+  const auto strength = [&](const Wind& options, Real time) { return triangle.forces(options, time)(0, 2); };
+  const Wind steady{.velocity = {0, 0, 2}};
+  const Wind gusty{.velocity = {0, 0, 2}, .gust_strength = 0.3, .gust_period = 1.7};
   const Real mean = strength(steady, 0);
   CHECK(strength(steady, 12.3) == mean);
   Real least = mean;
@@ -150,7 +151,7 @@ TEST_CASE("thesis wind with W = 1e6 grows without bound: the error names vertex 
     simulation.add(curtain, EdgeSpring{.stiffness = 5e4});
     simulation.add(curtain, Position{.on = {240, 255}, .hold = Hold::soft, .stiffness = 1e7});
     add_gravity(simulation);
-    simulation.add_wind({.velocity = {0, 1e6, 3e5}, .model = WindModel::thesis});
+    simulation.add(Wind{.velocity = {0, 1e6, 3e5}, .model = WindModel::thesis});
     std::string message;
     State before;
     int steps = 0;
@@ -173,36 +174,27 @@ TEST_CASE("thesis wind with W = 1e6 grows without bound: the error names vertex 
 }
 
 TEST_CASE("thesis wind on the rest area, and relative wind, have no such limit") {
-  for (const WindOptions& options :
-       {WindOptions{.velocity = {0, 1e6, 3e5}, .model = WindModel::thesis, .area = WindArea::rest},
-        WindOptions{.velocity = {0, 1e6, 3e5}}}) {
+  for (const Wind& options : {Wind{.velocity = {0, 1e6, 3e5}, .model = WindModel::thesis, .area = WindArea::rest},
+                              Wind{.velocity = {0, 1e6, 3e5}}}) {
     Simulation simulation({.iterations = 5});
     const BodyId curtain = simulation.add_body(grid({.columns = 8, .rows = 8}), Mass::per_vertex(1));
     simulation.add(curtain, EdgeSpring{.stiffness = 5e4});
     simulation.add(curtain, Position{.on = {56, 63}});
-    simulation.add_wind(options);
+    simulation.add(options);
     advance(simulation, 300);
     CHECK(simulation.state().positions.allFinite());
   }
 }
 
 TEST_CASE("what a wind refuses") {
-  CHECK(contains(error_of([] { Wind({}, {}, {}); }), "no triangles"));
-  CHECK(contains(error_of([] { Wind({{0, 1, 2}}, {}, {}); }), "not as many as the triangles"));
-  CHECK(contains(error_of([] { Wind({{0, 1, 2}}, {1}, {.drag = -1}); }), "wind: drag"));
-  CHECK(contains(error_of([] {
-                   Wind({{0, 1, 2}}, {1}, {.velocity = {0, std::numeric_limits<Real>::quiet_NaN(), 0}});
-                 }),
-                 "wind: velocity"));
-  CHECK(contains(error_of([] { Wind({{0, 1, 2}}, {1}, {.gust_strength = 1.5}); }), "wind: gust_strength"));
-  CHECK(contains(error_of([] { Wind({{0, 1, 2}}, {1}, {.gust_period = 0}); }), "wind: gust_period"));
+  const auto refusal = [](const Wind& options) { return error_of([&] { force_on(OneTriangle().mesh, options); }); };
+  CHECK(contains(refusal({.drag = -1}), "wind: drag"));
+  CHECK(contains(refusal({.velocity = {0, std::numeric_limits<Real>::quiet_NaN(), 0}}), "wind: velocity"));
+  CHECK(contains(refusal({.gust_strength = 1.5}), "wind: gust_strength"));
+  CHECK(contains(refusal({.gust_period = 0}), "wind: gust_period"));
   Simulation simulation;
   simulation.add_body(chain({.links = 2}), Mass::total(1));
-  CHECK(contains(error_of([&] { simulation.add_wind({}); }), "no triangles"));
-  const std::vector<Triangle> outside = {{0, 1, 3}};
-  CHECK(contains(
-      error_of([&] { simulation.add_force(std::make_unique<Wind>(outside, std::vector<Real>{1}, WindOptions{})); }),
-      "wind: vertex 3 is out of range"));
+  CHECK(contains(error_of([&] { simulation.add(Wind{}); }), "no triangles"));
 }
 
 }  // namespace test_wind

@@ -11,8 +11,7 @@
 #include "pliant/constraints/edge_spring.h"
 #include "pliant/constraints/position.h"
 #include "pliant/constraints/triangle_strain.h"
-#include "pliant/forces/gravity.h"
-#include "pliant/forces/pressure.h"
+#include "pliant/forces/builtin.h"
 #include "pliant/mesh/shapes.h"
 #include "pliant_io/recorder/recorder.h"
 #include "tests/support/temporary_folder.h"
@@ -56,7 +55,7 @@ TEST_CASE("free fall: implicit Euler's loss of energy in closed form") {
   // vₙ = −g h n, zₙ = z₀ − g h² n(n + 1)/2, so E(n) − E(0) = −m g² h² n/2.
   Simulation simulation;
   simulation.add_body(grid({.columns = 4, .rows = 4}), Mass::total(3));
-  simulation.add_force(std::make_unique<Gravity>());
+  simulation.add(Gravity{});
   const Real start = measure(simulation, {}).total;
   for (int n = 1; n <= 50; ++n) {
     const Measurements row = measure(simulation, simulation.step());
@@ -96,8 +95,8 @@ TEST_CASE("the energies of a row add up to its total, under pressure too") {
   const BodyId body = simulation.add_body(tube, Mass::total(1));
   simulation.add(body, TriangleStrain{.stiffness = 200}, "skin");
   simulation.add(body, EdgeSpring{.stiffness = 5}, "springs");
-  simulation.add_force(std::make_unique<Gravity>());
-  simulation.add_force(std::make_unique<Pressure>(tube, 0, PressureOptions{.pressure = 20}));
+  simulation.add(Gravity{});
+  simulation.add(Pressure{.pressure = 20});
   Recorder recorder(folder.path(), nullptr, 1, simulation.group_names());
   for (int i = 0; i < 5; ++i) recorder.record(simulation, simulation.step());
   const auto columns = read_columns(TemporaryFolder::read(folder.path() / "measurements.csv"));
@@ -120,7 +119,7 @@ TEST_CASE("the file has a row for each record, and numbers that read back to the
   const BodyId body = simulation.add_body(grid({.columns = 4, .rows = 4}), Mass::total(1));
   simulation.add(body, EdgeSpring{.stiffness = 50}, "springs");
   simulation.add(body, Position{.on = {12, 15}}, "pins, hard");
-  simulation.add_force(std::make_unique<Gravity>());
+  simulation.add(Gravity{});
   Recorder recorder(folder.path(), make_npy_writer(folder.path(), 16), 3, simulation.group_names());
   recorder.record(simulation, {});
   std::vector<Measurements> rows = {measure(simulation, {})};
@@ -162,7 +161,7 @@ TEST_CASE("groups that come and go have columns from the start, and 0 where they
   Simulation simulation;
   const BodyId body = simulation.add_body(grid({.columns = 3, .rows = 3}), Mass::total(1));
   const GroupId springs = simulation.add(body, EdgeSpring{.stiffness = 50}, "springs");
-  simulation.add_force(std::make_unique<Gravity>());
+  simulation.add(Gravity{});
   Recorder recorder(folder.path(), nullptr, 1, {"springs", "skin"});
   const auto step = [&] { recorder.record(simulation, simulation.step()); };
   recorder.record(simulation, {});

@@ -113,14 +113,13 @@ TEST_CASE("every event does what the call does") {
     s.replace(group(s, "pins"), Position{.on = {6, 7, 8}, .hold = Hold::soft, .stiffness = 30});
   });
   check_same(R"({"step": 4, "change": "wind", "velocity": [0, 9, 0], "drag": 2})", 4, [](Simulation& s) {
-    s.replace(*s.find_force("wind"), s.make_wind({.velocity = {0, 9, 0}, .drag = 2}));
+    s.replace(*s.find_force("wind"), Wind{.velocity = {0, 9, 0}, .drag = 2});
   });
   check_same(R"({"step": 4, "change": "push", "force": [0, 5, 0]})", 4, [](Simulation& s) {
-    s.replace(*s.find_force("push"), std::make_unique<TestForce>(std::vector<Index>{11}, Vec3(0, 5, 0)));
+    s.replace(*s.find_force("push"), TestForce{.vertices = {2}, .force = Vec3(0, 5, 0)});
   });
   check_same(R"({"step": 4, "change": "mouse_spring", "anchor": [1, 1, 1]})", 4, [](Simulation& s) {
-    s.replace(*s.find_force("mouse_spring"),
-              std::make_unique<MouseSpring>(9, MouseSpringOptions{.anchor = {1, 1, 1}, .stiffness = 5}));
+    s.replace(*s.find_force("mouse_spring"), MouseSpring{.vertices = {0}, .anchor = {1, 1, 1}, .stiffness = 5});
   });
   check_same(R"({"step": 3, "settings": {"time_step": 0.03, "iterations": 7}})", 3, [](Simulation& s) {
     SolverSettings settings = s.settings();
@@ -129,12 +128,12 @@ TEST_CASE("every event does what the call does") {
     s.set_settings(settings);
   });
   check_same(R"({"step": 3, "gravity": [0, 0, 2]})", 3,
-             [](Simulation& s) { s.replace(*s.find_force("gravity"), std::make_unique<Gravity>(Vec3(0, 0, 2))); });
+             [](Simulation& s) { s.replace(*s.find_force("gravity"), Gravity{Vec3(0, 0, 2)}); });
   check_same(R"({"step": 3, "gravity": null})", 3, [](Simulation& s) { s.remove(*s.find_force("gravity")); });
   check_same(R"({"step": 2, "add": {"body": "sheet", "type": "position", "on": [0], "hold": "soft"}})", 2,
              [](Simulation& s) { s.add(BodyId{0}, Position{.on = {0}, .hold = Hold::soft}); });
   check_same(R"({"step": 2, "add": {"type": "wind", "body": "sheet", "velocity": [0, 0, 3]}})", 2, [](Simulation& s) {
-    s.add_wind(BodyId{0}, {.velocity = {0, 0, 3}});
+    s.add(BodyId{0}, Wind{.velocity = {0, 0, 3}});
   });
   check_same(R"({"step": 2, "remove": "skin"})", 2, [&](Simulation& s) { s.remove(group(s, "skin")); });
   check_same(R"({"step": 2, "remove": "wind"})", 2, [](Simulation& s) { s.remove(*s.find_force("wind")); });
@@ -289,7 +288,7 @@ TEST_CASE("what is wrong with an event is said with its place") {
   check_refused(R"({"step": 1, "add": {"body": "rope", "type": "hinge"}})", "events[0].add: makes no constraint");
   check_refused(R"({"step": 1, "add": {"body": "sheet", "type": "position", "on": [6]}})",
                 "events[0]: ", "is already held by 'pins'");
-  check_refused(R"({"step": 1, "add": {"type": "wind", "body": "rope"}})", "events[0].add: there are no triangles");
+  check_refused(R"({"step": 1, "add": {"type": "wind", "body": "rope"}})", "events[0]: wind: there are no triangles");
   check_refused(R"({"step": 1, "add": {"type": "wind", "name": "gravity"}})", "events[0].add.name: the name 'gravity'");
   check_refused(R"({"step": 1, "remove": "wnd"})", "events[0].remove: there is no group and no force 'wnd'",
                 "first: wind");

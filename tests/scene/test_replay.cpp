@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "../mesh/meshes.h"
+#include "pliant/forces/builtin.h"
 #include "timeline_rig.h"
 
 namespace test_replay {
@@ -36,8 +37,8 @@ struct Show : Rig {
       t.start(s, *s.find_group("late"), straight_path(MoveKind::offset, Vec3(0, 0, 1), 0.2), {0});
     });
     timeline.add(When::at_time(0.6), [=, this](Simulation& s, Timeline& t) {
-      s.replace(*s.find_force("gravity"), std::make_unique<Gravity>(Vec3(0, 1, -3)));
-      s.add_wind(body, {.velocity = {0, 4, 0}}, "breeze");
+      s.replace(*s.find_force("gravity"), Gravity{Vec3(0, 1, -3)});
+      s.add(body, Wind{.velocity = {0, 4, 0}}, "breeze");
       t.stop(s, *s.find_group("late"));
     });
     timeline.add(When::at_time(0.8), [](Simulation& s) {

@@ -15,7 +15,7 @@ struct Rig {
     body = simulation.add_body(grid({.columns = 4, .rows = 4}), Mass::total(1), {.name = "sheet"});
     springs = simulation.add(body, EdgeSpring{.stiffness = 200}, "springs");
     pins = simulation.add(body, Position{.on = {12, 15}}, "pins");
-    simulation.add_force(std::make_unique<Gravity>());
+    simulation.add(Gravity{});
   }
 
   void advance(int steps) {

@@ -1,9 +1,7 @@
 #pragma once
 // One simulation with every built-in constraint type and every force on three bodies.
 #include "pliant/constraints/builtin.h"
-#include "pliant/forces/gravity.h"
-#include "pliant/forces/mouse_spring.h"
-#include "pliant/forces/test_force.h"
+#include "pliant/forces/builtin.h"
 #include "pliant/mesh/shapes.h"
 #include "pliant/simulation/simulation.h"
 
@@ -27,12 +25,10 @@ inline void add_everything_cloth(pliant::Simulation& simulation, pliant::Index s
                              .weights = {{0.2, 0.3, 0.5}, {1}},
                              .stiffness = 20,
                              .targets = Vec3(0.5, 0.4, 0.1)});
-  simulation.add_wind(cloth, {.velocity = {0, 3, 1}, .drag = 0.5, .gust_strength = 0.5});
-  simulation.add_wind(cloth, {.velocity = {0, 0.2, 0}, .model = WindModel::thesis, .area = WindArea::rest});
-  simulation.add_force(
-      std::make_unique<TestForce>(std::vector<Index>{simulation.vertex(cloth, size + 1)}, Vec3(0, 0.5, 0), 2, 6));
-  simulation.add_force(std::make_unique<MouseSpring>(simulation.vertex(cloth, 2 * size + 1),
-                                                     MouseSpringOptions{.anchor = {1, 1, 1}, .stiffness = 0.1}));
+  simulation.add(cloth, pliant::Wind{.velocity = {0, 3, 1}, .drag = 0.5, .gust_strength = 0.5});
+  simulation.add(cloth, pliant::Wind{.velocity = {0, 0.2, 0}, .model = WindModel::thesis, .area = WindArea::rest});
+  simulation.add(cloth, TestForce{.vertices = {size + 1}, .force = Vec3(0, 0.5, 0), .frames = {2, 6}});
+  simulation.add(cloth, MouseSpring{.vertices = {2 * size + 1}, .anchor = {1, 1, 1}, .stiffness = 0.1});
 }
 
 inline void add_everything_solids(pliant::Simulation& simulation, pliant::Index size) {
@@ -53,7 +49,7 @@ inline pliant::Simulation everything(const pliant::SolverSettings& settings, pli
   pliant::Simulation simulation(settings);
   add_everything_cloth(simulation, size);
   add_everything_solids(simulation, size);
-  simulation.add_force(std::make_unique<pliant::Gravity>());
+  simulation.add(pliant::Gravity{});
   return simulation;
 }
 

@@ -12,7 +12,7 @@ inline void advance(pliant::Simulation& simulation, int steps) {
 }
 
 inline void add_gravity(pliant::Simulation& simulation, const pliant::Vec3& g = {0, 0, -9.81}) {
-  simulation.add_force(std::make_unique<pliant::Gravity>(g));
+  simulation.add(pliant::Gravity{g});
 }
 
 /// Iterates until no vertex has a larger residual force [N]; the number of iterations is only a way out.

@@ -3,6 +3,7 @@
 
 #include "../mesh/meshes.h"
 #include "everything.h"
+#include "pliant/forces/builtin.h"
 #include "pliant/simulation/undo.h"
 #include "run.h"
 
@@ -45,9 +46,9 @@ TEST_CASE("groups and forces are found by their names") {
   simulation.remove(sheet.springs);
   CHECK(simulation.find_group("springs") == second);
 
-  const ForceId breeze = simulation.add_wind(sheet.body, {}, "breeze");
-  const ForceId wind = simulation.add_wind(sheet.body, {});
-  const ForceId another = simulation.add_wind({});
+  const ForceId breeze = simulation.add(sheet.body, Wind{}, "breeze");
+  const ForceId wind = simulation.add(sheet.body, Wind{});
+  const ForceId another = simulation.add(Wind{});
   CHECK(simulation.name(breeze) == "breeze");
   CHECK(simulation.name(wind) == "wind");
   CHECK(simulation.name(another) == "wind 2");
@@ -56,10 +57,10 @@ TEST_CASE("groups and forces are found by their names") {
   simulation.remove(wind);
   CHECK(simulation.find_force("wind") == std::nullopt);
   CHECK(contains(error_of([&] { simulation.name(wind); }), "force 1 does not exist"));
-  CHECK(contains(error_of([&] { simulation.replace(wind, std::make_unique<Gravity>()); }), "force 1 does not exist"));
+  CHECK(contains(error_of([&] { simulation.replace(wind, Gravity{}); }), "force 1 does not exist"));
   CHECK(contains(error_of([&] { simulation.replace(breeze, nullptr); }), "there is none"));
-  const auto far = [] { return std::make_unique<MouseSpring>(16, MouseSpringOptions{}); };
-  CHECK(contains(error_of([&] { simulation.replace(breeze, far()); }), "vertex 16 is out of range"));
+  const MouseSpring far{.vertices = {16}};
+  CHECK(contains(error_of([&] { simulation.replace(breeze, far); }), "vertex 16 is out of range"));
 }
 
 TEST_CASE("a replaced group keeps id, name and targets; vertices that it did not have begin where they are") {
@@ -223,10 +224,10 @@ void change_everything(Simulation& simulation) {
   simulation.remove(simulation.add(BodyId{0}, EdgeSpring{}));
   const GroupId added = simulation.add(BodyId{0}, Position{.on = {13}});
   simulation.replace(added, Position{.on = {14}});
-  simulation.replace(ForceId{0}, std::make_unique<Gravity>(Vec3(1, 1, 1)));
+  simulation.replace(ForceId{0}, Gravity{Vec3(1, 1, 1)});
   simulation.remove(ForceId{0});
   simulation.remove(ForceId{1});
-  simulation.add_wind({.velocity = {9, 9, 9}});
+  simulation.add(Wind{.velocity = {9, 9, 9}});
   SolverSettings settings = simulation.settings();
   settings.time_step = 0.5;
   simulation.set_settings(settings);

@@ -6,6 +6,7 @@
 
 #include "../mesh/meshes.h"
 #include "pliant/constraints/builtin.h"
+#include "pliant/forces/builtin.h"
 #include "pliant/mesh/shapes.h"
 #include "run.h"
 
@@ -49,9 +50,9 @@ struct Curtain {
     simulation.add(body, Drag{.stencils = {{9, 10, 18}}, .stiffness = 50, .targets = Vec3(0.2, 0.1, 0.1)});
   }
   void add_third_pin() { simulation.add(body, Position{.on = {60}, .targets = Vec3(0.55, 0.01, 0.95)}); }
-  ForceId add_wind() { return simulation.add_wind(body, {.velocity = {0, 4, 0}}); }
+  ForceId add_wind() { return simulation.add(body, Wind{.velocity = {0, 4, 0}}); }
   ForceId add_push() {
-    return simulation.add_force(std::make_unique<Gravity>(Vec3(0, 2, 0)));  // no forces that know the time
+    return simulation.add(Gravity{Vec3(0, 2, 0)});  // no forces that know the time
   }
 
   Simulation simulation;

@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include "pliant/constraints/builtin.h"
+#include "pliant/forces/builtin.h"
 #include "pliant/mesh/shapes.h"
 #include "pliant/timeline/timeline.h"
 #include "run.h"
@@ -26,7 +27,7 @@ struct Make {
   std::vector<Vec3> pin_targets = {{0, 0, 1}, {1, 0, 1}};
   std::optional<Drag> drag = std::nullopt;
   Vec3 gravity{0, 0, -9.81};
-  std::optional<WindOptions> wind = WindOptions{.velocity = {0, 2, 0}};
+  std::optional<Wind> wind = Wind{.velocity = {0, 2, 0}};
 };
 
 constexpr BodyId curtain{0};
@@ -47,7 +48,7 @@ Simulation make(const Make& options) {
   }
   if (options.drag) simulation.add(curtain, *options.drag, "drag");
   add_gravity(simulation, options.gravity);
-  if (options.wind) simulation.add_wind(curtain, *options.wind);
+  if (options.wind) simulation.add(curtain, *options.wind);
   return simulation;
 }
 
@@ -233,19 +234,16 @@ TEST_CASE("a stiffness that is ramped") {
 TEST_CASE("wind and gravity") {
   Make after;
   after.wind->velocity = {1, -6, 0};
-  check_edit(after,
-             [&](Simulation& s, Timeline&) { s.replace(*s.find_force("wind"), s.make_wind(curtain, *after.wind)); });
+  check_edit(after, [&](Simulation& s, Timeline&) { s.replace(*s.find_force("wind"), *after.wind); });
   after.wind.reset();
   check_edit(after, [](Simulation& s, Timeline&) { s.remove(*s.find_force("wind")); });
   check_edit({}, [](Simulation& s, Timeline&) {
     s.remove(*s.find_force("wind"));
-    s.add_wind(curtain, *Make().wind);
+    s.add(curtain, *Make().wind);
   });
   after = {};
   after.gravity = {0, 5, 1};
-  check_edit(after, [](Simulation& s, Timeline&) {
-    s.replace(*s.find_force("gravity"), std::make_unique<Gravity>(Vec3(0, 5, 1)));
-  });
+  check_edit(after, [](Simulation& s, Timeline&) { s.replace(*s.find_force("gravity"), Gravity{Vec3(0, 5, 1)}); });
   after.gravity = {0, 0, 0};
   check_edit(after, [](Simulation& s, Timeline&) { s.remove(*s.find_force("gravity")); });
 }
@@ -262,7 +260,7 @@ TEST_CASE("several edits at once") {
     s.set_settings(after.settings);
     s.set_stiffness(id(s, "springs"), 90);
     s.remove(id(s, "skin"));
-    s.replace(*s.find_force("gravity"), std::make_unique<Gravity>(after.gravity));
+    s.replace(*s.find_force("gravity"), Gravity{after.gravity});
     s.release(id(s, "pins"), std::array<Index, 1>{56});
   });
 }

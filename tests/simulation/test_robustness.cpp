@@ -4,6 +4,7 @@
 #include "../core/random.h"
 #include "../mesh/meshes.h"
 #include "everything.h"
+#include "pliant/forces/builtin.h"
 #include "pliant/mesh/geometry.h"
 #include "run.h"
 
@@ -100,7 +101,7 @@ TEST_CASE("a force that is too large is named with its vertex, not with the vert
     const BodyId body = simulation.add_body(grid({.columns = 10, .rows = 10}), Mass::total(1));
     simulation.add(body, EdgeSpring{});
     simulation.add(body, Position{.on = {0}});
-    simulation.add_force(std::make_unique<TestForce>(std::vector<Index>{50}, Vec3(0, 1e200, 0), 3));
+    simulation.add(TestForce{.vertices = {50}, .force = Vec3(0, 1e200, 0), .frames = {3, TestForce::forever}});
     advance(simulation, 3);
     const State before = simulation.state();
     const std::string message = error_of([&] { simulation.step(); }, ErrorKind::diverged);
@@ -170,7 +171,7 @@ TEST_CASE("strange meshes are simulated; what bending leaves out is counted") {
     simulation.add(body, HingeBending{.stiffness = 0.01, .orientation = Orientation::signed_});
     simulation.add(body, Position{.on = {0}});
     add_gravity(simulation);
-    simulation.add_wind({.velocity = {1, 3, 0}});
+    simulation.add(Wind{.velocity = {1, 3, 0}});
     check_bounded(simulation, 60);
     REQUIRE_FALSE(simulation.warnings().empty());
     CAPTURE(simulation.warnings()[0]);

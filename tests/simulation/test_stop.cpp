@@ -18,8 +18,8 @@ struct Cloth {
     body = simulation.add_body(grid({.columns = 5, .rows = 5}), Mass::total(1));
     springs = simulation.add(body, EdgeSpring{.stiffness = 100});
     simulation.add(body, Position{.on = {0, 4}});
-    simulation.add_force(std::make_unique<Gravity>());
-    simulation.add_wind(body, {.velocity = {0, 3, 0}, .gust_strength = 0.5});
+    simulation.add(Gravity{});
+    simulation.add(body, Wind{.velocity = {0, 3, 0}, .gust_strength = 0.5});
   }
   Simulation simulation;
   BodyId body{};

@@ -39,7 +39,7 @@ Simulation falling_with_culprit(Index iterations, Real tolerance, Index culprit)
   set.count = 1;
   set.parts.push_back(std::move(batch));
   simulation.add_set(body, std::move(set), "brittle");
-  simulation.add_force(std::make_unique<Gravity>());
+  simulation.add(Gravity{});
   return simulation;
 }
 
@@ -152,7 +152,7 @@ TEST_CASE("an evaluation between a changed time step and a failed step does not 
     const BodyId body = simulation.add_body(grid({.columns = 5, .rows = 5}), Mass::per_vertex(1));
     simulation.add(body, EdgeSpring{});
     simulation.add(body, Position{.on = {20, 24}});
-    simulation.add_force(std::make_unique<Gravity>());
+    simulation.add(Gravity{});
     simulation.add_force(std::move(force));
     simulation.step();
     simulation.set_settings({.time_step = 0.1});

@@ -12,7 +12,7 @@
 #include "motions.h"
 #include "pliant/constraints/batch.h"
 #include "pliant/core/error.h"
-#include "pliant/forces/mouse_spring.h"
+#include "pliant/forces/builtin.h"
 #include "pliant/solver/global/system_matrix.h"
 
 namespace test_energy_projection {
@@ -143,9 +143,9 @@ TEST_CASE("a constant force is worth as much as the same weight, and leaves no d
   const auto energies = [=](Integrator integrator, Real h_omega, bool is_gravity) {
     Simulation simulation = mass_on_moved_pin(keeping(oscillator_settings(integrator, h_omega / omega))).simulation;
     if (is_gravity) {
-      simulation.add_force(std::make_unique<Gravity>(Vec3(weight, 0, 0)));
+      simulation.add(Gravity{Vec3(weight, 0, 0)});
     } else {
-      simulation.add_force(std::make_unique<TestForce>(std::vector<Index>{1}, Vec3(weight, 0, 0)));
+      simulation.add(TestForce{.vertices = {1}, .force = Vec3(weight, 0, 0)});
     }
     std::vector<Real> sums;
     for (int i = 0; i < 20 * window; ++i) {
@@ -342,7 +342,7 @@ TEST_CASE("what brakes is not given back") {
     const BodyId sheet = simulation.add_body(std::move(mesh), Mass::area_density(0.1), options);
     simulation.add(sheet, EdgeSpring{.stiffness = 200});
     simulation.add(sheet, Position{.on = {0}, .hold = Hold::soft, .stiffness = 1e-6});  // so that all of it counts
-    simulation.add_wind({.velocity = {0, 0, 0}, .drag = drag});
+    simulation.add(Wind{.velocity = {0, 0, 0}, .drag = drag});
     REQUIRE(kinetic(simulation) == doctest::Approx(1.25));
     advance(simulation, steps);
     return kinetic(simulation);
@@ -371,7 +371,7 @@ TEST_CASE("a push gives its work along the way of the steps, and nothing before 
       Positions velocities = Positions::Zero(2, 3);
       velocities(1, 1) = 1;
       simulation.set_state(Positions(simulation.state().positions), velocities);
-      simulation.add_force(std::make_unique<TestForce>(std::vector<Index>{1}, Vec3(0, 60, 0), 10, 10 + frames));
+      simulation.add(TestForce{.vertices = {1}, .force = Vec3(0, 60, 0), .frames = {10, 10 + frames}});
       advance(simulation, 10);
       CHECK(kinetic(simulation) == doctest::Approx(0.5).epsilon(1e-6));
       advance(simulation, frames);
@@ -397,8 +397,8 @@ TEST_CASE("a couple turns a free box as much as its torques say, and a share of 
     const BodyId box = simulation.add_body(bar({.cells = {2, 2, 2}}), Mass::total(1));
     simulation.add(box, TetrahedronStrain{.stiffness = 1e5});
     const Index end = simulation.body(box).mesh.vertex_count() - 1;
-    simulation.add_force(std::make_unique<TestForce>(std::vector<Index>{0}, Vec3(0, 0.2, 0)));
-    simulation.add_force(std::make_unique<TestForce>(std::vector<Index>{end}, Vec3(0, -0.2, 0)));
+    simulation.add(box, TestForce{.vertices = {0}, .force = Vec3(0, 0.2, 0)});
+    simulation.add(box, TestForce{.vertices = {end}, .force = Vec3(0, -0.2, 0)});
     Real expected = 0;
     for (int i = 0; i < 60; ++i) {
       const Positions& x = simulation.state().positions;
@@ -447,8 +447,7 @@ TEST_CASE("an explicit spring gains no energy") {
   const BodyId rope = simulation.add_body(chain({.links = 3, .direction = {1, 0, 0}}), Mass::per_vertex(1));
   simulation.add(rope, EdgeSpring{.stiffness = 100});
   simulation.add(rope, Position{.on = {0}});
-  simulation.add_force(
-      std::make_unique<MouseSpring>(simulation.vertex(rope, 3), MouseSpringOptions{.anchor = {3, 1, 0}}));
+  simulation.add(rope, MouseSpring{.vertices = {3}, .anchor = {3, 1, 0}});
   const Real begin = total(simulation);
   for (int i = 0; i < 2000; ++i) {
     simulation.step();

@@ -9,7 +9,7 @@
 #include "motions.h"
 #include "pliant/constraints/builtin.h"
 #include "pliant/core/error.h"
-#include "pliant/forces/mouse_spring.h"
+#include "pliant/forces/builtin.h"
 #include "pliant/mesh/shapes.h"
 #include "pliant/simulation/undo.h"
 #include "pliant/solver/integration/integrator.h"
@@ -228,7 +228,7 @@ TEST_CASE("substeps are steps of the divided length") {
       Simulation simulation(given);
       add_everything_solids(simulation, 6);
       add_gravity(simulation);
-      simulation.add_wind({.velocity = {0, 3, 1}});
+      simulation.add(Wind{.velocity = {0, 3, 1}});
       return simulation;
     };
     Simulation small_steps = make(settings);
@@ -350,16 +350,16 @@ TEST_CASE("what is undone comes back with its history") {
 }
 
 TEST_CASE("an explicit spring and BDF2 refuse each other") {
-  const auto spring = [] { return std::make_unique<MouseSpring>(0, MouseSpringOptions{}); };
+  const MouseSpring spring{.vertices = {0}};
   Simulation simulation = two_masses(oscillator_settings(Integrator::bdf2, 0.01), 1);
-  CHECK_THROWS_WITH_AS(simulation.add_force(spring()),
+  CHECK_THROWS_WITH_AS(simulation.add(BodyId{0}, spring),
                        doctest::Contains("mouse_spring: an explicit spring gains energy"), Error);
   CHECK(simulation.forces().empty());
   add_gravity(simulation);
-  CHECK_THROWS_AS(simulation.replace(simulation.forces().begin()->first, spring()), Error);
+  CHECK_THROWS_AS(simulation.replace(simulation.forces().begin()->first, BodyId{0}, spring), Error);
 
   Simulation euler = two_masses(oscillator_settings(Integrator::implicit_euler, 0.01), 1);
-  euler.add_force(spring());
+  euler.add(BodyId{0}, spring);
   SolverSettings settings = euler.settings();
   settings.integrator = Integrator::bdf2;
   CHECK_THROWS_WITH_AS(euler.set_settings(settings), doctest::Contains("use a drag"), Error);

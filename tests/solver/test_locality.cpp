@@ -7,6 +7,7 @@
 #include "../mesh/meshes.h"
 #include "../simulation/everything.h"
 #include "../simulation/run.h"
+#include "pliant/forces/builtin.h"
 #include "pliant/solver/local/local_step.h"
 #include "pliant/solver/local/locality.h"
 
@@ -73,7 +74,7 @@ struct Rig {
     pins = simulation.add(body, Position{.on = std::vector<Index>{at(40)}, .hold = Hold::soft, .stiffness = 1e3});
     simulation.add(body, Line{.on = std::vector<Index>{at(99)}, .stiffness = 100, .direction = Vec3(1, 1, 0)});
     simulation.add(body, Drag{.stencils = {{at(300), at(301), at(301 + side)}}, .targets = Vec3(0.5, 0.4, 0.1)});
-    simulation.add_wind(body, {.velocity = {0, 3, 1}, .drag = 0.5});
+    simulation.add(body, Wind{.velocity = {0, 3, 1}, .drag = 0.5});
     add_gravity(simulation);
   }
 
@@ -233,7 +234,7 @@ TEST_CASE("what is reported of a mesh in random order has the user's numbers") {
   REQUIRE(info.free_parts.size() == 1);
   CHECK(info.free_parts[0].first_vertex == 0);
   CHECK(info.free_parts[0].vertex_count == side * side);
-  simulation.add_force(std::make_unique<TestForce>(std::vector<Index>{50}, Vec3(0, 1e200, 0), 1));
+  simulation.add(TestForce{.vertices = {50}, .force = Vec3(0, 1e200, 0), .frames = {1, TestForce::forever}});
   const State before = simulation.state();
   const std::string message = error_of([&] { advance(simulation, 3); }, ErrorKind::diverged);
   CAPTURE(message);

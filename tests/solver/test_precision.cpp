@@ -19,7 +19,7 @@ namespace {
 Simulation curtain(Precision precision, Index iterations, Index threads = 1) {
   Simulation simulation({.iterations = iterations, .precision = precision, .threads = threads});
   const BodyId body = simulation.add_body(grid({.columns = 24, .rows = 24, .size = {1, 1}}), Mass::per_vertex(0.01));
-  simulation.add_force(std::make_unique<Gravity>());
+  simulation.add(Gravity{});
   simulation.add(body, EdgeSpring{.stiffness = 200});
   simulation.add(body, Bending{.stiffness = 1e-4});
   simulation.add(body, Position{.on = std::vector<Index>{552, 575}});
@@ -91,7 +91,7 @@ TEST_CASE("bodies fall freely in mixed precision, however stiff and light they a
     const BodyId body =
         simulation.add_body(grid({.columns = 8, .rows = 8, .size = {1, 1}}), Mass::per_vertex(each.mass));
     simulation.add(body, EdgeSpring{.stiffness = each.stiffness});
-    simulation.add_force(std::make_unique<Gravity>());
+    simulation.add(Gravity{});
     const Positions start = simulation.state().positions;
     const int steps = 10;
     advance(simulation, steps);

@@ -33,8 +33,8 @@ Scene make_sheet() {
   scene.simulation.add(sheet, pliant::TriangleStrain{.stiffness = 500}, "stretch");
   scene.simulation.add(sheet, pliant::HingeBending{.stiffness = 1e-3}, "bend");
   scene.simulation.add(sheet, pliant::Position{.on = {side * (side - 1), side * side - 1}}, "hooks");
-  scene.simulation.add_force(std::make_unique<pliant::Gravity>());
-  scene.simulation.add_wind(sheet, {.velocity = {0, 0, 0}, .drag = 3});
+  scene.simulation.add(pliant::Gravity{});
+  scene.simulation.add(sheet, pliant::Wind{.velocity = {0, 0, 0}, .drag = 3});
   return scene;
 }
 

@@ -1,12 +1,14 @@
 #pragma once
-#include <memory>
-
-#include "pliant/core/options.h"
-#include "pliant/forces/force.h"
+#include "pliant/forces/force_options.h"
 
 namespace pliant {
 
-struct GravityOptions {
+/// f = m g on every vertex (thesis Eq. 5.2): of one body, or of all there are and will be. Conservative, with the
+/// potential −Σ m g·x.
+struct Gravity {
+  static constexpr ForceInfo info{"gravity", "m g", "thesis Eq. 5.2", ForceReach::bodies};
+
+  /// g [m/s²], any finite vector; default: the Earth's, along −z.
   Vec3 acceleration{0, 0, -9.81};
 
   template <class Self, class Visitor>
@@ -15,25 +17,7 @@ struct GravityOptions {
   }
 };
 
-/// f = m g on every vertex (thesis Eq. 5.2).
-class Gravity final : public Force {
- public:
-  /// acceleration [m/s²]. Throws Error(input) when it is not finite.
-  explicit Gravity(const Vec3& acceleration = {0, 0, -9.81});
-
-  std::string_view type() const override { return "gravity"; }
-  void add_to(Positions& forces, const StateView& state, Real time_step) override;
-  /// −Σ m g·x
-  Real potential(const StateView& state) const override;
-  bool is_conservative() const override { return true; }
-
-  GravityOptions options() const { return {acceleration_}; }
-  std::unique_ptr<Gravity> with(const GravityOptions& options) const {
-    return std::make_unique<Gravity>(options.acceleration);
-  }
-
- private:
-  Vec3 acceleration_;
-};
+/// Throws Error(input) when g is not finite.
+std::unique_ptr<Force> build(const ForceScope& scope, const Gravity& options);
 
 }  // namespace pliant

@@ -3,40 +3,59 @@
 #include <fmt/format.h>
 
 namespace pliant {
+namespace {
 
-MouseSpring::MouseSpring(Index vertex, const MouseSpringOptions& options) : vertex_(vertex), options_(options) {
-  check_options("mouse_spring", options_);
-}
+class MouseSpringForce final : public Force {
+ public:
+  MouseSpringForce(std::vector<Index> vertices, const MouseSpring& options)
+      : vertices_(std::move(vertices)), options_(options) {}
 
-void MouseSpring::add_to(Positions& forces, const StateView& state, Real) {
-  const Vec3 d = options_.anchor - row(state.positions, vertex_);
-  const Real length = d.stableNorm();
-  if (!(length > 0)) return;  // no direction, no force
-  forces.row(vertex_) += (options_.stiffness * (length - options_.rest_length) / length * d).transpose();
-}
+  std::string_view type() const override { return MouseSpring::info.name; }
+  bool is_conservative() const override { return true; }
+  bool is_explicit_spring() const override { return true; }
 
-void MouseSpring::set_anchor(const Vec3& anchor) {
-  if (!anchor.allFinite()) fail_input("mouse_spring: the anchor is not finite; give three finite numbers");
-  options_.anchor = anchor;
-}
+  void add_to(Positions& forces, const StateView& state, Real) override {
+    for (const Index vertex : vertices_) {
+      const Vec3 d = options_.anchor - row(state.positions, vertex);
+      const Real length = d.stableNorm();
+      if (!(length > 0)) continue;  // no direction, no force
+      forces.row(vertex) += (options_.stiffness * (length - options_.rest_length) / length * d).transpose();
+    }
+  }
 
-std::optional<Index> MouseSpring::vertex_out_of_range(Index vertex_count) const {
-  return vertex_ >= 0 && vertex_ < vertex_count ? std::nullopt : std::optional(vertex_);
-}
+  Real potential(const StateView& state) const override {
+    Real energy = 0;
+    for (const Index vertex : vertices_) {
+      const Real stretch = (options_.anchor - row(state.positions, vertex)).stableNorm() - options_.rest_length;
+      energy += options_.stiffness / 2 * stretch * stretch;
+    }
+    return energy;
+  }
 
-Real MouseSpring::potential(const StateView& state) const {
-  const Real stretch = (options_.anchor - row(state.positions, vertex_)).stableNorm() - options_.rest_length;
-  return options_.stiffness / 2 * stretch * stretch;
-}
+  std::optional<std::string> warning(const StateView& state, Real time_step) const override {
+    for (const Index vertex : vertices_) {
+      const Real mass = state.masses[static_cast<std::size_t>(vertex)];
+      const Real limit = 4 * mass / (time_step * time_step);
+      if (options_.stiffness < limit) continue;
+      return fmt::format(
+          "mouse_spring on vertex {}: stiffness {} N/m is not below the explicit spring's limit 4 m/h² = {} N/m, so it "
+          "may grow without bound; use a drag, which has no limit",
+          vertex, options_.stiffness, limit);
+    }
+    return std::nullopt;
+  }
 
-std::optional<std::string> MouseSpring::warning(const StateView& state, Real time_step) const {
-  const Real mass = state.masses[static_cast<std::size_t>(vertex_)];
-  const Real limit = 4 * mass / (time_step * time_step);
-  if (options_.stiffness < limit) return std::nullopt;
-  return fmt::format(
-      "mouse_spring on vertex {}: stiffness {} N/m is not below the explicit spring's limit 4 m/h² = {} N/m, so it may "
-      "grow without bound; use a drag, which has no limit",
-      vertex_, options_.stiffness, limit);
+ private:
+  std::vector<Index> vertices_;
+  MouseSpring options_;
+};
+
+}  // namespace
+
+std::unique_ptr<Force> build(const ForceScope& scope, const MouseSpring& options) {
+  check_options(MouseSpring::info.name, options);
+  return std::make_unique<MouseSpringForce>(selected_vertices(MouseSpring::info.name, scope, options.vertices),
+                                            options);
 }
 
 }  // namespace pliant

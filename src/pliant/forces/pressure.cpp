@@ -72,7 +72,7 @@ void check_closed(const std::vector<Triangle>& triangles) {
   }
 }
 
-void check_pressure(const PressureOptions& options) {
+void check_pressure(const Pressure& options) {
   check_options("pressure", options);
   if (options.model == PressureModel::gas && !(options.pressure + options.ambient > 0)) {
     fail_input(fmt::format("pressure: a gas of {} Pa over {} Pa has none; give a sum above 0", options.pressure,
@@ -88,7 +88,7 @@ Vec3 cross(const Positions& x, const Triangle& triangle) {
 
 }  // namespace
 
-Pressure::Pressure(const Mesh& mesh, Index first_vertex, const PressureOptions& options)
+PressureForce::PressureForce(const Mesh& mesh, Index first_vertex, const Pressure& options)
     : triangles_(selected_triangles(mesh, options.on)), options_(options) {
   check_pressure(options_);
   if (triangles_.empty()) fail_input("pressure: there are no triangles to hold it; give it a closed surface");
@@ -105,15 +105,7 @@ Pressure::Pressure(const Mesh& mesh, Index first_vertex, const PressureOptions& 
   rest_volume_ = std::abs(rest_volume_);
 }
 
-std::unique_ptr<Pressure> Pressure::with(const PressureOptions& options) const {
-  check_pressure(options);
-  auto other = std::make_unique<Pressure>(*this);
-  other->options_ = options;
-  other->options_.on = options_.on;
-  return other;
-}
-
-Real Pressure::volume(const Positions& positions) const {
+Real PressureForce::volume(const Positions& positions) const {
   const Vec3 origin = row(positions, triangles_.front()[0]);  // near the body, for the sum's rounding
   Real six_volumes = 0;
   for (const Triangle& triangle : triangles_) {
@@ -122,13 +114,13 @@ Real Pressure::volume(const Positions& positions) const {
   return six_volumes / 6;
 }
 
-Real Pressure::pressure_at(Real volume) const {
+Real PressureForce::pressure_at(Real volume) const {
   if (options_.model == PressureModel::constant) return options_.pressure;
   const Real ratio = std::max(volume / rest_volume_, least_volume);
   return (options_.pressure + options_.ambient) / ratio - options_.ambient;
 }
 
-void Pressure::add_to(Positions& forces, const StateView& state, Real) {
+void PressureForce::add_to(Positions& forces, const StateView& state, Real) {
   const Real sixth = pressure_at(volume(state.positions)) / 6;
   for (const Triangle& triangle : triangles_) {
     const Vec3 share = sixth * cross(state.positions, triangle);
@@ -136,7 +128,7 @@ void Pressure::add_to(Positions& forces, const StateView& state, Real) {
   }
 }
 
-Real Pressure::potential(const StateView& state) const {
+Real PressureForce::potential(const StateView& state) const {
   const Real v = volume(state.positions);
   const Real gained = v - rest_volume_;
   if (options_.model == PressureModel::constant) return -options_.pressure * gained;
@@ -146,7 +138,7 @@ Real Pressure::potential(const StateView& state) const {
   return options_.ambient * gained - absolute * rest_volume_ * std::log(ratio) + absolute / least_volume * below;
 }
 
-Real Pressure::squared_frequency(const StateView& state) const {
+Real PressureForce::squared_frequency(const StateView& state) const {
   const Positions& x = state.positions;
   Positions gradient = Positions::Zero(x.rows(), 3);
   std::vector<std::pair<Edge, Vec3>>
@@ -183,23 +175,27 @@ Real Pressure::squared_frequency(const StateView& state) const {
   return slope * mobility + std::abs(pressure_at(v)) * softness;
 }
 
-std::optional<std::string> Pressure::warning(const StateView& state, Real time_step) const {
+std::optional<std::string> PressureForce::warning(const StateView& state, Real time_step) const {
   const Real limit = 2 / std::sqrt(squared_frequency(state));
   if (!(time_step >= limit)) return std::nullopt;
   return fmt::format(
       "pressure: time step {:g} s is not below the explicit pressure's limit 2/ω = {:g} s, so the surface may crumple "
-      "or "
-      "beat without end; take a smaller time step, a heavier or coarser surface, or less pressure",
+      "or beat without end; take a smaller time step, a heavier or coarser surface, or less pressure",
       time_step, limit);
 }
 
-std::optional<Index> Pressure::vertex_out_of_range(Index vertex_count) const {
+std::optional<Index> PressureForce::vertex_out_of_range(Index vertex_count) const {
   for (const Triangle& triangle : triangles_) {
     for (const Index vertex : triangle) {
       if (vertex < 0 || vertex >= vertex_count) return vertex;
     }
   }
   return std::nullopt;
+}
+
+std::unique_ptr<Force> build(const ForceScope& scope, const Pressure& options) {
+  const ForceBody& body = only_body(Pressure::info.name, scope);
+  return std::make_unique<PressureForce>(body.rest, body.first_vertex, options);
 }
 
 }  // namespace pliant

@@ -5,18 +5,12 @@
 //
 //     constant          p
 //     gas               p = (p₀ + p_a) V₀/V − p_a: an ideal gas at one temperature (Boyle's law, P V = P₀ V₀), p₀ over
-//     the
-//                       ambient p_a at the volume V₀ at rest; it stiffens when squeezed
+//                       the ambient p_a at the volume V₀ at rest; it stiffens when squeezed
 //
 // Both are conservative: the potential is −∫ p dV from V₀, and since the surface is closed the forces sum to zero.
 // A volume under a hundredth of V₀ counts as that hundredth, so that a surface pressed flat or turned inside out meets
 // a large pressure and not an infinite one.
-#include <memory>
-#include <vector>
-
-#include "pliant/core/options.h"
-#include "pliant/forces/force.h"
-#include "pliant/mesh/mesh.h"
+#include "pliant/forces/force_options.h"
 
 namespace pliant {
 
@@ -25,10 +19,16 @@ constexpr std::array<std::string_view, 2> choice_names(PressureModel) {
   return {"constant", "gas"};
 }
 
-struct PressureOptions {
+struct Pressure {
+  static constexpr ForceInfo info{"pressure", "p A n", "Boyle's law, of a gas"};
+
+  /// Vertices whose triangles hold the pressure; they must form a closed surface. Default: all.
   Selection on{};
+  /// `constant`: p stays; `gas`: it follows the volume.
   PressureModel model = PressureModel::constant;
+  /// p inside less outside [Pa], any finite number; of a gas at the rest volume. Negative: it draws in.
   Real pressure = 100;
+  /// p_a outside [Pa], ≥ 0, of a gas alone; the air's 101325 asks for very small time steps.
   Real ambient = 0;
 
   template <class Self, class Visitor>
@@ -44,15 +44,15 @@ struct PressureOptions {
   }
 };
 
-class Pressure final : public Force {
+class PressureForce final : public Force {
  public:
   /// The selected triangles of a body, the surface of its tetrahedra if it has none; vertex 0 of the mesh is
   /// `first_vertex` of the simulation. The side with the positive volume is the inside, whichever way the triangles
   /// run. Throws Error(input): options out of their range; no triangles; a surface with a border (with the number of
   /// its edges) or triangles that disagree on their outside; no volume at rest; a gas without any pressure.
-  Pressure(const Mesh& mesh, Index first_vertex, const PressureOptions& options);
+  PressureForce(const Mesh& mesh, Index first_vertex, const Pressure& options);
 
-  std::string_view type() const override { return "pressure"; }
+  std::string_view type() const override { return Pressure::info.name; }
   void add_to(Positions& forces, const StateView& state, Real time_step) override;
   std::optional<Index> vertex_out_of_range(Index vertex_count) const override;
   Real potential(const StateView& state) const override;
@@ -63,9 +63,6 @@ class Pressure final : public Force {
   /// crumples light, finely meshed cloth. A skin that holds the surface allows more.
   std::optional<std::string> warning(const StateView& state, Real time_step) const override;
 
-  const PressureOptions& options() const { return options_; }
-  /// The same surface under another pressure; `on` stays what it was. Throws Error(input) as the constructor does.
-  std::unique_ptr<Pressure> with(const PressureOptions& options) const;
   /// The enclosed volume [m³], > 0 at rest.
   Real volume(const Positions& positions) const;
   Real rest_volume() const { return rest_volume_; }
@@ -77,8 +74,11 @@ class Pressure final : public Force {
   Real squared_frequency(const StateView& state) const;
 
   std::vector<Triangle> triangles_;  // outward, indices of the simulation
-  PressureOptions options_;
+  Pressure options_;
   Real rest_volume_ = 0;
 };
+
+/// Throws Error(input) as the constructor of PressureForce does.
+std::unique_ptr<Force> build(const ForceScope& scope, const Pressure& options);
 
 }  // namespace pliant

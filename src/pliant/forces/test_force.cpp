@@ -1,32 +1,45 @@
 #include "pliant/forces/test_force.h"
 
+#include <fmt/format.h>
+
 namespace pliant {
+namespace {
 
-TestForce::TestForce(std::vector<Index> vertices, Points forces, std::int64_t begin, std::int64_t end)
-    : vertices_(std::move(vertices)), forces_(std::move(forces)), begin_(begin), end_(end) {
-  detail::OptionChecker{"test_force"}(OptionInfo{"force", "N", ""}, forces_);
-  if (forces_.empty() || (forces_.each() && forces_.list().size() != vertices_.size())) {
-    fail_input("test_force: " + std::to_string(forces_.list().size()) + " forces for " +
-               std::to_string(vertices_.size()) + " vertices; give one for all, or one each");
-  }
-  if (begin_ < 0 || begin_ >= end_) {
-    fail_input("test_force: the frames [" + std::to_string(begin_) + ", " + std::to_string(end_) +
-               ") are none; give a first frame from 0 and a later end");
-  }
-}
+class TimedForce final : public Force {
+ public:
+  TimedForce(std::vector<Index> vertices, const TestForce& options)
+      : vertices_(std::move(vertices)), options_(options) {}
 
-void TestForce::add_to(Positions& forces, const StateView& state, Real) {
-  if (!is_active(state.step)) return;
-  for (std::size_t i = 0; i < vertices_.size(); ++i) {
-    forces.row(vertices_[i]) += forces_[static_cast<Index>(i)].transpose();
-  }
-}
+  std::string_view type() const override { return TestForce::info.name; }
 
-std::optional<Index> TestForce::vertex_out_of_range(Index vertex_count) const {
-  for (const Index vertex : vertices_) {
-    if (vertex < 0 || vertex >= vertex_count) return vertex;
+  void add_to(Positions& forces, const StateView& state, Real) override {
+    if (!options_.is_active(state.step)) return;
+    for (std::size_t i = 0; i < vertices_.size(); ++i) {
+      forces.row(vertices_[i]) += options_.force[static_cast<Index>(i)].transpose();
+    }
   }
-  return std::nullopt;
+
+ private:
+  std::vector<Index> vertices_;
+  TestForce options_;
+};
+
+}  // namespace
+
+std::unique_ptr<Force> build(const ForceScope& scope, const TestForce& options) {
+  constexpr std::string_view type = TestForce::info.name;
+  check_options(type, options);
+  std::vector<Index> vertices = selected_vertices(type, scope, options.vertices);
+  if (options.force.empty() || (options.force.each() && options.force.list().size() != vertices.size())) {
+    fail_input(fmt::format("{}: {} forces for {} vertices; give one for all, or one each", type,
+                           options.force.list().size(), vertices.size()));
+  }
+  const auto [first, end] = options.frames;
+  if (first < 0 || first >= end) {
+    fail_input(
+        fmt::format("{}: the frames [{}, {}) are none; give a first frame from 0 and a later end", type, first, end));
+  }
+  return std::make_unique<TimedForce>(std::move(vertices), options);
 }
 
 }  // namespace pliant

@@ -2,7 +2,6 @@
 #include <algorithm>
 
 #include "pliant/core/error.h"
-#include "pliant/mesh/geometry.h"
 #include "pliant/simulation/undo.h"
 #include "pliant/solver/solver.h"
 
@@ -13,20 +12,6 @@ namespace {
   fail_input("force " + std::to_string(static_cast<Index>(id)) +
              " does not exist; give one that was added and not removed");
 }
-
-/// Triangles of bodies with the indices of the simulation, and their areas at rest.
-struct Sails {
-  std::vector<Triangle> triangles;
-  std::vector<Real> areas;
-
-  void add(const Body& body) {
-    for (const Triangle& t : body.mesh.triangles) {
-      triangles.push_back({body.first_vertex + t[0], body.first_vertex + t[1], body.first_vertex + t[2]});
-    }
-    const std::vector<Real> more = triangle_areas(body.mesh.vertices, body.mesh.triangles);
-    areas.insert(areas.end(), more.begin(), more.end());
-  }
-};
 
 }  // namespace
 
@@ -47,46 +32,45 @@ void Simulation::check_under_bdf2(const Force& force) {
       "is implicit, or the integrator `implicit_euler`");
 }
 
+ForceScope Simulation::scope(std::optional<BodyId> id) const {
+  ForceScope scope;
+  const auto add = [&](const Body& body) { scope.bodies.push_back({body.mesh, body.first_vertex, body.name}); };
+  scope.is_whole = !id;
+  if (id) {
+    add(body(*id));
+  } else {
+    for (const Body& each : bodies_) add(each);
+  }
+  return scope;
+}
+
 ForceId Simulation::add_force(std::unique_ptr<Force> force, std::string name) {
+  return add_force(ForceRecord{std::move(name)}, std::move(force));
+}
+
+ForceId Simulation::add_force(ForceRecord record, std::unique_ptr<Force> force) {
   check_force(force.get());
-  if (name.empty()) {
-    name = force->type();
-    for (int i = 2; find_force(name); ++i) name = std::string(force->type()) + " " + std::to_string(i);
+  if (record.name.empty()) {
+    record.name = force->type();
+    for (int i = 2; find_force(record.name); ++i) record.name = std::string(force->type()) + " " + std::to_string(i);
   }
   const ForceId id{next_force_++};
   if (undo_ != nullptr) undo_->save(id, std::nullopt);
   forces_.emplace(id, std::move(force));
-  force_names_.emplace(id, std::move(name));
+  force_records_.emplace(id, std::move(record));
   forces_changed_ = true;
   return id;
 }
 
-std::unique_ptr<Force> Simulation::make_wind(const WindOptions& options) const {
-  Sails sails;
-  for (const Body& body : bodies_) sails.add(body);
-  return std::make_unique<Wind>(std::move(sails.triangles), std::move(sails.areas), options);
-}
-
-std::unique_ptr<Force> Simulation::make_wind(BodyId id, const WindOptions& options) const {
-  Sails sails;
-  sails.add(body(id));
-  return std::make_unique<Wind>(std::move(sails.triangles), std::move(sails.areas), options);
-}
-
-ForceId Simulation::add_wind(const WindOptions& options, std::string name) {
-  return add_force(make_wind(options), std::move(name));
-}
-
-ForceId Simulation::add_wind(BodyId id, const WindOptions& options, std::string name) {
-  return add_force(make_wind(id, options), std::move(name));
-}
-
 void Simulation::replace(ForceId id, std::unique_ptr<Force> force) {
+  exchange_force(id, ForceRecord{name(id)}, std::move(force));
+}
+
+void Simulation::exchange_force(ForceId id, ForceRecord record, std::unique_ptr<Force> force) {
   check_force(force.get());
-  const auto found = forces_.find(id);
-  if (found == forces_.end()) fail_missing(id);
-  std::swap(found->second, force);
-  if (undo_ != nullptr) undo_->save(id, Undo::NamedForce{std::move(force), force_names_.at(id)});
+  std::swap(forces_.at(id), force);
+  std::swap(force_records_.at(id), record);
+  if (undo_ != nullptr) undo_->save(id, Undo::SavedForce{std::move(force), std::move(record)});
   warned_forces_.erase(id);
   forces_changed_ = true;
 }
@@ -94,23 +78,27 @@ void Simulation::replace(ForceId id, std::unique_ptr<Force> force) {
 void Simulation::remove(ForceId id) {
   const auto found = forces_.find(id);
   if (found == forces_.end()) fail_missing(id);
-  if (undo_ != nullptr) undo_->save(id, Undo::NamedForce{std::move(found->second), force_names_.at(id)});
+  if (undo_ != nullptr) undo_->save(id, Undo::SavedForce{std::move(found->second), force_records_.at(id)});
   forces_.erase(found);
-  force_names_.erase(id);
+  force_records_.erase(id);
   warned_forces_.erase(id);
   forces_changed_ = true;
 }
 
-const std::string& Simulation::name(ForceId id) const {
-  const auto found = force_names_.find(id);
-  if (found == force_names_.end()) fail_missing(id);
+const ForceRecord& Simulation::record(ForceId id) const {
+  const auto found = force_records_.find(id);
+  if (found == force_records_.end()) fail_missing(id);
   return found->second;
+}
+
+const std::string& Simulation::name(ForceId id) const {
+  return record(id).name;
 }
 
 std::optional<ForceId> Simulation::find_force(std::string_view name) const {
   const auto found =
-      std::ranges::find(force_names_, name, [](const auto& entry) -> std::string_view { return entry.second; });
-  return found == force_names_.end() ? std::nullopt : std::optional(found->first);
+      std::ranges::find(force_records_, name, [](const auto& entry) -> std::string_view { return entry.second.name; });
+  return found == force_records_.end() ? std::nullopt : std::optional(found->first);
 }
 
 void Simulation::check_forces() {

@@ -5,7 +5,8 @@
 //     const BodyId cloth = simulation.add_body(grid({.columns = 32, .rows = 32}), Mass::area_density(0.2));
 //     simulation.add(cloth, EdgeSpring{.stiffness = 1e3});
 //     simulation.add(cloth, Position{.on = {0, 31}});
-//     simulation.add_force(std::make_unique<Gravity>());
+//     simulation.add(Gravity{});
+//     simulation.add(cloth, Wind{.velocity = {0, 3, 0}});
 //     for (int i = 0; i < 60; ++i) simulation.step();
 #include <functional>
 #include <map>
@@ -15,7 +16,6 @@
 #include <string>
 #include <vector>
 
-#include "pliant/forces/wind.h"
 #include "pliant/mesh/mass.h"
 #include "pliant/simulation/group_index.h"
 #include "pliant/solver/settings.h"
@@ -42,7 +42,7 @@ class Simulation {
 
   /// Adds a built-in constraint type, or any other with `info`, `visit` and a `build(BodyView, options)`.
   template <class Constraint>
-  GroupId add(BodyId id, const Constraint& options, std::string name = {}) {
+  requires(!describes_force<Constraint>) GroupId add(BodyId id, const Constraint& options, std::string name = {}) {
     check_options(Constraint::info.name, options);
     return add_set(id, build(view(id), options), std::string(Constraint::info.name), std::move(name));
   }
@@ -81,17 +81,38 @@ class Simulation {
   /// Moves point i from the next step on; costs nothing.
   void set_target(GroupId id, Index i, const Vec3& target);
 
-  /// Refuses a force on a vertex that there is not: add the bodies first. Default name: the type, with the first free
-  /// number from 2 behind where that is taken.
+  /// Adds a built-in force, or any other with `info`, `visit` and a `build(ForceScope, options)`: on one body, or on
+  /// what such a force is on where none is named (ForceReach). Default name: the type, with the first free number from
+  /// 2 behind where that is taken.
+  template <describes_force Options>
+  ForceId add(std::optional<BodyId> body, const Options& options, std::string name = {}) {
+    return add_force({std::move(name), body, source_of(options)}, build(scope(body), options));
+  }
+  template <describes_force Options>
+  ForceId add(const Options& options, std::string name = {}) {
+    return add(std::nullopt, options, std::move(name));
+  }
+  /// Adds a force of a user's own. Refuses one on a vertex that there is not: add the bodies first.
   ForceId add_force(std::unique_ptr<Force> force, std::string name = {});
-  /// Wind on all triangles of one body, or of every body there is.
-  ForceId add_wind(const WindOptions& options, std::string name = {});
-  ForceId add_wind(BodyId id, const WindOptions& options, std::string name = {});
-  /// The same wind without adding it, to replace another.
-  std::unique_ptr<Force> make_wind(const WindOptions& options) const;
-  std::unique_ptr<Force> make_wind(BodyId id, const WindOptions& options) const;
-  /// Puts a force in the place of another, under its id and name. Costs nothing.
+  /// Makes a force anew from other options, of its type or another one, under its id and name: on the body that it was
+  /// on, or on another one. Costs nothing.
+  template <describes_force Options>
+  void replace(ForceId id, const Options& options) {
+    replace(id, record(id).body, options);
+  }
+  template <describes_force Options>
+  void replace(ForceId id, std::optional<BodyId> body, const Options& options) {
+    exchange_force(id, {name(id), body, source_of(options)}, build(scope(body), options));
+  }
   void replace(ForceId id, std::unique_ptr<Force> force);
+  /// What a force was made of, and the body it is on; null for a force of another type.
+  template <describes_force Options>
+  const Options* options(ForceId id) const {
+    return options_in<Options>(record(id));
+  }
+  /// What a force acts on: its body, or all that there are now.
+  ForceScope scope(ForceId id) const { return scope(record(id).body); }
+  ForceScope scope(std::optional<BodyId> id) const;
   void remove(ForceId id);
   const std::map<ForceId, std::unique_ptr<Force>>& forces() const { return forces_; }
   const std::string& name(ForceId id) const;
@@ -101,8 +122,7 @@ class Simulation {
   Index vertex(BodyId id, Index vertex_of_body) const;
 
   const SolverSettings& settings() const { return settings_; }
-  /// Refuses BDF2 with a force that is an explicit spring (MouseSpring).
-  void set_settings(const SolverSettings& settings);
+  void set_settings(const SolverSettings& settings);  ///< refuses BDF2 with a force that is an explicit spring
 
   /// Asked before each iteration whether the step is to be given up, so that even one of a thousand million iterations
   /// can be; called on the thread of step(). None: never.
@@ -143,17 +163,6 @@ class Simulation {
  private:
   friend class Undo;
 
-  template <class Constraint>
-  static bool gives_anchors(const Constraint& options) {
-    if constexpr (requires { options.targets; }) {
-      return !options.targets.empty();
-    } else if constexpr (requires { options.origin; }) {
-      return !options.origin.empty();
-    } else {
-      return false;
-    }
-  }
-
   BodyView view(BodyId id) const;
   const Group& group(GroupId id) const;
   std::span<Real> target_numbers(GroupId id, Index i) const;
@@ -162,6 +171,9 @@ class Simulation {
   void check_held(const ConstraintGroup& added, const std::string& place, std::optional<GroupId> replaced) const;
   void warn_of(const ConstraintSet& set, const std::string& place);
   void exchange_set(GroupId id, ConstraintSet set, std::string type, std::vector<Index> points, Index next_point);
+  const ForceRecord& record(ForceId id) const;
+  ForceId add_force(ForceRecord record, std::unique_ptr<Force> force);
+  void exchange_force(ForceId id, ForceRecord record, std::unique_ptr<Force> force);
   void check_force(const Force* force) const;
   static void check_under_bdf2(const Force& force);
   void check_forces();
@@ -173,7 +185,7 @@ class Simulation {
   std::map<GroupId, Group> groups_;
   GroupIndex group_index_;
   std::map<ForceId, std::unique_ptr<Force>> forces_;
-  std::map<ForceId, std::string> force_names_;
+  std::map<ForceId, ForceRecord> force_records_;
   std::unique_ptr<Solver> solver_;
   std::vector<std::string> warnings_;
   std::set<ForceId> warned_forces_;  // whose warning stands in warnings_ and still holds

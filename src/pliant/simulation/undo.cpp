@@ -41,7 +41,7 @@ void Undo::save(GroupId id, std::optional<Group> group) {
   groups_.emplace(id, std::move(group));  // the first one counts
 }
 
-void Undo::save(ForceId id, std::optional<NamedForce> force) {
+void Undo::save(ForceId id, std::optional<SavedForce> force) {
   forces_.emplace(id, std::move(force));
 }
 
@@ -67,12 +67,12 @@ void Undo::take_back() {
       std::ranges::copy(numbers.points[i], parts[i]->targets().begin());
     }
   }
-  for (auto& [id, named] : forces_) {
+  for (auto& [id, saved] : forces_) {
     s.forces_.erase(id);
-    s.force_names_.erase(id);
-    if (!named) continue;
-    s.forces_.emplace(id, std::move(named->force));
-    s.force_names_.emplace(id, std::move(named->name));
+    s.force_records_.erase(id);
+    if (!saved) continue;
+    s.forces_.emplace(id, std::move(saved->force));
+    s.force_records_.emplace(id, std::move(saved->record));
   }
   if (state_) {
     s.state_ = *std::move(state_);

@@ -36,15 +36,15 @@ class Undo {
     std::vector<Real> stiffnesses;          // of each part
     std::vector<std::vector<Real>> points;  // of each part
   };
-  struct NamedForce {
+  struct SavedForce {
     std::unique_ptr<Force> force;
-    std::string name;
+    ForceRecord record;
   };
 
   // To be told before the first change of a thing, or with what was taken away; later ones are of no interest.
   void save_numbers(GroupId id, const Group& group);
   void save(GroupId id, std::optional<Group> group);
-  void save(ForceId id, std::optional<NamedForce> force);
+  void save(ForceId id, std::optional<SavedForce> force);
   void save_state();
 
   void take_back();
@@ -63,7 +63,7 @@ class Undo {
   // As they were before their first change; none for what was not there.
   std::map<GroupId, std::optional<Group>> groups_;
   std::map<GroupId, Numbers> numbers_;
-  std::map<ForceId, std::optional<NamedForce>> forces_;
+  std::map<ForceId, std::optional<SavedForce>> forces_;
   std::optional<State> state_;
 };
 

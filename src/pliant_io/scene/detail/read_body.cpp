@@ -86,7 +86,7 @@ std::string SceneReader::read_new_name(const Node& node) const {
   std::string name;
   read(node, name);
   if (name.empty()) node.fail("an empty name cannot be referred to; give one, or leave out the key");
-  if (name == GravityEntry::type) node.fail("the name 'gravity' is that of the force at the top; choose another");
+  if (name == Gravity::info.name) node.fail("the name 'gravity' is that of the force at the top; choose another");
   if (groups.contains(name) || forces.contains(name)) {
     node.fail(fmt::format("the name '{}' is another {}'s; choose another", printable(name),
                           groups.contains(name) ? "group" : "force"));

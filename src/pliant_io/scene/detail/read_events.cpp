@@ -45,7 +45,7 @@ class EventReader {
 
   Timeline::Edit read_change(const Node& name);
   Timeline::Edit read_group_change(const std::string& name, GroupEntry& entry);
-  Timeline::Edit read_force_change(const std::string& name, ForceOptions& entry);
+  Timeline::Edit read_force_change(const std::string& name, ForceEntry& entry);
   Timeline::Edit read_settings(const Node& value);
   Timeline::Edit read_gravity(const Node& value);
   Timeline::Edit read_add(const Node& value);
@@ -152,11 +152,11 @@ Timeline::Edit EventReader::read_group_change(const std::string& name, GroupEntr
   };
 }
 
-Timeline::Edit EventReader::read_force_change(const std::string& name, ForceOptions& entry) {
+Timeline::Edit EventReader::read_force_change(const std::string& name, ForceEntry& entry) {
   read_changed_force(node_, keys("change"), scene_, entry);
   if (node_.size() <= 2) node_.fail("nothing is changed; give an option of the force with its new value");
-  return [name, options = entry](Simulation& simulation, Timeline&) {
-    simulation.replace(find_force(simulation, name), make(options, simulation));
+  return [name, force = entry](Simulation& simulation, Timeline&) {
+    replace(simulation, find_force(simulation, name), force);
   };
 }
 
@@ -190,21 +190,21 @@ Timeline::Edit EventReader::read_settings(const Node& value) {
 
 Timeline::Edit EventReader::read_gravity(const Node& value) {
   node_.check_keys(keys("gravity"));
-  const std::string name(GravityEntry::type);
+  const std::string name(Gravity::info.name);
   if (value.is_null()) {
     scene_.forces.erase(name);
     return [name](Simulation& simulation, Timeline&) {
       if (const auto force = simulation.find_force(name)) simulation.remove(*force);
     };
   }
-  GravityEntry gravity;
+  Gravity gravity;
   pliant::read(value, gravity.acceleration);
-  scene_.forces.insert_or_assign(name, gravity);
+  scene_.forces.insert_or_assign(name, ForceEntry{std::nullopt, gravity});
   return [name, gravity](Simulation& simulation, Timeline&) {
     if (const auto force = simulation.find_force(name)) {
-      simulation.replace(*force, gravity.make(simulation));
+      simulation.replace(*force, gravity);
     } else {
-      simulation.add_force(gravity.make(simulation), name);
+      simulation.add(gravity, name);
     }
   };
 }
@@ -213,11 +213,10 @@ Timeline::Edit EventReader::read_add(const Node& value) {
   node_.check_keys(keys("add"));
   const Node type = value.require("type");
   if (is_force_type(text_of(type))) {
-    ForceOptions options = read_force_options(value, {}, scene_);
-    const std::string name = scene_.force_name(value, type_of(options));
-    scene_.forces.emplace(name, options);
-    return
-        [name, options](Simulation& simulation, Timeline&) { simulation.add_force(make(options, simulation), name); };
+    const ForceEntry force = read_force_options(value, {}, scene_);
+    const std::string name = scene_.force_name(value, type_of(force));
+    scene_.forces.emplace(name, force);
+    return [name, force](Simulation& simulation, Timeline&) { add(simulation, force, name); };
   }
   const BodyId body = scene_.read_body_name(value);
   ConstraintOptions options = read_constraint_options(value, {"name", "body"}, scene_.body(body));

@@ -27,7 +27,7 @@ struct SceneReader {
   std::map<std::string, BodyId, std::less<>> bodies = {};
   std::map<const Origin*, std::vector<BodyId>> bodies_of = {};  ///< by the text that they stand in
   std::map<std::string, GroupEntry, std::less<>> groups = {};
-  std::map<std::string, ForceOptions, std::less<>> forces = {};
+  std::map<std::string, ForceEntry, std::less<>> forces = {};
   std::vector<std::string> later_groups = {};  ///< names of groups that events add, each time
 
   SceneBody body(BodyId id) const {

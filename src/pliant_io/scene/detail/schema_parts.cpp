@@ -3,10 +3,9 @@
 #include <set>
 
 #include "pliant/constraints/builtin.h"
-#include "pliant/forces/mouse_spring.h"
-#include "pliant/forces/pressure.h"
-#include "pliant/forces/wind.h"
+#include "pliant/forces/builtin.h"
 #include "pliant_io/mesh/mesh_file.h"
+#include "pliant_io/scene/detail/force_options.h"
 #include "pliant_io/scene/detail/shape_options.h"
 #include "pliant_io/scene/event_options.h"
 
@@ -68,27 +67,40 @@ void add_constraints(SchemaJson& choices, const SchemaJson& more, std::tuple<Con
   (choices.push_back(constraint_type_schema<Constraint>(more)), ...);
 }
 
-SchemaJson force_type_schema(std::string_view type, const SchemaJson& properties,
-                             std::vector<std::string_view> required) {
-  const SchemaJson all = {{"type", {{"const", type}}},
-                          {"name", text_schema("what events refer to it by")},
-                          {"body", text_schema("name of the body; default: the only one")}};
-  required.push_back("type");
-  return object_schema(joined(all, properties), std::move(required));
+template <class Options>
+void add_force(SchemaJson& choices) {
+  if constexpr (is_listed_force<Options>) {
+    SchemaJson properties = {{"type", {{"const", Options::info.name}}},
+                             {"name", text_schema("what events refer to it by")},
+                             {"body", text_schema("name of the body; default: the only one")}};
+    properties.update(options_properties<Options>());
+    std::vector<std::string_view> required = {"type"};
+    if (!Options::info.required.empty()) {
+      required.push_back(Options::info.required);
+      properties[std::string(Options::info.required)].erase("default");
+    }
+    constexpr bool has_vertices = requires(Options options) {
+      options.vertices;
+    };
+    if (has_vertices) {
+      properties["vertices"].erase("default");
+      properties["vertex"] = vertex_schema();
+    }
+    SchemaJson schema = object_schema(std::move(properties), std::move(required));
+    if (has_vertices) schema["oneOf"] = {{{"required", {"vertex"}}}, {{"required", {"vertices"}}}};
+    choices.push_back(std::move(schema));
+  }
+}
+
+template <class... Options>
+void add_forces(SchemaJson& choices, std::tuple<Options...>*) {
+  (add_force<Options>(choices), ...);
 }
 
 SchemaJson force_choices() {
-  SchemaJson mouse = options_properties<MouseSpringOptions>();
-  mouse["vertex"] = vertex_schema();
-  const SchemaJson test = {{"vertex", vertex_schema()},
-                           {"vertices", schema_reference("selection")},
-                           {"force", schema_reference("points")},
-                           {"frames", list_schema({{"type", "integer"}}, 2)}};
-  SchemaJson test_force = force_type_schema("test_force", test, {"force"});
-  test_force["oneOf"] = {{{"required", {"vertex"}}}, {{"required", {"vertices"}}}};
-  return {force_type_schema("wind", options_properties<WindOptions>(), {}), std::move(test_force),
-          force_type_schema("mouse_spring", mouse, {"anchor", "vertex"}),
-          force_type_schema("pressure", options_properties<PressureOptions>(), {})};
+  SchemaJson choices = SchemaJson::array();
+  add_forces(choices, static_cast<BuiltinForces*>(nullptr));
+  return choices;
 }
 
 /// An object of which one of the keys must be there, and no two.
