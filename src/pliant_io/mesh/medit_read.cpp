@@ -4,6 +4,7 @@
 #include <cctype>
 #include <map>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -48,8 +49,7 @@ class VertexReferences {
   void finish() {
     for (VertexGroup& group : mesh_.vertex_groups) {
       std::ranges::sort(group.vertices);
-      const auto repeated = std::ranges::unique(group.vertices);
-      group.vertices.erase(repeated.begin(), repeated.end());
+      group.vertices.erase(std::unique(group.vertices.begin(), group.vertices.end()), group.vertices.end());
     }
   }
 
