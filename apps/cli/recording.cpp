@@ -134,6 +134,7 @@ void record_run(Scene& scene, pliant::Recorder& recorder, const fs::path& folder
   const auto count = [&] {
     info.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     info.frames = recorder.frame_count();
+    info.last_frame = recorder.last_frame_checksum();
   };
   try {
     simulate(scene, recorder, folder / pliant::checkpoint_name, options, info);

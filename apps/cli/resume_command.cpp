@@ -41,6 +41,7 @@ int resume_scene(const ResumeArguments& arguments) {
   pliant::Scene scene = pliant::read_checkpoint(checkpoint, arguments.options);
   catch_interrupts();
   pliant::RunInfo info = run_info(scene, scene.source.texts.front().name);
+  pliant::refuse_links(arguments.folder, info.frame_format, pliant::RunStart::resumed);
   info.resumed_from = scene.simulation.state().step;
   return record_scene(scene, arguments.folder, info, arguments.recording);
 }

@@ -7,6 +7,8 @@
 
 #include "commands.h"
 #include "import_options.h"
+#include "pliant/core/error.h"
+#include "pliant/core/printable.h"
 #include "pliant_io/recorder/recorder.h"
 #include "pliant_io/recorder/run_files.h"
 #include "recording.h"
@@ -24,13 +26,26 @@ struct RunOptions : SceneArguments {
   RecordingOptions recording;
 };
 
-/// The files of a run must not take the place of the scene that they come from.
-void refuse_to_replace(const fs::path& scene, const fs::path& folder, std::string_view format) {
-  for (const std::string& name : pliant::run_files(format)) {
-    std::error_code ignored;
-    if (!fs::equivalent(scene, folder / name, ignored)) continue;
-    pliant::fail_input(fmt::format("{}: the run would replace this scene by its own {}; give another folder by --out",
-                                   scene.string(), name));
+/// The scene or mesh itself, what it includes, its meshes, maps and point caches.
+std::vector<fs::path> files_read_by(const pliant::Scene& scene, const fs::path& given) {
+  std::vector<fs::path> files = {given};
+  for (const pliant::SceneText& text : scene.source.texts) {
+    if (!text.file.empty()) files.push_back(text.file);  // a built-in scene has none
+  }
+  for (const pliant::SceneFile& file : scene.files) files.emplace_back(file.path);
+  return files;
+}
+
+/// The files of a run must not take the place of what they come from, under whatever name.
+void refuse_to_replace(const std::vector<fs::path>& inputs, const fs::path& folder, std::string_view format) {
+  for (const fs::path& replaced : pliant::replaced_files(folder, format)) {
+    for (const fs::path& input : inputs) {
+      std::error_code ignored;
+      if (!fs::equivalent(input, replaced, ignored)) continue;
+      pliant::fail_input(fmt::format(
+          "{}: the run would replace this file, which its scene reads, by its own {}; give another folder by --out",
+          pliant::printable_place(input.string()), replaced.filename().string()));
+    }
   }
 }
 
@@ -39,7 +54,7 @@ int run_scene(const RunOptions& options) {
   const fs::path folder = options.out.empty() ? fs::path("out") / fs::path(options.scene).stem() : options.out;
   catch_interrupts();
   const pliant::RunInfo info = run_info(scene, options.scene);
-  refuse_to_replace(options.scene, folder, info.frame_format);
+  refuse_to_replace(files_read_by(scene, options.scene), folder, info.frame_format);
   pliant::make_run_folder(folder);
   const pliant_system::FolderLock lock(folder);
   if (!options.recording.quiet) {

@@ -11,9 +11,9 @@
 #include "pliant/core/printable.h"
 #include "progress.h"
 #include "scene_options.h"
-#include "sweep/process.h"
 #include "sweep/sweep.h"
 #include "sweep/sweep_report.h"
+#include "system/child_process.h"
 #include "system/folder_lock.h"
 #include "terminal.h"
 
@@ -143,7 +143,7 @@ int sweep_in_folder(const SweepArguments& arguments, SweepSetup setup, Earlier e
     hooks.stop = was_interrupted;
     hooks.show = [&progress](const SweepState& state) { progress.show(state); };
     hooks.tell_ended = [&progress, &plan](const SweepRun& run) { progress.tell(plan, run); };
-    run_sweep(arguments.out, own_program(), share(arguments, plan), plan, hooks);
+    run_sweep(arguments.out, pliant_system::own_program(), share(arguments, plan), plan, hooks);
   }
   write_sweep_report(arguments.out, plan);
   print_summary(arguments, plan, there);

@@ -1,11 +1,8 @@
 #include "render/film_writer.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cerrno>
-#include <csignal>
-#include <fstream>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
@@ -14,15 +11,12 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/mman.h>
-#include <sys/socket.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
 #include "pliant_io/files/atomic_file.h"
+#include "system/child_process.h"
 
 namespace pliant_render {
 
@@ -87,9 +81,9 @@ const char* muxer_name(FilmFormat format) {
   return format == FilmFormat::mp4 ? "mp4" : format == FilmFormat::webm ? "webm" : "gif";
 }
 
-Arguments pipe_command(const FilmOptions& options, FilmFormat format, const fs::path& out) {
-  Arguments command = {"ffmpeg",
-                       "-hide_banner",
+/// Without the program's own name.
+Arguments pipe_arguments(const FilmOptions& options, FilmFormat format) {
+  Arguments command = {"-hide_banner",
                        "-loglevel",
                        "error",
                        "-xerror",
@@ -106,8 +100,8 @@ Arguments pipe_command(const FilmOptions& options, FilmFormat format, const fs::
                        "pipe:0"};
   const Arguments encoding = encoding_arguments(format, options.fps);
   command.insert(command.end(), encoding.begin(), encoding.end());
-  // With "file:" a name is never taken for an option or a protocol.
-  command.insert(command.end(), {"-f", muxer_name(format), "file:" + out.string()});
+  const std::string film = fmt::format("file:/proc/self/fd/{}", pliant_system::child_file_number);
+  command.insert(command.end(), {"-f", muxer_name(format), film});
   return command;
 }
 
@@ -148,46 +142,15 @@ std::string film_command(const FilmOptions& options, FilmFormat format) {
 
 // ---- system
 
-class Descriptor {
- public:
-  explicit Descriptor(int number = -1) : number_(number) {}
-  ~Descriptor() { close(); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-
-  int number() const { return number_; }
-  void close() {
-    if (number_ >= 0) ::close(number_);
-    number_ = -1;
-  }
-  void reset(int number) {
-    close();
-    number_ = number;
-  }
-
- private:
-  int number_;
-};
-
-/// A file of its own name beside the target, gone with this object.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(const fs::path& target) : name_(target.string() + ".tmp-XXXXXX") {
-    const Descriptor file(mkostemp(name_.data(), O_CLOEXEC));
-    if (file.number() < 0) fail_output(target, reason(errno) + "; choose another place or make room");
-  }
-  ~TemporaryFile() {
-    std::error_code ignored;
-    fs::remove(name_, ignored);
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-
-  fs::path path() const { return name_; }
-
- private:
-  std::string name_;
-};
+/// A file without a name on the disk of the target: it is gone with the last process that has it open, however that
+/// ends.
+pliant_system::Descriptor make_nameless_file(const fs::path& target) {
+  std::string name = target.string() + ".pliant.tmp-XXXXXX";
+  pliant_system::Descriptor file(mkostemp(name.data(), O_CLOEXEC));
+  if (file.number() < 0) fail_output(target, reason(errno) + "; choose another place or make room");
+  unlink(name.c_str());
+  return file;
+}
 
 /// The last few lines, in one.
 std::string last_lines(const std::string& text) {
@@ -206,92 +169,41 @@ std::string last_lines(const std::string& text) {
   return pliant::printable_place(result);
 }
 
-/// Sets up what a child process inherits.
-class SpawnSettings {
- public:
-  SpawnSettings() {
-    posix_spawn_file_actions_init(&actions_);
-    posix_spawnattr_init(&attributes_);
-  }
-  ~SpawnSettings() {
-    posix_spawn_file_actions_destroy(&actions_);
-    posix_spawnattr_destroy(&attributes_);
-  }
-  SpawnSettings(const SpawnSettings&) = delete;
-  SpawnSettings& operator=(const SpawnSettings&) = delete;
-
-  /// @returns the error number, 0 if the program runs
-  int start(Arguments command, int input, int messages, pid_t& process) {
-    std::vector<char*> words;
-    for (std::string& word : command) words.push_back(word.data());
-    words.push_back(nullptr);
-    posix_spawn_file_actions_adddup2(&actions_, input, STDIN_FILENO);
-    posix_spawn_file_actions_addopen(&actions_, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_adddup2(&actions_, messages, STDERR_FILENO);
-    // Ctrl-C at the terminal is for this program, which may still want to end the film properly.
-    posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETPGROUP);
-    posix_spawnattr_setpgroup(&attributes_, 0);
-    return posix_spawnp(&process, words[0], &actions_, &attributes_, words.data(), environ);
-  }
-
- private:
-  posix_spawn_file_actions_t actions_{};
-  posix_spawnattr_t attributes_{};
-};
-
 }  // namespace
 
 // ---- ffmpeg at work
 
-/// One process that makes one film, under a temporary name.
+/// One process that makes one film, in a file that has no name yet.
 class FilmWriter::Ffmpeg {
  public:
-  Ffmpeg(const FilmOptions& options, FilmFormat format) : out_(options.out), film_(options.out) {
-    std::array<int, 2> ends{};
-    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) fail_start(errno);
-    frames_.reset(ends[0]);
-    const Descriptor input(ends[1]);
-    messages_.reset(memfd_create("ffmpeg-messages", MFD_CLOEXEC));
-    if (messages_.number() < 0) fail_start(errno);
-    const int error = SpawnSettings().start(pipe_command(options, format, film_.path()), input.number(),
-                                            messages_.number(), process_);
-    if (error == 0) return;
-    process_ = -1;
-    // A folder of PATH that cannot be read counts as one without ffmpeg.
-    if (error != ENOENT && error != ENOTDIR && error != EACCES) fail_start(error);
+  Ffmpeg(const FilmOptions& options, FilmFormat format) : out_(options.out), film_(make_nameless_file(options.out)) {
+    pliant_system::ChildOptions child{"ffmpeg", pipe_arguments(options, format)};
+    child.file = film_.number();
+    // Ctrl-C at the terminal is for this program, which may still want to end the film properly.
+    child.interrupts = pliant_system::Interrupts::parent;
+    try {
+      process_.emplace(child);
+    } catch (const std::system_error& error) {
+      // A folder of PATH that cannot be read counts as one without ffmpeg.
+      const int number = error.code().value();
+      if (number != ENOENT && number != ENOTDIR && number != EACCES) fail_start(number);
+    }
   }
-  ~Ffmpeg() {
-    if (process_ < 0) return;
-    kill(process_, SIGKILL);
-    wait();
-  }
-  Ffmpeg(const Ffmpeg&) = delete;
-  Ffmpeg& operator=(const Ffmpeg&) = delete;
 
-  bool is_running() const { return process_ >= 0; }
+  bool is_running() const { return process_.has_value(); }
 
   void write(const std::vector<std::uint8_t>& bytes) {
-    // A socket rather than a pipe, since only send() can be told to raise no SIGPIPE.
-    for (std::size_t sent = 0; sent < bytes.size();) {
-      const ssize_t part = send(frames_.number(), bytes.data() + sent, bytes.size() - sent, MSG_NOSIGNAL);
-      if (part >= 0) {
-        sent += static_cast<std::size_t>(part);
-      } else if (errno != EINTR) {
-        frames_.close();
-        const int status = wait();
-        fail(fmt::format("it took no more frames, {}", told(status)));
-      }
-    }
+    if (process_->feed(bytes)) return;
+    process_->end_input();
+    fail(fmt::format("it took no more frames, {}", end_text(process_->wait())));
   }
 
   /// Waits for the film to be complete and gives it its name.
   void finish() {
-    frames_.close();
-    const int status = wait();
-    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) fail(told(status));
-    std::error_code error;
-    const std::uintmax_t size = fs::file_size(film_.path(), error);
-    if (error || size == 0) fail("it wrote nothing");
+    process_->end_input();
+    const pliant_system::ProcessEnd end = process_->wait();
+    if (end.signal != 0 || end.exit_code != 0) fail(end_text(end));
+    if (lseek(film_.number(), 0, SEEK_END) <= 0) fail("it wrote nothing");
     copy_to_target();
   }
 
@@ -299,55 +211,30 @@ class FilmWriter::Ffmpeg {
   /// A copy rather than a rename: the atomic file follows links, refuses devices and has the usual permissions.
   void copy_to_target() {
     pliant::AtomicFile target(out_);
-    std::ifstream film(film_.path(), std::ios::binary);
     std::vector<char> part(std::size_t{1} << 20U);
-    while (film) {
-      film.read(part.data(), static_cast<std::streamsize>(part.size()));
-      target.write({part.data(), static_cast<std::size_t>(film.gcount())});
+    for (off_t place = 0;;) {
+      const ssize_t size = pread(film_.number(), part.data(), part.size(), place);
+      if (size < 0 && errno == EINTR) continue;
+      if (size < 0) fail_output(out_, "the film that ffmpeg made cannot be read; make it once more");
+      if (size == 0) break;
+      target.write({part.data(), static_cast<std::size_t>(size)});
+      place += size;
     }
-    if (!film.eof()) fail_output(out_, "the film that ffmpeg made cannot be read; make it once more");
     target.commit();
   }
 
-  /// @returns the status as waitpid() has it
-  int wait() {
-    int status = -1;
-    if (process_ < 0) return status;
-    while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
-    }
-    process_ = -1;
-    return status;
-  }
-
-  static std::string told(int status) {
-    return WIFEXITED(status)     ? fmt::format("exit code {}", WEXITSTATUS(status))
-           : WIFSIGNALED(status) ? fmt::format("ended by signal {}", WTERMSIG(status))
-                                 : std::string("ended in an unknown way");
-  }
-
-  std::string messages() const {
-    constexpr off_t max_size = 4096;
-    const off_t size = std::max<off_t>(lseek(messages_.number(), 0, SEEK_END), 0);
-    std::string text(static_cast<std::size_t>(std::min(size, max_size)), '\0');
-    const ssize_t got = pread(messages_.number(), text.data(), text.size(), size - static_cast<off_t>(text.size()));
-    text.resize(static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
-    return text;
-  }
-
   [[noreturn]] void fail(const std::string& what) const {
-    const std::string lines = last_lines(messages());
-    fail_output(out_, fmt::format("ffmpeg failed, {}{}{}; mend that, or write .png pictures", what,
+    const std::string lines = last_lines(process_->messages());
+    fail_output(out_, fmt::format("ffmpeg failed, {}{}{}; fix that, or write .png pictures", what,
                                   lines.empty() ? "" : ": ", lines));
   }
   [[noreturn]] void fail_start(int error) const {
-    fail_output(out_, fmt::format("ffmpeg cannot be started: {}; mend that, or write .png pictures", reason(error)));
+    fail_output(out_, fmt::format("ffmpeg cannot be started: {}; fix that, or write .png pictures", reason(error)));
   }
 
   fs::path out_;
-  TemporaryFile film_;
-  Descriptor frames_;
-  Descriptor messages_;  ///< a file in memory, so that ffmpeg never waits for a reader
-  pid_t process_ = -1;
+  pliant_system::Descriptor film_;
+  std::optional<pliant_system::ChildProcess> process_;
 };
 
 // ---- the writer
@@ -363,6 +250,16 @@ std::optional<FilmFormat> film_format_of(const fs::path& path) {
 }
 
 namespace {
+
+/// What a killed program was writing of this film or its pictures.
+void remove_leftovers_of(const FilmOptions& options) {
+  const std::string film = options.out.filename().string();
+  const std::string head = options.out.stem().string() + "-";
+  const fs::path folder = options.out.has_parent_path() ? options.out.parent_path() : ".";
+  pliant::remove_leftovers(folder, [&](std::string_view name) {
+    return name == film || (name.starts_with(head) && name.ends_with(".png"));
+  });
+}
 
 FilmFormat checked_format(const FilmOptions& options) {
   const std::string name = pliant::printable_place(options.out.string());
@@ -382,6 +279,7 @@ FilmFormat checked_format(const FilmOptions& options) {
 }  // namespace
 
 FilmWriter::FilmWriter(FilmOptions options) : options_(std::move(options)), format_(checked_format(options_)) {
+  remove_leftovers_of(options_);
   if (format_ == FilmFormat::png) return;
   // Says now, rather than after all the frames, that no file can be made there.
   { const pliant::AtomicFile probe(options_.out); }

@@ -199,7 +199,7 @@ void forget_run_result(const fs::path& folder) {
   pliant::write_file_atomically(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
 }
 
-RunResult result_of_ended_run(const fs::path& folder, const ProcessEnd& end, const fs::path& output) {
+RunResult result_of_ended_run(const fs::path& folder, const pliant_system::ProcessEnd& end, const fs::path& output) {
   RunResult result = read_run_result(folder);
   if (end.signal == 0 && result.has_ended_by_itself() && end.exit_code == result.exit_code) return result;
   result = {RunOutcome::failed};

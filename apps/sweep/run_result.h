@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "sweep/process.h"
+#include "system/child_process.h"
 
 namespace pliant_sweep {
 
@@ -58,7 +58,7 @@ void forget_run_result(const std::filesystem::path& folder);
 
 /// What came of a run that has just ended; one that did not reach its end by itself has failed, and its output says
 /// why.
-RunResult result_of_ended_run(const std::filesystem::path& folder, const ProcessEnd& end,
+RunResult result_of_ended_run(const std::filesystem::path& folder, const pliant_system::ProcessEnd& end,
                               const std::filesystem::path& output);
 
 }  // namespace pliant_sweep

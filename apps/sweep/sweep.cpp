@@ -1,12 +1,17 @@
 #include "sweep/sweep.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <memory>
+#include <system_error>
+
+#include <fmt/format.h>
 
 #include "pliant/core/error.h"
+#include "pliant/core/printable.h"
 #include "pliant_io/files/atomic_file.h"
-#include "sweep/process.h"
+#include "system/child_process.h"
 
 namespace pliant_sweep {
 namespace {
@@ -14,6 +19,9 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
+
+using pliant_system::ChildProcess;
+using pliant_system::ProcessEnd;
 
 /// A run under way.
 struct Job {
@@ -77,7 +85,24 @@ class Runner {
     check_inputs();
     run.result = {};
     const auto arguments = run_arguments(plan_.setup, run.values, run_folder(folder_, run.name), sharing_.threads);
-    jobs_.push_back({&run, std::make_unique<ChildProcess>(program_, arguments, run_log(folder_, run.name))});
+    jobs_.push_back({&run, start_run({program_, arguments, run_log(folder_, run.name)})});
+  }
+
+  /// A process that reads nothing.
+  std::unique_ptr<ChildProcess> start_run(const pliant_system::ChildOptions& options) const {
+    try {
+      auto process = std::make_unique<ChildProcess>(options);
+      process->end_input();
+      return process;
+    } catch (const std::system_error& error) {
+      const int number = error.code().value();
+      const bool is_program = number == ENOENT || number == EACCES || number == ENOEXEC;
+      throw pliant::Error(is_program ? pliant::ErrorKind::input : pliant::ErrorKind::output,
+                          is_program ? fmt::format("{}: cannot be started: {}; give the path of this program",
+                                                   pliant::printable_place(program_), error.code().message())
+                                     : fmt::format("{}: no run can be started: {}; give fewer --jobs",
+                                                   pliant::printable_place(folder_.string()), error.code().message()));
+    }
   }
 
   void stop_if_asked() {
@@ -90,7 +115,7 @@ class Runner {
   void wait() const {
     std::vector<const ChildProcess*> processes;
     for (const Job& job : jobs_) processes.push_back(job.process.get());
-    wait_for_any(processes, 100ms);
+    pliant_system::wait_for_any(processes, 100ms);
     constexpr auto patience = 5s;  // a run needs at most two, but where it is set up or factorizes
     if (!stopped_ || Clock::now() - *stopped_ < patience) return;
     for (const ChildProcess* process : processes) process->kill();

@@ -23,6 +23,10 @@ namespace fs = std::filesystem;
 using OrderedJson = nlohmann::ordered_json;
 
 constexpr std::string_view plan_name = "sweep.json";
+constexpr std::string_view table_name = "sweep.csv";
+constexpr std::string_view page_name = "index.html";
+constexpr std::string_view runs_name = "runs";
+constexpr std::string_view plots_name = "plots";
 constexpr std::string_view format_name = "sweep";
 
 [[noreturn]] void fail_output(const fs::path& path, std::string_view what) {
@@ -111,7 +115,7 @@ std::optional<EarlierPlan> read_earlier_plan(const fs::path& folder) {
   std::error_code ignored;
   const fs::path file = folder / plan_name;
   if (!fs::exists(file, ignored)) {
-    for (const char* name : {"runs", "plots", "sweep.csv", "index.html"}) {
+    for (const std::string_view name : {runs_name, plots_name, table_name, page_name}) {
       if (!fs::exists(folder / name, ignored)) continue;
       fail_output(folder / name, "would be replaced, and no sweep wrote it; choose another folder");
     }
@@ -165,6 +169,27 @@ std::string difference(const EarlierPlan& earlier, const SweepSetup& now) {
                        fmt::join(sorted_paths(now), " and "));
   }
   return "";
+}
+
+// ---- links
+
+/// A folder from elsewhere may hold links, through which files of other folders would be replaced or removed.
+void refuse_link(const fs::path& path) {
+  std::error_code ignored;
+  if (!fs::is_symlink(path, ignored)) return;
+  fail_output(path, "cannot be written: it is a link to another place; remove the link, or choose another folder");
+}
+
+/// Logs are made anew and runs look after their own files; all else that a sweep writes is looked at here.
+void refuse_links(const fs::path& folder, const SweepPlan& plan) {
+  for (const std::string_view name : {plan_name, table_name, page_name, runs_name, plots_name}) {
+    refuse_link(folder / name);
+  }
+  for (const SweepRun& run : plan.runs) refuse_link(run_folder(folder, run.name));
+  std::error_code error;
+  for (fs::directory_iterator entry(folder / plots_name, error), end; !error && entry != end; entry.increment(error)) {
+    refuse_link(entry->path());
+  }
 }
 
 // ---- the plan
@@ -230,11 +255,11 @@ std::string outcomes_text(const SweepPlan& plan) {
 }
 
 fs::path run_folder(const fs::path& folder, const std::string& name) {
-  return folder / "runs" / name;
+  return folder / runs_name / name;
 }
 
 fs::path run_log(const fs::path& folder, const std::string& name) {
-  return folder / "runs" / (name + ".log");
+  return folder / runs_name / (name + ".log");
 }
 
 SweepPlan plan_sweep(const fs::path& folder, SweepSetup setup, Earlier earlier) {
@@ -261,6 +286,7 @@ SweepPlan plan_sweep(const fs::path& folder, SweepSetup setup, Earlier earlier) 
 }
 
 void begin_sweep(const fs::path& folder, const SweepPlan& plan) {
+  refuse_links(folder, plan);
   std::error_code error;
   const auto check = [&error](const fs::path& path, std::string_view what) {
     if (error) fail_output(path, fmt::format("{}: {}; choose another folder", what, error.message()));
@@ -273,8 +299,8 @@ void begin_sweep(const fs::path& folder, const SweepPlan& plan) {
   }
   const std::string text = plan_json(plan).dump(2, ' ', false, OrderedJson::error_handler_t::replace) + '\n';
   pliant::write_file_atomically(folder / plan_name, text);
-  fs::create_directories(folder / "runs", error);
-  check(folder / "runs", "cannot be made");
+  fs::create_directories(folder / runs_name, error);
+  check(folder / runs_name, "cannot be made");
 }
 
 }  // namespace pliant_sweep

@@ -209,6 +209,42 @@ class Render(unittest.TestCase):
         self.assertIn("interrupted: ", said)
         self.assertEqual(self.files(), [])
 
+    def start_film(self):
+        """A render that ffmpeg works for, and the number of ffmpeg's process."""
+        process = subprocess.Popen([PLIANT, "render", "curtain", "--steps", "600", "--out", "film.mp4", "--samples", "1"],
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, cwd=self.folder,
+                                   env=ENVIRONMENT)
+        children = pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children")
+        deadline = time.monotonic() + 120
+        while time.monotonic() < deadline and process.poll() is None:
+            for child in children.read_text().split():
+                if pathlib.Path(f"/proc/{child}/comm").read_text() == "ffmpeg\n":
+                    return process, int(child)
+            time.sleep(0.005)
+        self.fail("no ffmpeg was started")
+
+    def test_a_killed_render_leaves_nothing(self):
+        if shutil.which("ffmpeg") is None:
+            self.skipTest("ffmpeg is not installed")
+        for signals in ([signal.SIGINT, signal.SIGINT], [signal.SIGKILL]):
+            with self.subTest(signals=signals):
+                process, ffmpeg = self.start_film()
+                time.sleep(0.2)
+                for sent in signals:
+                    process.send_signal(sent)
+                self.assertIn(process.wait(timeout=60), (-signals[-1], 130))
+                deadline = time.monotonic() + 60
+                while time.monotonic() < deadline and pathlib.Path(f"/proc/{ffmpeg}").exists():
+                    time.sleep(0.01)
+                self.assertEqual(self.files(), [])
+
+    def test_the_next_render_removes_what_a_killed_one_left(self):
+        names = ["c.png.pliant.tmp-0", "c-0007.png.pliant.tmp-2"]
+        for name in [*names, "notes.pliant.tmp-0"]:
+            (self.folder / name).write_text("half")
+        self.render("chain", "--steps", 1, "--out", "c.png", "--size", "32x32")
+        self.assertEqual(self.files(), ["c.png", "notes.pliant.tmp-0"])
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -173,6 +173,57 @@ class Resume(unittest.TestCase):
         self.assertEqual((self.folder / "out" / "frames.npy").read_bytes(),
                          (self.folder / "whole" / "frames.npy").read_bytes())
 
+    def test_a_run_is_moved_together_with_its_files(self):
+        home = self.folder / "home"
+        (home / "meshes").mkdir(parents=True)
+        rope = "".join(f"v {i} 0 0\n" for i in range(10)) + "".join(f"l {i} {i + 1}\n" for i in range(1, 10))
+        (home / "meshes" / "rope.obj").write_text(rope)
+        bodies = [SCENE["bodies"][0] | {"mesh": {"file": "meshes/rope.obj"}}]
+        (home / "scene.json").write_text(json.dumps(SCENE | {"bodies": bodies}))
+        self.pliant("run", "home/scene.json", "--out", "home/out/a", "--steps", 20)
+        self.pliant("run", "home/scene.json", "--out", "whole")
+        whole = (self.folder / "whole" / "frames.npy").read_bytes()
+        for place, steps in [("second", 50), ("far/third", 120)]:  # what was moved and taken up may be moved again
+            new = self.folder / place
+            new.parent.mkdir(exist_ok=True)
+            home.rename(new)
+            home = new
+            self.pliant("resume", home / "out" / "a", "--steps", steps)
+        self.assertEqual((home / "out" / "a" / "frames.npy").read_bytes(), whole)
+        # The run alone, without its mesh; then with another mesh.
+        alone = self.folder / "alone" / "out" / "a"
+        shutil.copytree(home / "out" / "a", alone)
+        shutil.copytree(home / "out" / "a", self.folder / "copy")
+        self.pliant("resume", "copy", "--steps", 121)  # the mesh is where it was
+        home.rename(self.folder / "gone")
+        error = self.pliant("resume", alone, "--steps", 122, expect=2).stderr
+        self.assertIn("far/third/meshes/rope.obj: no such file, nor, since this run was moved, ", error)
+        self.assertIn("alone/meshes/rope.obj as it was; put the file in one of these places", error)
+        self.assertEqual(error.count("\n"), 1)
+        (self.folder / "alone" / "meshes").mkdir()
+        (self.folder / "alone" / "meshes" / "rope.obj").write_text(rope.replace("v 5 0 0", "v 5 1 0"))
+        self.assertIn("put the file in one of", self.pliant("resume", alone, "--steps", 122, expect=2).stderr)
+        (self.folder / "alone" / "meshes" / "rope.obj").write_text(rope)
+        self.pliant("resume", alone, "--steps", 122)
+
+    def test_a_moved_run_takes_no_file_of_another_place(self):
+        """One mesh by a relative path, which was moved, one by an absolute path, which was not."""
+        home = self.folder / "home"
+        home.mkdir()
+        rope = "".join(f"v {i} 0 0\n" for i in range(10)) + "".join(f"l {i} {i + 1}\n" for i in range(1, 10))
+        for path in (home / "a.obj", self.folder / "b.obj"):
+            path.write_text(rope)
+        body = SCENE["bodies"][0] | {"constraints": [{"type": "edge_spring", "stiffness": 1000}]}
+        bodies = [body | {"name": name, "mesh": {"file": file}}
+                  for name, file in [("a", "a.obj"), ("b", str(self.folder / "b.obj"))]]
+        (home / "scene.json").write_text(json.dumps({"pliant": 1, "steps": 9, "bodies": bodies}))
+        self.pliant("run", "home/scene.json", "--out", "home/out")
+        home.rename(self.folder / "new")
+        self.pliant("resume", "new/out", "--steps", 12)
+        (self.folder / "b.obj").unlink()
+        error = self.pliant("resume", "new/out", "--steps", 13, expect=2).stderr
+        self.assertIn("b.obj: no such file", error)
+
     def test_what_cannot_go_on_says_why(self):
         error = self.pliant("resume", self.folder, expect=2).stderr
         self.assertIn("checkpoint.pliant: no such file", error)

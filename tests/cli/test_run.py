@@ -193,14 +193,14 @@ class Run(unittest.TestCase):
         scene = self.write_scene()
         self.pliant("run", scene, "--out", scene, expect=4)
         self.pliant("run", scene, "--out", "/proc/pliant", expect=4)
-        for name in ["frames.npy", "measurements.csv"]:
-            self.out.mkdir(exist_ok=True)
-            (self.out / name).symlink_to("/dev/full")
-            error = self.pliant("run", scene, "--out", self.out, expect=4).stderr
-            self.assertIn(f"{name}: cannot be written: No space left on device", error)
-            (self.out / name).unlink()
+        for name, words in [("frames.npy", ["--set", "bodies[0].mesh.links=60"]),
+                            ("measurements.csv", ["--format", "none"])]:
+            done = subprocess.run(["prlimit", "--fsize=10000", "--", PLIANT, "run", scene, "--out", self.out, "--steps",
+                                   "200", *words], capture_output=True, text=True, timeout=60)
+            self.assertEqual(done.returncode, 4, done.stderr)
+            self.assertIn(f"{name}: cannot be written: File too large", done.stderr)
             self.assertEqual(self.run_info()["outcome"], "failed")
-            self.assertIn("No space left on device", self.run_info()["error"])
+            self.assertIn("File too large", self.run_info()["error"])
         with open("/dev/full", "w") as full:
             self.assertEqual(subprocess.run([PLIANT, "scenes"], stdout=full, stderr=subprocess.DEVNULL).returncode, 4)
 

@@ -33,19 +33,38 @@ TEST_CASE("an atomic file takes its name only at the commit") {
   CHECK(folder.file_count() == 1);
 }
 
-TEST_CASE("two writers of one name do not meet, nor does a leftover disturb") {
+TEST_CASE("two writers of one name do not meet, and a leftover goes") {
   const TemporaryFolder folder;
   const fs::path path = folder.path() / "a";
-  folder.write("a.tmp-0", "left over");
+  folder.write("a.pliant.tmp-0", "left over");
+  folder.write("a.tmp-0", "of somebody else");
   AtomicFile first(path);
   AtomicFile second(path);
+  CHECK(folder.file_count() == 3);
   first.write("first");
   second.write("second");
   first.commit();
   CHECK(TemporaryFolder::read(path) == "first");
   second.commit();
   CHECK(TemporaryFolder::read(path) == "second");
-  CHECK(TemporaryFolder::read(folder.path() / "a.tmp-0") == "left over");
+  CHECK(TemporaryFolder::read(folder.path() / "a.tmp-0") == "of somebody else");
+  CHECK(folder.file_count() == 2);
+}
+
+TEST_CASE("leftovers are removed by the names of their files, and nothing that is being written") {
+  const TemporaryFolder folder;
+  const fs::path target = folder.write("target", "mine");
+  AtomicFile written(folder.path() / "a");
+  for (const char* name : {"a.pliant.tmp-1", "a.pliant.tmp-77", "b.pliant.tmp-0", "a.tmp-0"}) folder.write(name, "x");
+  fs::create_symlink(target, folder.path() / "a.pliant.tmp-2");
+  remove_leftovers(folder.path(), [](std::string_view name) { return name == "a"; });
+  for (const char* name : {"a.pliant.tmp-0", "b.pliant.tmp-0", "a.tmp-0", "a.pliant.tmp-2", "target"}) {
+    CHECK_MESSAGE(fs::exists(folder.path() / name), name);
+  }
+  CHECK(folder.file_count() == 5);
+  written.write("new");
+  written.commit();
+  CHECK(TemporaryFolder::read(folder.path() / "a") == "new");
 }
 
 TEST_CASE("a link is followed") {

@@ -108,6 +108,38 @@ class Convert(ExportCase):
         left = {path.name for path in self.folder.iterdir() if ".tmp" in path.name}
         self.assertEqual(left, set())
 
+    def test_frames_that_do_not_fit_run_json(self):
+        for form in ("npy", "pc2", "obj", "ply"):
+            self.pliant("run", "scene.json", "--out", "fits", "--format", form)
+            self.pliant("convert", "fits", "fits.npy")
+            other = self.folder / "other"
+            for words, expected in [(["--iterations", 3], "its last frame is another than the one that run.json knows"),
+                                    (["--steps", 30], "it holds 31 frames, and run.json says 41")]:
+                with self.subTest(form, words=words):
+                    self.pliant("run", "scene.json", "--out", other, "--format", form, *words)
+                    if form in ("obj", "ply") and "--steps" in words:
+                        expected = f"frame_00031.{form}: no such file"
+                    shutil.copytree(self.folder / "fits", self.folder / "mixed", dirs_exist_ok=True)
+                    for path in (self.folder / "mixed").glob("frame*"):
+                        path.unlink()
+                    for path in other.glob("frame*"):
+                        shutil.copy(path, self.folder / "mixed")
+                    for command in (["convert", "mixed", "a.glb"], ["render", "mixed", "--out", "a.png"]):
+                        done = subprocess.run([PLIANT, *command], cwd=self.folder, capture_output=True, text=True)
+                        self.assertEqual(done.returncode, 2, done.stderr)
+                        self.assertIn(expected, done.stderr)
+                        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+            self.pliant("resume", "fits", "--steps", 42)
+            self.pliant("convert", "fits", "fits.npy")
+        # Other vertices, in the frames and in the mesh.
+        scene = json.loads((self.folder / "scene.json").read_text())
+        (self.folder / "one.json").write_text(json.dumps(scene | {"bodies": scene["bodies"][:1], "forces": []}))
+        self.pliant("run", "one.json", "--out", "one")
+        shutil.copytree(self.folder / "run", self.folder / "mixed", dirs_exist_ok=True)
+        for name in ("frames.npy", "mesh.obj"):
+            shutil.copy(self.folder / "one" / name, self.folder / "mixed")
+        self.assertIn("its frames have ", self.error("mixed", "a.glb"))
+
     def test_runs_that_were_cut_off_or_damaged(self):
         info = json.loads((self.folder / "run/run.json").read_text())
 
@@ -132,7 +164,7 @@ class Convert(ExportCase):
 
         damaged("run.json", "{", "not JSON")
         damaged("run.json", "[]", "is not an object")
-        damaged("run.json", json.dumps(info | {"bodies": []}), "but the bodies in run.json 0")
+        damaged("run.json", json.dumps(info | {"bodies": []}), "and run.json says 0")
         damaged("run.json", json.dumps(info | {"bodies": info["bodies"][1:]}), "bodies[0]")
         damaged("run.json", json.dumps(info | {"bodies": [info["bodies"][0] | {"vertices": -1}]}), "bodies[0]: vertices")
         damaged("run.json", json.dumps(info | {"settings": {"time_step": 0}}), "time_step")

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "pliant/core/error.h"
-#include "sweep/process.h"
 #include "sweep/sweep.h"
+#include "system/folder_lock.h"
 #include "tests/support/temporary_folder.h"
 
 namespace test_sweep {
@@ -15,6 +15,7 @@ namespace test_sweep {
 namespace {
 
 using namespace pliant_sweep;
+using pliant_system::FolderLock;
 using pliant_tests::TemporaryFolder;
 namespace fs = std::filesystem;
 

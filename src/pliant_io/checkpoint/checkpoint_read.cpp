@@ -9,8 +9,12 @@
 #include "pliant_io/files/crc32.h"
 #include "pliant_io/files/read_file.h"
 #include "pliant_io/scene/detail/json_values.h"
+#include "pliant_io/scene/detail/scene_files.h"
 
 namespace pliant {
+
+namespace fs = std::filesystem;
+
 namespace {
 
 std::string read_bytes(const Node& node) {
@@ -57,20 +61,91 @@ SceneSource read_source(const Node& node) {
   return source;
 }
 
-/// Refuses a mesh or a map that is another than it was.
-void check_files(const Node& list) {
+/// Where a run was when it left the checkpoint, and where it is now; `now` is empty when that is not known.
+struct RunMove {
+  fs::path then;
+  fs::path now;
+
+  bool has_happened() const { return !then.empty() && !now.empty() && then != now; }
+  /// The place of a file or folder that was moved together with the run.
+  fs::path operator()(const fs::path& path) const {
+    const fs::path relative = path.lexically_relative(then);
+    return relative.empty() ? path : (now / relative).lexically_normal();
+  }
+};
+
+RunMove read_move(const Node& root, const fs::path& now) {
+  const auto folder = root.find("folder");
+  return {folder ? fs::path(read_bytes(*folder)) : fs::path(), now.empty() ? now : absolute_path(now)};
+}
+
+/// A mesh, map or point cache as it was when the checkpoint was made.
+struct FileStamp {
+  fs::path path;
+  std::uint64_t size = 0;
+  std::uint32_t sum = 0;
+
+  bool fits(std::string_view bytes) const { return bytes.size() == size && crc32(bytes) == sum; }
+  bool is_at(const fs::path& place) const {
+    try {
+      return fits(read_file(place));
+    } catch (const Error&) {  // none that can be read
+      return false;
+    }
+  }
+};
+
+FileStamp read_stamp(const Node& node) {
+  std::int64_t size = 0;
+  std::int64_t sum = 0;
+  read(node.require("size"), size);
+  read(node.require("crc32"), sum);
+  return {read_bytes(node.require("path")), static_cast<std::uint64_t>(size), static_cast<std::uint32_t>(sum)};
+}
+
+/// Refuses a mesh or a map that is another than it was. @returns whether any is where it was moved to with the run
+bool check_files(const Node& list, const RunMove& move) {
+  bool has_moved = false;
   for_each(list, [&](const Node& node) {
-    const std::string path = read_bytes(node.require("path"));
-    std::int64_t size = 0;
-    std::int64_t sum = 0;
-    read(node.require("size"), size);
-    read(node.require("crc32"), sum);
-    const std::string bytes = node.locate([&] { return read_file(path); });
-    if (bytes.size() == static_cast<std::uint64_t>(size) && crc32(bytes) == sum) return;
+    const FileStamp stamp = read_stamp(node);
+    if (stamp.is_at(stamp.path)) return;
+    const fs::path there = move(stamp.path);
+    if (move.has_happened() && stamp.is_at(there)) {
+      has_moved = true;
+      return;
+    }
+    std::error_code ignored;
+    if (!fs::exists(stamp.path, ignored)) {
+      const std::string other =
+          fmt::format(", nor, since this run was moved, {} as it was; put the file in one of these places",
+                      printable_place(there.string()));
+      node.fail(fmt::format("{}: no such file{}, or run the scene from its start", printable_place(stamp.path.string()),
+                            move.has_happened() ? other : "; put it back, or move the run together with its files"));
+    }
+    node.locate([&] { read_file(stamp.path); });  // what cannot be read says so
     node.fail(fmt::format(
         "{} is not as it was when this checkpoint was made; put that file back, or run the scene from its start",
-        printable_place(path)));
+        printable_place(stamp.path.string())));
   });
+  return has_moved;
+}
+
+/// Has the relative paths of a scene start where its folders were moved to with the run.
+void move_folders(SceneSource& source, const RunMove& move) {
+  for (SceneText& text : source.texts) text.folder = move(text.folder);
+  source.overrides_folder = move(source.overrides_folder);
+}
+
+/// A scene with relative and absolute paths may find some of its files in their new places and others in the old ones.
+void check_files_read(const Node& list, const Scene& scene) {
+  for (std::size_t i = 0; i < scene.files.size(); ++i) {
+    const FileStamp stamp = i < list.size() ? read_stamp(list[i]) : FileStamp{};
+    if (scene.files[i].size == stamp.size && scene.files[i].crc32 == stamp.sum) continue;
+    list.fail(
+        fmt::format("this run was moved, and {} is not as it was when this checkpoint was made; move all files of "
+                    "the scene together with the run, or run the scene from its start",
+                    printable_place(scene.files[i].path)));
+  }
 }
 
 TimelineState::Motion read_motion(const Node& node) {
@@ -153,17 +228,21 @@ State read_state(const Node& node, const State& fresh) {
   return state;
 }
 
-}  // namespace
-
-Scene parse_checkpoint(std::string_view bytes, std::string_view name, const ResumeOptions& options) {
+/// `folder` is where the checkpoint is; empty: not known.
+Scene restore_scene(std::string_view bytes, std::string_view name, const fs::path& folder,
+                    const ResumeOptions& options) {
   const Document document = parse_cbor(unseal(bytes, name), name);
   const Origin origin{std::string(name)};
   const Node root(document, origin);
   SceneSource source = read_source(root.require("source"));
   if (options.steps) source.overrides.steps = options.steps;
   if (options.threads) source.overrides.threads = options.threads;
-  check_files(root.require("files"));
+  const Node files = root.require("files");
+  const RunMove move = read_move(root, folder);
+  const bool has_moved = check_files(files, move);
+  if (has_moved) move_folders(source, move);
   Scene scene = root.require("source").locate([&] { return parse_scene(std::move(source)); });
+  if (has_moved) check_files_read(files, scene);
 
   Simulation& simulation = scene.simulation;
   const Node timeline = root.require("timeline");
@@ -178,8 +257,14 @@ Scene parse_checkpoint(std::string_view bytes, std::string_view name, const Resu
   return scene;
 }
 
-Scene read_checkpoint(const std::filesystem::path& path, const ResumeOptions& options) {
-  return parse_checkpoint(read_file(path), path.string(), options);
+}  // namespace
+
+Scene parse_checkpoint(std::string_view bytes, std::string_view name, const ResumeOptions& options) {
+  return restore_scene(bytes, name, {}, options);
+}
+
+Scene read_checkpoint(const fs::path& path, const ResumeOptions& options) {
+  return restore_scene(read_file(path), path.string(), absolute_path(path).parent_path(), options);
 }
 
 }  // namespace pliant

@@ -134,6 +134,7 @@ Json write_timeline(const TimelineState& timeline) {
 void write_checkpoint(const std::filesystem::path& path, const Scene& scene) {
   const Json content = {{"pliant", version},
                         {"compiler", compiler},
+                        {"folder", bytes_of(absolute_path(path).parent_path().string())},
                         {"source", write_source(scene.source)},
                         {"files", write_files(scene.files)},
                         {"state", write_state(scene.simulation.state())},

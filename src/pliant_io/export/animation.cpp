@@ -8,10 +8,12 @@
 #include <fmt/ranges.h>
 
 #include "pliant/core/error.h"
+#include "pliant/core/printable.h"
 #include "pliant_io/export/detail/split_mesh.h"
 #include "pliant_io/mesh/mesh_file.h"
 #include "pliant_io/recorder/detail/run_json.h"
 #include "pliant_io/recorder/run_files.h"
+#include "pliant_io/recorder/run_info.h"
 
 namespace pliant {
 
@@ -53,6 +55,28 @@ std::vector<Real> times_of_run(const fs::path& folder, const EarlierRun& run, st
   return times;
 }
 
+/// Frames of another run, or cut since, are noticed by what run.json says of them.
+void check_frames(const fs::path& path, const EarlierRun& run, const PointCache& cache) {
+  const auto fail = [&](const std::string& what) {
+    fail_input(
+        fmt::format("{}: {}: the two are not of one run; put the file back that belongs there, or run the scene "
+                    "again",
+                    printable_place(path.string()), what));
+  };
+  Index vertices = 0;
+  for (const BodyRange& body : run.bodies) vertices += body.vertex_count;
+  if (cache.vertex_count() != vertices) {
+    fail(fmt::format("its frames have {} vertices, and run.json says {}", cache.vertex_count(), vertices));
+  }
+  if (run.frame_count && cache.frame_count() != *run.frame_count) {
+    fail(fmt::format("it holds {} frames, and run.json says {}", cache.frame_count(), *run.frame_count));
+  }
+  if (!run.last_frame) return;
+  Positions last;
+  cache.frame(cache.frame_count() - 1, last);
+  if (frame_checksum(last) != *run.last_frame) fail("its last frame is another than the one that run.json knows");
+}
+
 std::vector<Real> all_times(const PointCache& cache) {
   std::vector<Real> times(static_cast<std::size_t>(cache.frame_count()));
   for (std::size_t i = 0; i < times.size(); ++i) times[i] = cache.time(static_cast<std::int64_t>(i));
@@ -76,6 +100,7 @@ Animation read_run(const fs::path& folder) {
   const bool is_array = frames_name(run.format).find('*') == std::string::npos;
   PointCache cache = is_array ? PointCache::read(folder / frames_name(run.format))
                               : read_mesh_frames(folder, run, mesh.vertex_count());
+  check_frames(folder / frames_name(run.format), run, cache);
   if (cache.vertex_count() != mesh.vertex_count()) {
     fail_input(fmt::format("{}: has {} vertices, but the frames {}; run the scene again", mesh_path.string(),
                            mesh.vertex_count(), cache.vertex_count()));

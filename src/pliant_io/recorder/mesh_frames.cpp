@@ -22,8 +22,12 @@ class MeshFrames final : public FrameWriter {
                       "that file back",
                       printable_place(file(frame).string())));
     }
-    std::error_code error;
-    for (std::int64_t frame = kept_frames; frame > 0 && std::filesystem::remove(file(frame), error);) ++frame;
+    if (kept_frames == 0) return;
+    std::error_code ignored;
+    std::int64_t end = kept_frames;
+    while (std::filesystem::exists(file(end), ignored)) ++end;
+    // The last first: a run that is killed here leaves no gap, behind which the next one would not know them.
+    while (end > kept_frames) std::filesystem::remove(file(--end), ignored);
   }
 
   std::string_view format() const override { return format_; }

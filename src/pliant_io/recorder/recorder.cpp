@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "pliant/core/error.h"
+#include "pliant_io/files/atomic_file.h"
 #include "pliant_io/mesh/mesh_file.h"
 #include "pliant_io/recorder/detail/one_mesh.h"
 #include "pliant_io/recorder/run_files.h"
@@ -24,6 +25,7 @@ void end_run(const fs::path& folder, const RunInfo& info, const Simulation& simu
 }
 
 void resume_run(const fs::path& folder, RunInfo info, const Simulation& simulation) {
+  remove_leftovers(folder, is_run_file);
   info.outcome = Outcome::running;
   write_run_info(folder / "run.json", info, simulation);
 }
@@ -44,9 +46,14 @@ void Recorder::record(Simulation& simulation, const StepReport& report) {
   if (frames_) {
     frames_->add(simulation.state().positions);
     ++frame_count_;
+    last_frame_ = simulation.state().positions;
   }
   measurements_.add(row);
   residual_ = row.residual;
+}
+
+std::optional<std::uint32_t> Recorder::last_frame_checksum() const {
+  return last_frame_.rows() > 0 ? std::optional(frame_checksum(last_frame_)) : std::nullopt;
 }
 
 }  // namespace pliant

@@ -1,6 +1,7 @@
 #pragma once
 // The files of a run, in one folder; run_files.h has their names.
 #include <memory>
+#include <optional>
 
 #include "pliant_io/recorder/frame_writer.h"
 #include "pliant_io/recorder/measurements.h"
@@ -14,7 +15,8 @@ namespace pliant {
 /// @throws Error (output)
 void begin_run(const std::filesystem::path& folder, RunInfo info, const Simulation& simulation);
 
-/// Writes run.json of a run that goes on where one has stopped: it is running again. @throws Error (output)
+/// Writes run.json of a run that goes on where one has stopped: it is running again; removes what a killed one left
+/// half-written (remove_leftovers). @throws Error (output)
 void resume_run(const std::filesystem::path& folder, RunInfo info, const Simulation& simulation);
 
 /// Writes run.json anew, with how the run ended. @throws Error (output)
@@ -34,6 +36,8 @@ class Recorder {
   void record(Simulation& simulation, const StepReport& report);
 
   std::int64_t frame_count() const { return frame_count_; }
+  /// Of the last frame that was recorded here; none before the first.
+  std::optional<std::uint32_t> last_frame_checksum() const;
   /// The residual of the last record [N].
   Real residual() const { return residual_; }
 
@@ -43,6 +47,7 @@ class Recorder {
   MeasurementsWriter measurements_;
   std::int64_t every_;
   std::int64_t frame_count_ = 0;
+  Positions last_frame_;
   Real residual_ = 0;
 };
 

@@ -13,6 +13,7 @@
 
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
+#include "pliant_io/files/atomic_file.h"
 #include "pliant_io/recorder/detail/run_json.h"
 
 namespace pliant {
@@ -61,6 +62,20 @@ bool is_name_of(std::string_view name, std::string_view file) {
   return is_pattern(name) ? frame_number(file, name).has_value() : file == name;
 }
 
+/// Whether a file has one of these names or patterns.
+bool is_among(const std::vector<std::string>& names, std::string_view file) {
+  return std::ranges::any_of(names, [&](const std::string& name) { return is_name_of(name, file); });
+}
+
+/// Files that a run which goes on opens and writes in; the others are replaced as a whole.
+bool grows_in_place(std::string_view file) {
+  return file == "measurements.csv" || file == frames_name("npy") || file == frames_name("pc2");
+}
+
+[[noreturn]] void fail_link(const fs::path& path, std::string_view what) {
+  throw Error(ErrorKind::output, fmt::format("{}: cannot be written: {}", printable_place(path.string()), what));
+}
+
 std::set<std::string> names_in(const fs::path& folder) {
   std::set<std::string> names;
   std::error_code error;
@@ -88,7 +103,7 @@ void add_frames(std::set<std::string>& files, const std::set<std::string>& names
   }
 }
 
-/// What a killed run was writing (atomic_file.h), of a file of that name.
+/// What a killed run of version 0.1.0 was writing, of a file of that name.
 bool is_temporary_of(std::string_view name, std::string_view file) {
   const std::size_t end = file.rfind(".tmp-");
   return end != file.npos && is_name_of(name, file.substr(0, end));
@@ -147,17 +162,55 @@ void make_run_folder(const fs::path& folder) {
   if (error) fail_output(folder, error.message());
 }
 
+std::vector<fs::path> replaced_files(const fs::path& folder, std::string_view format) {
+  const std::vector<std::string> wanted = run_files(format);
+  std::vector<fs::path> files;
+  try {
+    const std::set<std::string> names = names_in(folder);
+    for (const std::string& file : names) {
+      if (is_among(wanted, file)) files.push_back(folder / file);
+    }
+    for (const std::string& file : files_of_earlier_run(folder, names)) files.push_back(folder / file);
+  } catch (const Error&) {  // of a folder that is not there or is of no run; prepare_run_folder() tells
+  }
+  return files;
+}
+
+void refuse_links(const fs::path& folder, std::string_view format, RunStart start) {
+  const std::vector<std::string> names = run_files(format);
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    const std::string file = entry->path().filename().string();
+    std::error_code ignored;
+    if (!is_among(names, file)) continue;
+    if (entry->is_symlink(ignored)) {
+      fail_link(entry->path(), "it is a link to another place; remove the link, or choose another folder");
+    }
+    if (start == RunStart::resumed && grows_in_place(file) && entry->hard_link_count(ignored) > 1) {
+      fail_link(entry->path(),
+                "the file has another name as well (a hard link), under which it would change too; "
+                "put a copy in its place");
+    }
+  }
+}
+
 void prepare_run_folder(const fs::path& folder, std::string_view format) {
   make_run_folder(folder);
+  refuse_links(folder, format, RunStart::anew);
+  remove_leftovers(folder, is_run_file);
   const std::set<std::string> names = names_in(folder);
   const std::set<std::string> earlier = files_of_earlier_run(folder, names);
   const std::vector<std::string> wanted = run_files(format);
   for (const std::string& file : names) {
-    const bool is_wanted = std::ranges::any_of(wanted, [&](const std::string& name) { return is_name_of(name, file); });
-    if (file == "run.json" || earlier.contains(file) || !is_wanted) continue;
+    if (file == "run.json" || earlier.contains(file) || !is_among(wanted, file)) continue;
     fail_output(folder, fmt::format("the run would replace its {}, which no run wrote", file));
   }
-  for (const std::string& file : earlier) {
+  // The last frames first: a run that is killed here leaves no gap, behind which the next one would not know them.
+  std::vector<std::string> last_first(earlier.begin(), earlier.end());
+  std::ranges::sort(last_first, std::ranges::greater(), [](const std::string& file) {
+    return std::pair<std::size_t, std::string_view>(file.size(), file);
+  });
+  for (const std::string& file : last_first) {
     std::error_code error;
     fs::remove(folder / file, error);
     if (error) fail_output(folder / file, error.message());

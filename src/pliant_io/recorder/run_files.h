@@ -28,10 +28,21 @@ bool is_run_file(std::string_view file);
 /// made.
 void make_run_folder(const std::filesystem::path& folder);
 
-/// Makes the folder where it is missing, and removes the files that the run.json there tells an earlier run wrote.
-/// Everything else stays, and nothing of it is replaced:
-/// @throws Error (output): the name stands for something else, the folder cannot be used, or a file stands there that
-///   this run would replace and no earlier one wrote.
+/// The files in a folder that a run with frames of a format would remove or replace. Does not throw.
+std::vector<std::filesystem::path> replaced_files(const std::filesystem::path& folder, std::string_view format);
+
+/// Whether a run begins in a folder, or goes on with files that are there.
+enum class RunStart { anew, resumed };
+
+/// Refuses a folder where a name that the run writes is a link, so that a file elsewhere would be written: a symbolic
+/// link of any of them; for a run that goes on also a second name of a file that grows in place.
+/// @throws Error (output), naming the link
+void refuse_links(const std::filesystem::path& folder, std::string_view format, RunStart start);
+
+/// Makes the folder where it is missing, and removes the files that the run.json there tells an earlier run wrote, with
+/// what killed runs left half-written (remove_leftovers). Everything else stays, and nothing of it is replaced:
+/// @throws Error (output): the name stands for something else, the folder cannot be used, a file stands there that this
+///   run would replace and no earlier one wrote, or a link (refuse_links).
 void prepare_run_folder(const std::filesystem::path& folder, std::string_view format);
 
 }  // namespace pliant

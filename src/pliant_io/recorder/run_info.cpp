@@ -6,6 +6,7 @@
 
 #include "pliant/core/version.h"
 #include "pliant_io/files/atomic_file.h"
+#include "pliant_io/files/crc32.h"
 #include "pliant_io/recorder/run_files.h"
 
 namespace pliant {
@@ -66,6 +67,12 @@ OrderedJson count_constraints(const Simulation& simulation) {
 
 }  // namespace
 
+std::uint32_t frame_checksum(const Positions& positions) {
+  const Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> rounded = positions.cast<float>();
+  const auto size = static_cast<std::size_t>(rounded.size()) * sizeof(float);
+  return crc32({reinterpret_cast<const char*>(rounded.data()), size});  // NOLINT: bytes of numbers
+}
+
 void write_run_info(const std::filesystem::path& path, const RunInfo& info, const Simulation& simulation) {
   OrderedJson json;
   json["scene"] = info.scene;
@@ -93,6 +100,7 @@ void write_run_info(const std::filesystem::path& path, const RunInfo& info, cons
                     {"time", simulation.state().time},
                     {"frames", info.frames},
                     {"wall_seconds", info.wall_seconds}};
+  if (info.last_frame) json["totals"]["last_frame_crc32"] = *info.last_frame;
   json["missed_tolerance"] = {{"steps", info.missed_tolerance.steps},
                               {"worst_residual", info.missed_tolerance.worst_residual}};
   // Names may hold bytes that are not UTF-8, such as a path's; they must not cost the file.

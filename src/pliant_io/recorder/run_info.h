@@ -30,11 +30,15 @@ struct RunInfo {
   std::int64_t wanted_steps = 0;
   std::int64_t frames = 0;
   std::optional<std::int64_t> resumed_from;  ///< step at which this run went on
+  std::optional<std::uint32_t> last_frame;   ///< its checksum (frame_checksum); none: no frame was recorded
   double wall_seconds = 0;
   MissedTolerance missed_tolerance;  ///< since the start of the run, or since it was resumed
   Outcome outcome = Outcome::running;
   std::string error;  ///< the message when it did not end well
 };
+
+/// The CRC-32 of positions rounded to float32, which all formats of frames hold alike.
+std::uint32_t frame_checksum(const Positions& positions);
 
 /// Writes the file, whole or not at all. @throws Error (output)
 void write_run_info(const std::filesystem::path& path, const RunInfo& info, const Simulation& simulation);

@@ -115,7 +115,12 @@ EarlierRun read_earlier_run(const std::filesystem::path& path) {
   } else {
     run.files = {"measurements.csv", frames_name(run.format)};  // version 0.1.0
   }
-  if (root.at("outcome").text() != "running") run.frame_count = root.at("totals").at("frames").count();
+  if (root.at("outcome").text() != "running") {
+    const Node totals = root.at("totals");
+    run.frame_count = totals.at("frames").count();
+    const bool has_checksum = totals.json.contains("last_frame_crc32");
+    if (has_checksum) run.last_frame = static_cast<std::uint32_t>(totals.at("last_frame_crc32").count());
+  }
   run.seconds_per_frame =
       root.at("settings").at("time_step").positive() * static_cast<Real>(output.at("every").count());
   run.bodies = read_bodies(root.at("bodies"));

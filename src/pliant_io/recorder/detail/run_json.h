@@ -22,6 +22,7 @@ struct EarlierRun {
   std::string format;                       ///< of the frames, or "none"
   std::vector<std::string> files;           ///< as run_files() names them
   std::optional<std::int64_t> frame_count;  ///< none for a run that could not tell how it ended
+  std::optional<std::uint32_t> last_frame;  ///< frame_checksum(); none for such a run and those of version 0.1.0
   Real seconds_per_frame = 0;               ///< by the settings at its end
   std::vector<BodyRange> bodies;            ///< they follow each other, from vertex 0
 };
