@@ -101,7 +101,7 @@ void print_boundary(const Diagnosis& d) {
   print_row("boundary", plural(static_cast<std::int64_t>(d.boundary_loops.size()), "loop", "loops"));
   for (std::size_t i = 0; i < std::min(listed, d.boundary_loops.size()); ++i) {
     const pliant::BoundaryLoop& loop = d.boundary_loops[i];
-    print_row("", fmt::format("{} from vertex {}, {:.4g} m", plural(loop.vertex_count, "vertex", "vertices"),
+    print_row("", fmt::format("{}: {} from vertex {}, {:.4g} m", i, plural(loop.vertex_count, "vertex", "vertices"),
                               loop.first_vertex, loop.length));
   }
   if (d.boundary_loops.size() > listed) print_row("", fmt::format("and {} more", d.boundary_loops.size() - listed));

@@ -292,33 +292,12 @@ class MeshChecker {
     return count;
   }
 
-  /// Walks from each vertex along edges not yet walked, lowest first, until there is none to go on with.
   void trace_boundary(std::vector<Edge> edges) {
-    const std::size_t count = edges.size();
-    edges.reserve(2 * count);
-    for (std::size_t e = 0; e < count; ++e) edges.push_back({edges[e][1], edges[e][0]});
-    std::ranges::sort(edges);
-    std::vector<char> is_walked(edges.size(), 0);
-    std::vector<std::size_t> next(edges.size());  // of the entries of a vertex, kept at its first: the first not walked
-    std::iota(next.begin(), next.end(), std::size_t{0});
-    const auto entry = [&](const Edge& edge) {
-      return static_cast<std::size_t>(std::ranges::lower_bound(edges, edge) - edges.begin());
-    };
-    for (std::size_t start = 0; start < edges.size(); ++start) {
-      if (is_walked[start] != 0) continue;
-      BoundaryLoop loop{edges[start][0], 0, 0};
-      for (Index vertex = loop.first_vertex;;) {
-        const std::size_t first = entry({vertex, 0});
-        std::size_t& step = next[first];
-        while (step < edges.size() && edges[step][0] == vertex && is_walked[step] != 0) ++step;
-        if (step == edges.size() || edges[step][0] != vertex) break;
-        const Edge edge = edges[step];
-        is_walked[step] = is_walked[entry({edge[1], edge[0]})] = 1;
-        ++loop.vertex_count;
-        if (result_.is_measured) {
-          loop.length += (row(mesh_.vertices, edge[1]) - row(mesh_.vertices, edge[0])).stableNorm();
-        }
-        vertex = edge[1];
+    for (const std::vector<Index>& vertices : boundary_loops(std::move(edges))) {
+      BoundaryLoop loop{vertices[0], static_cast<Index>(vertices.size()), 0};
+      for (std::size_t i = 0; result_.is_measured && i < vertices.size(); ++i) {
+        const Index next = vertices[(i + 1) % vertices.size()];
+        loop.length += (row(mesh_.vertices, next) - row(mesh_.vertices, vertices[i])).stableNorm();
       }
       result_.boundary_loops.push_back(loop);
     }

@@ -11,6 +11,7 @@
 
 #include "pliant/core/error.h"
 #include "pliant/mesh/geometry.h"
+#include "pliant/mesh/nearest_vertex.h"
 #include "pliant/mesh/shapes/limits.h"
 #include "pliant/mesh/topology.h"
 
@@ -18,84 +19,11 @@ namespace pliant {
 
 namespace {
 
-/// A k-d tree over positions that finds the nearest one among those of smaller index than asked for.
-class NearestBefore {
- public:
-  explicit NearestBefore(const Positions& x)
-      : x_(x), order_(static_cast<std::size_t>(x.rows())), least_(order_.size()) {
-    std::iota(order_.begin(), order_.end(), 0);
-    build(0, order_.size(), 0);
-  }
-
-  struct Found {
-    Index vertex = -1;
-    Real distance_squared = 0;
-    std::int64_t looked_at = 0;  ///< vertices on the way
-  };
-
-  /// The nearest to x that is none of those left out, with an index under `end`, within the distance; of several, the
-  /// first by index.
-  Found find(const Vec3& x, Index end, Real distance, const std::vector<char>& left_out) const {
-    Query query{x, end, left_out, {-1, distance * distance, 0}};
-    search(query, 0, order_.size(), 0);
-    return query.best;
-  }
-
- private:
-  struct Query {
-    const Vec3& x;
-    Index end;
-    const std::vector<char>& left_out;
-    Found best;
-  };
-
-  // A node is a range of order_ with its middle as the vertex; what lies before it is not above it along the axis.
-  void build(std::size_t begin, std::size_t end, int axis) {
-    if (begin == end) return;
-    const std::size_t middle = begin + (end - begin) / 2;
-    const auto at = [&](std::size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
-    std::nth_element(at(begin), at(middle), at(end), [&](Index a, Index b) { return x_(a, axis) < x_(b, axis); });
-    least_[middle] = *std::min_element(at(begin), at(end));
-    build(begin, middle, (axis + 1) % 3);
-    build(middle + 1, end, (axis + 1) % 3);
-  }
-
-  void search(Query& query, std::size_t begin, std::size_t end, int axis) const {
-    if (begin == end) return;
-    const std::size_t middle = begin + (end - begin) / 2;
-    if (least_[middle] >= query.end) return;
-    consider(query, order_[middle]);
-    const Real across = query.x[axis] - x_(order_[middle], axis);
-    const bool is_below = across < 0;
-    const auto descend = [&](bool below) {
-      search(query, below ? begin : middle + 1, below ? middle : end, (axis + 1) % 3);
-    };
-    descend(is_below);
-    if (across * across <= query.best.distance_squared) descend(!is_below);
-  }
-
-  void consider(Query& query, Index vertex) const {
-    ++query.best.looked_at;
-    if (vertex >= query.end || query.left_out[static_cast<std::size_t>(vertex)] != 0) return;
-    const Real distance_squared = (row(x_, vertex) - query.x).squaredNorm();
-    const bool is_first = query.best.vertex < 0 || vertex < query.best.vertex;
-    if (distance_squared < query.best.distance_squared ||
-        (distance_squared == query.best.distance_squared && is_first)) {
-      query.best.vertex = vertex;
-      query.best.distance_squared = distance_squared;
-    }
-  }
-
-  const Positions& x_;
-  std::vector<Index> order_;
-  std::vector<Index> least_;  // of the node whose middle stands at the same place
-};
-
 /// Which vertex each vertex becomes, before those left over are numbered anew.
 std::vector<Index> merged_vertices(const Positions& x, std::span<const Index> part_ends, Real weld) {
   std::vector<Index> target(static_cast<std::size_t>(x.rows()));
   std::iota(target.begin(), target.end(), 0);
-  const NearestBefore tree(x);
+  const NearestVertex tree(x);
   std::vector<char> is_merged(target.size(), 0);
   // About 50 a vertex, but all of them for a vertex as far from every other: in the middle of a sphere, say.
   std::int64_t may_look_at = 1'000'000 + 300 * static_cast<std::int64_t>(target.size());
@@ -107,7 +35,7 @@ std::vector<Index> merged_vertices(const Positions& x, std::span<const Index> pa
       may_look_at -= found.looked_at;
       if (may_look_at < 0) fail_input(fmt::format("weld: {} m reaches too many vertices; give a smaller one", weld));
       if (found.vertex < 0) continue;
-      const std::pair candidate{found.distance_squared, v};
+      const std::pair candidate{found.squared, v};
       const auto [entry, is_new] = nearest_of.emplace(found.vertex, candidate);
       if (!is_new) entry->second = std::min(entry->second, candidate);
     }

@@ -224,6 +224,34 @@ std::vector<Edge> boundary_edges(const Mesh& mesh) {
   return boundary;
 }
 
+std::vector<std::vector<Index>> boundary_loops(std::vector<Edge> edges) {
+  const std::size_t count = edges.size();
+  edges.reserve(2 * count);
+  for (std::size_t e = 0; e < count; ++e) edges.push_back({edges[e][1], edges[e][0]});
+  std::ranges::sort(edges);
+  std::vector<char> is_walked(edges.size(), 0);
+  std::vector<std::size_t> next(edges.size());  // of the entries of a vertex, kept at its first: the first not walked
+  std::iota(next.begin(), next.end(), std::size_t{0});
+  const auto entry = [&](const Edge& edge) {
+    return static_cast<std::size_t>(std::ranges::lower_bound(edges, edge) - edges.begin());
+  };
+  std::vector<std::vector<Index>> loops;
+  for (std::size_t start = 0; start < edges.size(); ++start) {
+    if (is_walked[start] != 0) continue;
+    std::vector<Index>& loop = loops.emplace_back();
+    for (Index vertex = edges[start][0];;) {
+      std::size_t& step = next[entry({vertex, 0})];
+      while (step < edges.size() && edges[step][0] == vertex && is_walked[step] != 0) ++step;
+      if (step == edges.size() || edges[step][0] != vertex) break;
+      const Edge edge = edges[step];
+      is_walked[step] = is_walked[entry({edge[1], edge[0]})] = 1;
+      loop.push_back(vertex);
+      vertex = edge[1];
+    }
+  }
+  return loops;
+}
+
 std::vector<Triangle> boundary_triangles(std::span<const Tetrahedron> tetrahedra) {
   const auto face_of = [&](std::size_t face) {
     const Tetrahedron& tetrahedron = tetrahedra[face / 4];

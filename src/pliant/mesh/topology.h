@@ -26,6 +26,10 @@ EdgeTriangles edge_triangles(const Mesh& mesh);
 /// Edges with exactly one triangle, in lexicographic order, smaller index first.
 std::vector<Edge> boundary_edges(const Mesh& mesh);
 
+/// Closed walks along boundary edges, each the vertices in the order of the walk: from each vertex along edges not yet
+/// walked, lowest first, until there is none to go on with. By their first vertex, which is their lowest.
+std::vector<std::vector<Index>> boundary_loops(std::vector<Edge> boundary_edges);
+
 /// The surface of a tetrahedral mesh: the faces that only one tetrahedron has, oriented outward (counter-clockwise seen
 /// from outside), by tetrahedron in ascending order.
 std::vector<Triangle> boundary_triangles(std::span<const Tetrahedron> tetrahedra);
