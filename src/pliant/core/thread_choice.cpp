@@ -22,6 +22,12 @@ ThreadChoice::ThreadChoice(int most) {
   restart();
 }
 
+ThreadChoice ThreadChoice::fixed(int threads) {
+  ThreadChoice choice;
+  choice.counts_ = {threads};
+  return choice;
+}
+
 void ThreadChoice::restart() {
   trial_ = -1;
   pieces_ = 0;

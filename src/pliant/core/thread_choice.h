@@ -15,6 +15,9 @@ class ThreadChoice {
   /// Numbers from 1 to `most` ≥ 1: 1, 2, 4, ... and `most` itself. Begins with one thread.
   explicit ThreadChoice(int most = 1);
 
+  /// Always as many, whatever the clock says.
+  static ThreadChoice fixed(int threads);
+
   /// For the next piece of work.
   int threads() const { return counts_[at(trial_ >= 0 ? trial_ : current_)]; }
   /// What that piece took [s]. Pieces are of about the same work.

@@ -97,9 +97,12 @@ struct SolverSettings {
             "precision", "",
             "of the factor: `mixed` has it in single precision, where that does; what is converged to is the same"},
         self.precision);
-    field(OptionInfo{"threads", "", "at most, fewer in small scenes; 0: one a processor; results do not depend on it",
-                     Range{0, 1024}},
-          self.threads);
+    field(
+        OptionInfo{
+            "threads", "",
+            "at most, fewer in small scenes; 0: as many as pay, found while running; results do not depend on it",
+            Range{0, 1024}},
+        self.threads);
   }
 };
 

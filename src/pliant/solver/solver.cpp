@@ -11,7 +11,7 @@ namespace pliant {
 namespace {
 
 /// Slots for which another thread is worth waking: below, handing out the work takes longer than the work, and so even
-/// who asks for threads is given fewer. Where their number is left to us, twice as many are asked of each.
+/// who asks for threads is given fewer. Where their number is left to us, the clock decides among these (ThreadChoice).
 constexpr std::size_t slots_per_thread = 4096;
 
 /// Chunks of a vertex from which another order is tried, and the share of them that it must leave at most to be taken:
@@ -22,7 +22,7 @@ constexpr Real better_order = 0.6;
 int useful_threads(Index asked, std::size_t slots) {
   const auto processors = static_cast<std::size_t>(std::max(1U, std::thread::hardware_concurrency()));
   const std::size_t most = asked > 0 ? static_cast<std::size_t>(asked) : processors;
-  return static_cast<int>(std::clamp<std::size_t>(slots / (asked > 0 ? 1 : 2) / slots_per_thread, 1, most));
+  return static_cast<int>(std::clamp<std::size_t>(slots / slots_per_thread, 1, most));
 }
 
 }  // namespace
@@ -51,7 +51,15 @@ void Solver::set_settings(const SolverSettings& settings) {
 
 void Solver::start_threads(Index asked) {
   const int threads = useful_threads(asked, local_step_.slot_count());
-  if (threads != thread_count()) threads_ = std::make_unique<ThreadPool>(threads);
+  const bool is_same_pool = threads == threads_->thread_count();
+  if (!is_same_pool) threads_ = std::make_unique<ThreadPool>(threads);
+  if (asked > 0) {
+    thread_choice_ = ThreadChoice::fixed(threads);
+  } else if (!is_same_pool || settings_.threads > 0) {
+    thread_choice_ = ThreadChoice(threads);
+  } else {
+    thread_choice_.restart();
+  }
 }
 
 void Solver::set_groups(Index vertex_count, std::vector<ConstraintGroup*> groups) {

@@ -3,6 +3,7 @@
 #include <functional>
 #include <unordered_map>
 
+#include "pliant/core/thread_choice.h"
 #include "pliant/core/thread_pool.h"
 #include "pliant/forces/force.h"
 #include "pliant/solver/global/global_step.h"
@@ -53,7 +54,8 @@ class Solver {
   Precision precision() const { return global_step_.precision(); }
   Real contraction() const { return global_step_.contraction(); }
   std::string_view backend() const { return global_step_.backend_name(); }
-  int thread_count() const { return threads_->thread_count(); }
+  /// In use: of those that were asked for, or as many as paid in the last step.
+  int thread_count() const { return threads_->active(); }
 
  private:
   /// A group's part of what the factor was made from.
@@ -117,6 +119,7 @@ class Solver {
   // All that follows is in the order of the local groups; groups, forces and state are in that of the simulation.
   LocalGroups local_groups_;
   std::unique_ptr<ThreadPool> threads_;
+  ThreadChoice thread_choice_;
   LocalStep local_step_;
   SystemMatrix system_matrix_;
   GlobalStep global_step_;

@@ -47,12 +47,14 @@ void Solver::take_substep(State& state, StepReport& report) {
 /// Throws when a residual is not finite, and when the step is to be given up.
 LocalResult Solver::local_step(const State& state, StepReport& report) {
   if (stop_ && stop_()) give_up(state);
+  threads_->set_active(thread_choice_.threads());
   const Stopwatch watch;
-  const LocalResult local = local_step_.run(q_, s_, inertia_weights_, is_pinned_, residual_, *threads_);
+  LocalResult local = local_step_.run(q_, s_, inertia_weights_, is_pinned_, residual_, *threads_);
   if (!std::isfinite(local.residual)) report_divergence(state);
   if (history_.size() < history_.capacity()) history_.push_back(local.inertia + local.elastic);
+  local.seconds = watch.seconds();
   report.residual = local.residual;
-  report.seconds_local += watch.seconds();
+  report.seconds_local += local.seconds;
   report.seconds_projections += local.seconds_projections;
   return local;
 }
@@ -61,7 +63,9 @@ void Solver::global_step(const LocalResult& local, StepReport& report) {
   const Stopwatch watch;
   report.solves += global_step_.move(residual_, local.residual, q_, *threads_);
   ++report.iterations;
-  report.seconds_global += watch.seconds();
+  const double seconds = watch.seconds();
+  report.seconds_global += seconds;
+  thread_choice_.took(local.seconds + seconds);
 }
 
 void Solver::take_substeps(State& state, StepReport& report) {

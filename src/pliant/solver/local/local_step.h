@@ -19,6 +19,7 @@ struct LocalResult {
   Real inertia = 0;   ///< 1/(2h²) ‖M^½ (q − s)‖² [J]
   Real elastic = 0;   ///< Σ wᵢ/2 ‖zᵢ − pᵢ‖² [J]
   double seconds_projections = 0;
+  double seconds = 0;
 };
 
 class LocalStep {
