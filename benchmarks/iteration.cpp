@@ -64,10 +64,10 @@ LowerMatrix system_matrix(const Simulation& simulation) {
     for (const auto& part : group.set.parts) groups.push_back(part.get());
   }
   const State& state = simulation.state();
-  const std::vector<char> nothing_held(state.masses.size(), 0);
+  const std::vector<char> nothing_pinned(state.masses.size(), 0);
   SystemMatrix matrix;
   matrix.set_groups(state.vertex_count(), groups);
-  matrix.sum(state.masses, simulation.settings().time_step, groups, nothing_held);
+  matrix.assemble(state.masses, simulation.settings().time_step, groups, nothing_pinned);
   return matrix.matrix();
 }
 

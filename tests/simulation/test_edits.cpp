@@ -187,7 +187,7 @@ TEST_CASE("a restored state goes on with the same bits") {
   CHECK(contains(error_of([&] { second.restore(wrong); }), "step -1"));
   wrong = first.state();
   wrong.time = std::numeric_limits<Real>::quiet_NaN();
-  CHECK(contains(error_of([&] { second.restore(wrong); }), "no state"));
+  CHECK(contains(error_of([&] { second.restore(wrong); }), "not a state of a simulation"));
   CHECK(after(first, 3) == after(second, 3));
 }
 
