@@ -156,7 +156,7 @@ class Numbers(HostileTest):
             return scene_of(BALL if name == "pressure" else GRID, {"type": "edge_spring"},
                             forces=[{"type": name} | NEEDED.get(name, {}) | more])
         self.attack((case(scene(name, **{key: value}), name, key, value) for name, text in sections("Forces")
-                     for key, default in numeric_options(text) for value in variants(json.loads(default), REALS)),
+                     for key, default in numeric_options(text) for value in variants(json.loads(default or "[0, 0, 1]"), REALS)),
                     (case(scene("test_force", force=[value, 0, 0]), "force", value) for value in REALS),
                     (case(scene("test_force", frames=frames), "frames", frames)
                      for a, b in itertools.product(WHOLE, [0, 2**63 - 1]) for frames in [[a, b], [b, a]]),
