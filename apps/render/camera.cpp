@@ -7,7 +7,7 @@
 namespace pliant_render {
 namespace {
 
-constexpr float margin = 1.12F;  // of the picture around what is in it
+constexpr float picture_margin = 1.12F;  // of the picture around what is in it
 
 Vec3f to_float(const pliant::Vec3& x) {
   return x.cast<float>();
@@ -98,7 +98,7 @@ Viewpoint place_camera(const pliant::Camera& camera, const Bounds& given, float 
 
 void fit_into_picture(Viewpoint& view, const Bounds& bounds, float aspect) {
   const Vec3f forward = view.forward();
-  const float tan_y = std::tan(view.field_of_view / 2) / margin;
+  const float tan_y = std::tan(view.field_of_view / 2) / picture_margin;
   const float free_width = 1 - std::min(std::abs(view.inset), 0.9F);
   Bounds room = bounds;  // a single point has none
   room.add(bounds.center() + Vec3f::Constant(1e-3F));

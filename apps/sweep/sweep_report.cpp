@@ -143,9 +143,9 @@ void write_plots(const fs::path& folder, const std::vector<NamedPlot>& plots) {
 
 void write_sweep_report(const fs::path& folder, const SweepPlan& plan) {
   const std::vector<NamedPlot> figures = figure_plots(plan);
-  const std::vector<NamedPlot> times = time_plots(folder, plan);
+  const std::vector<NamedPlot> over_time = time_plots(folder, plan);
   std::vector<NamedPlot> all = figures;
-  all.insert(all.end(), times.begin(), times.end());
+  all.insert(all.end(), over_time.begin(), over_time.end());
   write_plots(folder / "plots", all);
 
   Report report;
@@ -153,7 +153,7 @@ void write_sweep_report(const fs::path& folder, const SweepPlan& plan) {
   add_facts(report, plan);
   report.chapters.push_back(
       chapter_of("figures", "Figures over the varied values", ends_text(plan) + plots_text(plan, figures), figures));
-  if (!times.empty()) report.chapters.push_back(chapter_of("times", "The runs over time", "", times));
+  if (!over_time.empty()) report.chapters.push_back(chapter_of("times", "The runs over time", "", over_time));
   report.chapters.push_back(chapter_of("runs", "All runs", "", {}));
   report.chapters.back().blocks.emplace_back(table_of(plan));
   pliant::write_file_atomically(folder / "index.html", pliant_report::to_html(report));
