@@ -14,7 +14,8 @@ LAYERS = {
     "pliant/core": [],
     "pliant/mesh": ["pliant/core"],
     "pliant/constraints": ["pliant/core", "pliant/mesh"],
-    "pliant/forces": ["pliant/core", "pliant/mesh"],
+    "pliant/forces": ["pliant/core", "pliant/mesh", "pliant/constraints/constraint_group.h", "pliant/constraints/batch.h",
+                      "pliant/constraints/reorder.h"],
     "pliant/solver": ["pliant/core", "pliant/constraints/constraint_group.h", "pliant/forces/force.h"],
     "pliant/simulation": ["pliant/core", "pliant/mesh", "pliant/constraints", "pliant/forces", "pliant/solver"],
 }
@@ -171,6 +172,7 @@ SELF_TEST = [
     ("src/pliant/constraints/a.h", '"pliant/forces/b.h"', True),
     ("src/pliant/constraints/a.h", '"pliant/solver/b.h"', True),
     ("src/pliant/forces/a.h", '"pliant/constraints/b.h"', True),
+    ("src/pliant/forces/a.h", '"pliant/constraints/constraint_group.h"', False),
     ("src/pliant/solver/a.h", '"pliant/constraints/constraint_group.h"', False),
     ("src/pliant/solver/a.h", '"pliant/forces/force.h"', False),
     ("src/pliant/solver/a.h", '"pliant/forces/wind.h"', True),

@@ -102,6 +102,9 @@ TEST_CASE("the residual is the largest gradient of the objective on a vertex tha
     for (const auto& [id, group] : simulation.groups()) {
       for (const auto& part : group.set.parts) parts.push_back(part.get());
     }
+    for (const auto& [id, force] : simulation.forces()) {
+      for (ConstraintGroup* group : force->groups()) parts.push_back(group);
+    }
     std::vector<char> is_pinned(simulation.state().masses.size(), 0);
     for (const ConstraintGroup* part : parts) {
       for (const Index vertex : part->pinned_vertices()) is_pinned[static_cast<std::size_t>(vertex)] = 1;

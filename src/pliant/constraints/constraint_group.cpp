@@ -44,6 +44,8 @@ bool ConstraintGroup::is_external() {
   return !targets().empty();
 }
 
+void ConstraintGroup::move_guess(Positions&, std::span<const Real>) const {}
+
 std::span<Real> ConstraintGroup::anchor(Index i) {
   const auto first = 3 * static_cast<std::size_t>(i);
   return first < targets().size() ? targets().subspan(first, 3) : std::span<Real>();

@@ -60,6 +60,11 @@ class ConstraintGroup {
   /// a force brings.
   virtual bool is_external();
 
+  /// Moves the guess that a step begins with, q = s of every vertex, to where this group and the inertia M/η² [N/m] of
+  /// each vertex (0: it is held) would have it. A group that a force brings says so: s has every other force in it, and
+  /// few iterations are not to find out about this one.
+  virtual void move_guess(Positions& q, std::span<const Real> inertia) const;
+
   /// The point of constraint i that its builder puts where the vertices are, unless it is told where: a target, the
   /// origin of a line. Three numbers, or none for a type without; as a rule point i of targets().
   virtual std::span<Real> anchor(Index i);

@@ -11,6 +11,16 @@ struct StateView {
   const std::vector<Real>& masses;  ///< m [kg]
   std::int64_t step;                ///< n, the number of steps taken so far
   Real time;                        ///< tₙ [s]
+
+  /// The step to come, as its integrator has it: v = (q − a)/η.
+  Real inertia_step = 0;                          ///< η [s]; 0: nobody has said
+  const Positions* previous_positions = nullptr;  ///< qₙ₋₁ of a step of BDF2 that has it, else null
+
+  /// a of a vertex [m]: qₙ, or (4 qₙ − qₙ₋₁)/3 of BDF2.
+  Vec3 origin(Index vertex) const {
+    const Vec3 now = row(positions, vertex);
+    return previous_positions == nullptr ? now : Vec3((4 * now - row(*previous_positions, vertex)) / 3);
+  }
 };
 
 }  // namespace pliant

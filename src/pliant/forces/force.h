@@ -4,10 +4,13 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "pliant/core/state_view.h"
 
 namespace pliant {
+
+class ConstraintGroup;
 
 /// A user's own force derives from this class. Indices are those of the simulation.
 class Force {
@@ -39,6 +42,13 @@ class Force {
 
   /// A warning when this force may be unstable with this time step, with the limit in it.
   virtual std::optional<std::string> warning(const StateView& state, Real time_step) const;
+
+  /// What it does inside the minimization of a step, beside what add_to() adds: groups that last as long as the force,
+  /// count as outside work (ConstraintGroup::is_external) and hold nothing.
+  virtual std::vector<ConstraintGroup*> groups() const { return {}; }
+  /// Exchanges the numbers that both were made of with another force of the same type on the same places, so that the
+  /// groups of both stay; false, with nothing changed, where that cannot be.
+  virtual bool exchange(Force&) { return false; }
 };
 
 }  // namespace pliant

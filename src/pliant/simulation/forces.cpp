@@ -21,6 +21,7 @@ void Simulation::check_force(const Force* force) const {
     fail_input(std::string(force->type()) + ": vertex " + std::to_string(*vertex) +
                " is out of range; the simulation has " + std::to_string(state_.vertex_count()) + " vertices");
   }
+  for (ConstraintGroup* group : force->groups()) check_group(*group, state_.vertex_count(), force->type());
   if (settings_.integrator == Integrator::bdf2) check_under_bdf2(*force);
 }
 
@@ -56,9 +57,9 @@ ForceId Simulation::add_force(ForceRecord record, std::unique_ptr<Force> force) 
   }
   const ForceId id{next_force_++};
   if (undo_ != nullptr) undo_->save(id, std::nullopt);
+  forces_have_changed(*force);
   forces_.emplace(id, std::move(force));
   force_records_.emplace(id, std::move(record));
-  forces_changed_ = true;
   return id;
 }
 
@@ -68,7 +69,13 @@ void Simulation::replace(ForceId id, std::unique_ptr<Force> force) {
 
 void Simulation::exchange_force(ForceId id, ForceRecord record, std::unique_ptr<Force> force) {
   check_force(force.get());
-  std::swap(forces_.at(id), force);
+  std::unique_ptr<Force>& place = forces_.at(id);
+  forces_changed_ = true;
+  if (!place->exchange(*force)) {
+    std::swap(place, force);
+    forces_have_changed(*force);
+    forces_have_changed(*place);
+  }
   std::swap(force_records_.at(id), record);
   if (undo_ != nullptr) undo_->save(id, Undo::SavedForce{std::move(force), std::move(record)});
   warned_forces_.erase(id);
@@ -78,11 +85,17 @@ void Simulation::exchange_force(ForceId id, ForceRecord record, std::unique_ptr<
 void Simulation::remove(ForceId id) {
   const auto found = forces_.find(id);
   if (found == forces_.end()) fail_missing(id);
+  forces_have_changed(*found->second);
   if (undo_ != nullptr) undo_->save(id, Undo::SavedForce{std::move(found->second), force_records_.at(id)});
   forces_.erase(found);
   force_records_.erase(id);
   warned_forces_.erase(id);
+}
+
+/// To be told of a force that comes or goes.
+void Simulation::forces_have_changed(const Force& force) {
   forces_changed_ = true;
+  if (!force.groups().empty()) groups_changed_ = true;
 }
 
 const ForceRecord& Simulation::record(ForceId id) const {

@@ -110,6 +110,9 @@ void Simulation::update_problem() {
     for (const auto& [id, owner] : groups_) {
       for (const auto& part : owner.set.parts) groups.push_back(part.get());
     }
+    for (const auto& [id, force] : forces_) {
+      for (ConstraintGroup* group : force->groups()) groups.push_back(group);
+    }
     solver_->set_groups(state_.vertex_count(), std::move(groups));
     groups_changed_ = false;
   }
@@ -142,7 +145,12 @@ void Simulation::warn_of_precision() {
 
 Evaluation Simulation::evaluate() {
   update_problem();
-  return solver_->evaluate(state_);
+  Evaluation evaluation = solver_->evaluate(state_);
+  for (const auto& [id, force] : forces_) {
+    for (const ConstraintGroup* group : force->groups()) evaluation.outside += solver_->elastic_energy(*group);
+  }
+  evaluation.elastic -= evaluation.outside;
+  return evaluation;
 }
 
 SystemInfo Simulation::system_info() {

@@ -131,8 +131,7 @@ class Simulation {
   /// Takes one step (Algorithm 1). Throws Error(diverged), with the state as it was before, when a position would not
   /// be finite; Error(interrupted), likewise, when the step is given up.
   StepReport step();
-  /// One more local step at the positions the last step ended with; at the start, and after set_state(), without the
-  /// inertia term.
+  /// One more local step at the positions the last step ended with; without inertia at the start and after set_state().
   Evaluation evaluate();
   /// Elastic energy of a group at the last evaluate() [J]; 0 for a group added since.
   Real elastic_energy(GroupId id) const;
@@ -174,6 +173,7 @@ class Simulation {
   const ForceRecord& record(ForceId id) const;
   ForceId add_force(ForceRecord record, std::unique_ptr<Force> force);
   void exchange_force(ForceId id, ForceRecord record, std::unique_ptr<Force> force);
+  void forces_have_changed(const Force& force);
   void check_force(const Force* force) const;
   static void check_under_bdf2(const Force& force);
   void check_forces();

@@ -68,9 +68,11 @@ void Undo::take_back() {
     }
   }
   for (auto& [id, saved] : forces_) {
+    if (const auto now = s.forces_.find(id); now != s.forces_.end()) s.forces_have_changed(*now->second);
     s.forces_.erase(id);
     s.force_records_.erase(id);
     if (!saved) continue;
+    s.forces_have_changed(*saved->force);
     s.forces_.emplace(id, std::move(saved->force));
     s.force_records_.emplace(id, std::move(saved->record));
   }

@@ -1,4 +1,5 @@
 // Which vertex leaves for a place that is not finite, and why: asked only once a step has failed.
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -24,7 +25,19 @@ bool is_far(const Coordinates& x) {
                           state.step + 1, state.time + time_step, vertex, reason));
 }
 
+std::string without_bound(const Force& force) {
+  return fmt::format("the force `{}` on it has grown without bound; {}", force.type(), force.remedy());
+}
+
 }  // namespace
+
+/// The force that brings a group, or null.
+const Force* Solver::owner(const ConstraintGroup& group) const {
+  for (const Force* force : forces_) {
+    if (std::ranges::count(force->groups(), &group) > 0) return force;
+  }
+  return nullptr;
+}
 
 void Solver::check_finite(const State& state) const {
   if (is_far(q_)) report_divergence(state);
@@ -43,6 +56,7 @@ void Solver::report_divergence(const State& state) const {
     if (local < 0) continue;
     const Index constraint = local_groups_.constraint(g, local);
     const auto first = static_cast<std::size_t>(constraint) * static_cast<std::size_t>(groups_[g]->shape().vertices);
+    if (const Force* force = owner(*groups_[g])) fail(state, h, groups_[g]->stencil()[first], without_bound(*force));
     fail(state, h, groups_[g]->stencil()[first],
          fmt::format("constraint {} of type {} has a force that is not finite; reduce its stiffness", constraint,
                      groups_[g]->type()));
@@ -67,7 +81,7 @@ std::string Solver::force_reason(const State& state, Index vertex) const {
     alone.setZero();
     force->add_to(alone, state.view(), h);
     if (!is_far(alone.row(vertex) * h * h / mass)) continue;
-    return fmt::format("the force `{}` on it has grown without bound; {}", force->type(), force->remedy());
+    return without_bound(*force);
   }
   return "its velocity has grown without bound; reduce the forces or the time step";
 }

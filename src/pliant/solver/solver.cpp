@@ -1,6 +1,7 @@
 #include "pliant/solver/solver.h"
 
 #include <algorithm>
+#include <numeric>
 #include <thread>
 
 #include "pliant/core/error.h"
@@ -23,6 +24,22 @@ int useful_threads(Index asked, std::size_t slots) {
   const auto processors = static_cast<std::size_t>(std::max(1U, std::thread::hardware_concurrency()));
   const std::size_t most = asked > 0 ? static_cast<std::size_t>(asked) : processors;
   return static_cast<int>(std::clamp<std::size_t>(slots / slots_per_thread, 1, most));
+}
+
+/// What a group that a force brings adds to Y Σ x of a translation x, at each vertex [N/m].
+void add_translation_weights(const ConstraintGroup& group, std::span<Real> weights) {
+  const GroupShape shape = group.shape();
+  const auto n = static_cast<std::size_t>(shape.vertices);
+  const std::size_t row_count = static_cast<std::size_t>(shape.count) * static_cast<std::size_t>(shape.rows);
+  for (std::size_t r = 0; r < row_count; ++r) {
+    const std::size_t i = r / static_cast<std::size_t>(shape.rows);
+    const std::span<const Real> row = group.reduction().subspan(r * n, n);
+    const Real sum = std::accumulate(row.begin(), row.end(), Real(0));
+    for (std::size_t a = 0; a < n; ++a) {
+      weights[static_cast<std::size_t>(group.stencil()[i * n + a])] +=
+          group.stiffness() * group.rest_measure()[i] * sum * row[a];
+    }
+  }
 }
 
 }  // namespace
@@ -104,7 +121,11 @@ void Solver::prepare(const State& state, StepReport& report) {
 }
 
 void Solver::begin_groups(const State& state) {
-  for (ConstraintGroup* group : groups_) group->begin_step(state.view(), substep());
+  StateView view = state.view();
+  const bool is_bdf2 = settings_.integrator == Integrator::bdf2 && has_history(state, substep());
+  view.inertia_step = is_bdf2 ? inertia_step(Integrator::bdf2, substep()) : substep();
+  if (is_bdf2) view.previous_positions = &state.previous_positions;
+  for (ConstraintGroup* group : groups_) group->begin_step(view, substep());
 }
 
 /// That of the simulation, unless its constraints are scattered and an order of our own is much better.
@@ -161,6 +182,10 @@ void Solver::weigh_inertia(const State& state, Real step) {
     masses_[i] = state.masses[static_cast<std::size_t>(local_groups_.vertex(static_cast<Index>(i)))];
     inertia_weights_[i] = is_pinned_[i] ? 0 : masses_[i] / (step * step);
   }
+  translation_weights_ = inertia_weights_;
+  for (ConstraintGroup* group : local_groups_.in_use()) {
+    if (group->is_external() && group->targets().empty()) add_translation_weights(*group, translation_weights_);
+  }
 }
 
 void Solver::factorize(const State& state, SetUpTimes& times) {
@@ -174,7 +199,8 @@ void Solver::factorize(const State& state, SetUpTimes& times) {
   if (!pattern_analyzed_) global_step_.analyze(system_matrix_.matrix());
   pattern_analyzed_ = true;
   times.symbolic = watch.lap();
-  global_step_.factorize(system_matrix_.matrix(), settings_.precision, inertia_weights_, free_parts_, *threads_, times);
+  global_step_.factorize(system_matrix_.matrix(), settings_.precision, translation_weights_, free_parts_, *threads_,
+                         times);
   factor_step_ = step;
 }
 

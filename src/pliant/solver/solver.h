@@ -96,6 +96,7 @@ class Solver {
   void apply_pins(Positions& q) const;
   void check_finite(const State& state) const;
   [[noreturn]] void report_divergence(const State& state) const;
+  const Force* owner(const ConstraintGroup& group) const;
   std::string force_reason(const State& state, Index vertex) const;
   bool projects_energy() const { return settings_.energy_projection > 0; }
   void evaluate_elastic();
@@ -133,7 +134,9 @@ class Solver {
   ConnectedParts free_parts_;
   std::vector<Real> masses_;
   std::vector<Real> inertia_weights_;  // M/η², 0 at held vertices
-  Real predicted_step_ = 0;            // η of s_; 0: s_ does not belong to the state
+  std::vector<Real>
+      translation_weights_;  // the same and what forces' groups add: Y as a translation of a part feels it
+  Real predicted_step_ = 0;  // η of s_; 0: s_ does not belong to the state
   Positions s_, q_, residual_;
   Positions force_;  // in the order of the simulation, as are the two that follow
   RigidDamping damping_;

@@ -67,7 +67,8 @@ struct Evaluation {
   Real residual = 0;  ///< largest force left on a vertex that is not held [N]
   Real inertia = 0;   ///< 1/(2h²) ‖M^½ (q − s)‖² [J], with 2h/3 for h in BDF2
   Real elastic = 0;   ///< Σ wᵢ/2 ‖zᵢ − pᵢ‖² [J]
-  Real objective() const { return inertia + elastic; }
+  Real outside = 0;   ///< the same of what forces bring inside the minimization, as the wind does [J]
+  Real objective() const { return inertia + elastic + outside; }
 };
 
 }  // namespace pliant

@@ -27,12 +27,12 @@ StepReport Solver::step(State& state) {
 }
 
 void Solver::take_substep(State& state, StepReport& report) {
-  prepare(state, report);                                 //     factorizes if h, a stiffness or a stencil has changed
-  predict(state);                                         // 1-2 s = a + η b + η² M⁻¹ f
-  if (projects_energy()) begin_energy(state);             //
-  initial_guess(state);                                   // 3   q = s or qₙ, pins at their targets
-  bool reached_tolerance = false;                         //
-  for (Index i = 0; i < settings_.iterations; ++i) {      // 4
+  prepare(state, report);                             //     factorizes if h, a stiffness or a stencil has changed
+  predict(state);                                     // 1-2 s = a + η b + η² M⁻¹ f
+  if (projects_energy()) begin_energy(state);         //
+  initial_guess(state);                               // 3   q = s (moved by the wind) or qₙ, pins at their targets
+  bool reached_tolerance = false;                     //
+  for (Index i = 0; i < settings_.iterations; ++i) {  // 4
     const LocalResult local = local_step(state, report);  // 5   r = M/η² (s − q) + Σ w SᵀAᵀ (p − z)
     reached_tolerance = local.residual <= settings_.tolerance;
     if (reached_tolerance && i > 0) break;  //                   never before the first: s knows no constraint
@@ -106,6 +106,7 @@ void Solver::predict(const State& state) {
 void Solver::initial_guess(const State& state) {
   if (settings_.start == Start::prediction) {
     q_ = s_;
+    for (const ConstraintGroup* group : local_groups_.in_use()) group->move_guess(q_, inertia_weights_);
   } else {
     start_from_positions(state);
   }

@@ -8,7 +8,8 @@ namespace pliant {
 namespace {
 
 /// Marks the vertices of constraints that a translation does not leave as they are.
-void mark_anchored(const ConstraintGroup& group, std::vector<char>& is_anchored) {
+void mark_anchored(ConstraintGroup& group, std::vector<char>& is_anchored) {
+  if (group.is_external() && group.targets().empty()) return;  // a force's: it holds nothing
   const GroupShape shape = group.shape();
   const auto n = static_cast<std::size_t>(shape.vertices);
   const auto k = static_cast<std::size_t>(shape.rows);
@@ -66,7 +67,7 @@ ConnectedParts find_parts(const LowerMatrix& matrix) {
 ConnectedParts find_free_parts(const ConnectedParts& parts, std::span<ConstraintGroup* const> groups,
                                std::span<const char> is_pinned) {
   std::vector<char> is_anchored(is_pinned.begin(), is_pinned.end());
-  for (const ConstraintGroup* group : groups) mark_anchored(*group, is_anchored);
+  for (ConstraintGroup* group : groups) mark_anchored(*group, is_anchored);
   ConnectedParts free;
   for (std::size_t i = 0; i < parts.count(); ++i) {
     const std::span<const Index> part = parts.part(i);

@@ -108,8 +108,8 @@ SolveTimes GlobalStep::move(const Positions& r, Real largest, Positions& q, Thre
   return times;
 }
 
-/// On a part that nothing holds, Σ M/h² x = Σ r exactly, since no constraint resists its translation; the factor alone
-/// is not that exact.
+/// On a part that nothing holds, Σ w x = Σ r exactly with w = M/h² and what forces' groups add to it, since no
+/// constraint resists its translation; the factor alone is not that exact.
 void GlobalStep::correct_means(const Positions& r, Positions& x) const {
   for (std::size_t i = 0; i < parts_->count(); ++i) {
     Vec3 missing = Vec3::Zero();
