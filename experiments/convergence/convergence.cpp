@@ -20,7 +20,7 @@ constexpr double soft_springs = 1e3;       // [N/m]
 constexpr double stiff_springs = 1e5;
 constexpr int small = 31;  // vertices a side
 constexpr int large = 81;
-constexpr int repeats = 5;
+constexpr int timing_repeats = 5;
 constexpr double reached_objective_error = 1e-10;
 constexpr double reached_position_error = 1e-5;  // its square is the share of a quadratic objective
 
@@ -73,10 +73,10 @@ Case measure(const ExperimentContext& context, int size, double stiffness, int m
   const StepReport set_up = context.step(scene);
   Case result{size, stiffness, problem_after(context, std::move(scene), steps_before - 1)};
   result.set_up = set_up;
-  result.projective = descend(context, result.problem, counts_up_to(most_iterations), repeats);
+  result.projective = descend(context, result.problem, counts_up_to(most_iterations), timing_repeats);
   result.rise = largest_rise(result.problem.scene.simulation.objective_history());
   result.watched = result.problem.scene.simulation.objective_history().size();
-  result.newton = descend_by_newton(result.problem, repeats);
+  result.newton = descend_by_newton(result.problem, timing_repeats);
   Newton newton(result.problem.model);
   Positions q = result.problem.step.predicted;
   newton.minimize(result.problem.step, q, result.problem.newton_iterations);

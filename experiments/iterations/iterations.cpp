@@ -17,7 +17,7 @@ using namespace pliant_report;
 constexpr double soft_stiffness = 50;    // [N/m]
 constexpr double stiff_stiffness = 5e3;  // [N/m]
 constexpr std::array<int, 9> iteration_counts = {1, 2, 5, 10, 20, 50, 100, 200, 500};
-constexpr int steps = 600;      // 10 s
+constexpr int strip_steps = 600;      // 10 s
 constexpr int last_steps = 60;  // whose mean iteration_counts as rest
 constexpr int fall_steps = 60;  // in which the way there is compared
 constexpr double pbd_share = .5;
@@ -83,7 +83,7 @@ Strip measure(const ExperimentContext& context, double stiffness) {
   for (Method& method : result.methods) {
     for (const int iterations : iteration_counts) {
       context.say(fmt::format("{}, {}, {} iterations", result.name(), method.name, iterations));
-      method.falls.push_back(fall(rest, method.make(iterations), steps));
+      method.falls.push_back(fall(rest, method.make(iterations), strip_steps));
     }
   }
   return result;
@@ -94,7 +94,7 @@ Strip measure(const ExperimentContext& context, double stiffness) {
 Plot rest_plot(const Strip& of) {
   Plot plot{.title = fmt::format("Stretch at rest over the number of iterations, {}", of.name()),
             .caption = fmt::format("Mean of the last second of {} s. The line across is the equilibrium, {:.4g} %.",
-                                   steps / 60, 100 * of.at_rest),
+                                   strip_steps / 60, 100 * of.at_rest),
             .x = {.label = "iterations, or substeps", .is_logarithmic = true},
             .y = {.label = "stretch of the strip [%]", .is_logarithmic = true},
             .series = {},
@@ -185,7 +185,7 @@ void add_pictures(const ExperimentContext& context, Chapter& chapter, const Stri
       chapter, pictures, static_cast<int>(pictures.size()),
       fmt::format("After {0} s, {1}, from the left: Projective Dynamics with 1 and {2} iterations, XPBD with 1 "
                   "and {2}, PBD with {2}.",
-                  steps / 60, of.name(), few));
+                  strip_steps / 60, of.name(), few));
 }
 
 // ---- claims
@@ -304,7 +304,7 @@ Chapter run_iterations(const ExperimentContext& context) {
       "the way with the exact steps of implicit Euler, both by Newton's method. XPBD goes through the same springs "
       "with the compliance 1/k, one after the other; PBD takes {:.0f} % of each spring's excess length away in each "
       "iteration.",
-      steps / 60, 100 * pbd_share);
+      strip_steps / 60, 100 * pbd_share);
   chapter.claims = {projective_keeps_stiffness(strips),
                     start_matters(strips),
                     projective_is_implicit_euler(strips),
