@@ -17,9 +17,9 @@ using namespace pliant_report;
 constexpr double soft_stiffness = 50;    // [N/m]
 constexpr double stiff_stiffness = 5e3;  // [N/m]
 constexpr std::array<int, 9> iteration_counts = {1, 2, 5, 10, 20, 50, 100, 200, 500};
-constexpr int strip_steps = 600;      // 10 s
-constexpr int last_steps = 60;  // whose mean iteration_counts as rest
-constexpr int fall_steps = 60;  // in which the way there is compared
+constexpr int strip_steps = 600;  // 10 s
+constexpr int last_steps = 60;    // whose mean iteration_counts as rest
+constexpr int fall_steps = 60;    // in which the way there is compared
 constexpr double pbd_share = .5;
 constexpr int few = 10;  // iterations, as they are usual
 
