@@ -115,8 +115,7 @@ std::vector<Workload> choose_workloads(const std::vector<std::string>& names, st
     const auto in_fixed = std::ranges::find_if(fixed, is_named);
     const auto in_sized = std::ranges::find_if(sized, is_named);
     if (in_fixed == fixed.end() && in_sized == sized.end()) {
-      fail_input("--workloads: there is no '" + printable(name) +
-                 "'; known, the nearest first: " + nearest_names_text(name, known));
+      fail_input("--workloads: there is no '" + printable(name) + "'; " + suggestion_text(name, known));
     }
     if (in_fixed != fixed.end() && size) {
       fail_input("--workloads: " + name + " has a size of its own; with --size give curtain, curtain-b or bar");

@@ -257,6 +257,7 @@ void print_text(const Json& json) {
 
 void check_scene(const CheckOptions& options) {
   Scene scene = open_scene(options);
+  print_warnings(scene);
   if (options.as_scene) return fmt::print("{}\n", scene.source.texts.front().text);
   const std::string assumptions = assumptions_text(options, scene);
   const Json json = describe(scene);

@@ -3,7 +3,6 @@
 #include <memory>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "bench/bench.h"
 #include "commands.h"
@@ -46,8 +45,8 @@ std::vector<Experiment> choose(const std::vector<std::string>& names) {
   for (const Experiment& experiment : all) known.push_back(experiment.name);
   for (const std::string& name : names) {
     if (std::ranges::find(known, std::string_view(name)) != known.end()) continue;
-    pliant::fail_input(fmt::format("unknown experiment '{}'{} (known: {})", pliant::printable(name),
-                                   pliant::did_you_mean(name, known), fmt::join(known, ", ")));
+    pliant::fail_input(
+        fmt::format("unknown experiment '{}'; {}", pliant::printable(name), pliant::suggestion_text(name, known)));
   }
   const auto is_asked = [&](std::string_view name) { return std::ranges::find(names, name) != names.end(); };
   std::vector<Experiment> chosen;

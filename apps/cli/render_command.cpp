@@ -57,6 +57,7 @@ std::int64_t steps_a_frame(const pliant::Scene& scene, std::int64_t fps) {
 
 Clip clip_of_scene(const RenderArguments& arguments) {
   pliant::Scene scene = open_scene(arguments);
+  print_warnings(scene);
   if (!arguments.quiet) {
     fmt::print("{}", assumptions_text(arguments, scene));
     std::fflush(stdout);  // before it takes its time

@@ -51,6 +51,7 @@ void refuse_to_replace(const std::vector<fs::path>& inputs, const fs::path& fold
 
 int run_scene(const RunOptions& options) {
   pliant::Scene scene = open_scene(options);
+  print_warnings(scene);
   const fs::path folder = options.out.empty() ? fs::path("out") / fs::path(options.scene).stem() : options.out;
   catch_interrupts();
   const pliant::RunInfo info = run_info(scene, options.scene);

@@ -5,12 +5,14 @@
 
 #include <fmt/format.h>
 
+#include "commands.h"
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
 #include "pliant/mesh/geometry.h"
 #include "pliant_io/scene/builtin_scenes.h"
 #include "pliant_io/scene/mesh_scene.h"
 #include "pliant_io/scene/nearest_names.h"
+#include "terminal.h"
 
 namespace pliant_cli {
 namespace fs = std::filesystem;
@@ -119,6 +121,12 @@ pliant::Scene open_scene(const SceneArguments& arguments) {
   pliant::fail_input(fmt::format("unknown scene '{}': neither a file nor a built-in scene{}",
                                  pliant::printable_place(arguments.scene),
                                  suggestion.empty() ? "; `pliant scenes` lists those" : suggestion));
+}
+
+void print_warnings(const pliant::Scene& scene) {
+  for (const std::string& warning : scene.warnings) {
+    print_to_stderr("warning: " + pliant::printable_place(warning, message_limit) + "\n");
+  }
 }
 
 }  // namespace pliant_cli

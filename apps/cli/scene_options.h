@@ -41,4 +41,7 @@ pliant::Scene open_scene(const SceneArguments& arguments);
 /// What was assumed about the mesh of such a scene, one line each; "" where the scene is none.
 std::string assumptions_text(const SceneArguments& arguments, const pliant::Scene& scene);
 
+/// Prints a line for each key of the scene that has an old name.
+void print_warnings(const pliant::Scene& scene);
+
 }  // namespace pliant_cli

@@ -49,6 +49,7 @@ bool is_run(const ViewArguments& arguments) {
 
 pliant::Scene make_scene(const ViewArguments& arguments) {
   pliant::Scene scene = open_scene(arguments);
+  print_warnings(scene);
   apply_appearance(arguments, scene.view);
   return scene;
 }

@@ -35,8 +35,8 @@ def misspellings(key):
 
 
 def wanted(key):
-    """What is said where a key is misspelt: it is the nearest of those known, or the one that is missing."""
-    return rf"the key '{key}'|the nearest first: {key}\b|'{key}' is missing|give one of the keys .*\b{key}\b"
+    """What is said where a key is misspelt: it is one of those near, or the one that is missing."""
+    return rf"the key '{key}'|did you mean .*'{key}'.*\? \(known|'{key}' is missing|give one of the keys .*\b{key}\b"
 
 
 class SceneValues(HostileTest):

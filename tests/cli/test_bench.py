@@ -148,7 +148,7 @@ class Bench(unittest.TestCase):
 
     def test_slips_end_in_one_line(self):
         for arguments, wanted in [
-            (["--workloads", "W9"], "there is no 'W9'; known, the nearest first: W"),
+            (["--workloads", "W9"], "there is no 'W9'; known: W"),
             (["--workloads", "W2", "--size", 9], "W2 has a size of its own; with --size give curtain"),
             (["--workloads", "bar"], "bar needs its size; give --size"),
             (["--size", 2], "--size: 2 is out of range; give 3 to "),

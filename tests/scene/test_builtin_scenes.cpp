@@ -8,7 +8,6 @@
 #include "pliant/mesh/geometry.h"
 #include "pliant/mesh/topology.h"
 #include "pliant_io/scene/builtin_scenes.h"
-#include "pliant_io/scene/nearest_names.h"
 #include "pliant_io/scene/scene.h"
 
 namespace test_builtin_scenes {
@@ -276,14 +275,6 @@ TEST_CASE("a scene's steps are the same from run to run") {
   run(a, 3);
   run(b, 3);
   CHECK(positions(a) == positions(b));
-}
-
-TEST_CASE("nearest names") {
-  using Names = std::vector<std::string_view>;
-  CHECK(nearest_names("flg", {"bar", "chain", "flag"}) == Names{"flag", "bar", "chain"});
-  CHECK(nearest_names("", {"abc", "a", "b"}) == Names{"a", "b", "abc"});
-  CHECK(nearest_names("edge", {"line", "edge_strain"}) == Names{"edge_strain", "line"});
-  CHECK(nearest_names_text("x", {}).empty());
 }
 
 }  // namespace

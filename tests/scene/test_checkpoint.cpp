@@ -7,6 +7,7 @@
 #include "pliant/core/error.h"
 #include "pliant_io/checkpoint/checkpoint.h"
 #include "pliant_io/scene/builtin_scenes.h"
+#include "tests/support/checkpoint_bytes.h"
 #include "tests/support/temporary_folder.h"
 
 namespace test_checkpoint {
@@ -204,6 +205,19 @@ TEST_CASE("scenes that are included are taken up as they were, whatever became o
     for (int i = 0; i < 3; ++i) resumed.step();
     CHECK(resumed.simulation.state().positions == whole.simulation.state().positions);
   }
+}
+
+TEST_CASE("checkpoints of other versions are refused by name") {
+  const TemporaryFolder folder;
+  const Scene scene = small_chain();
+  write_checkpoint(folder.path() / "c.pliant", scene);
+  const std::string content = TemporaryFolder::read(folder.path() / "c.pliant").substr(24);
+  CHECK(refusal(pliant_tests::checkpoint_bytes(content, 2)) == "(taken)");
+  CHECK(refusal(pliant_tests::checkpoint_bytes(content, 1)) ==
+        "run.pliant: this checkpoint was written by Pliant 0.1.0, whose format this version no longer reads; resume it "
+        "with Pliant 0.1.0, or run the scene from its start");
+  CHECK(refusal(pliant_tests::checkpoint_bytes(content, 3)).find("has the format 3, and this program reads 2;") !=
+        std::string::npos);
 }
 
 TEST_CASE("a mesh that was changed since is named") {

@@ -146,7 +146,7 @@ TEST_CASE("errors name the file where the value stands") {
             .starts_with("parts/base.json: bodies[0].mass: "));
   CHECK(
       files.message_of(including("\"parts/none.json\"")).starts_with("scene.json: include: parts/none.json: no such"));
-  CHECK(files.message_of(including("\"curtan\"")).find("nearest first: curtain") != std::string::npos);
+  CHECK(files.message_of(including("\"curtan\"")).find("did you mean 'curtain'?") != std::string::npos);
   CHECK(files.message_of(including("\"parts\"")).find("is a directory") != std::string::npos);
   CHECK(files.message_of(including("7")).starts_with("scene.json: include: found a number; give the path of a scene"));
   CHECK(files.message_of(including(R"({"fil": "x"})")).starts_with("scene.json: include.fil: unknown key"));
@@ -156,6 +156,37 @@ TEST_CASE("errors name the file where the value stands") {
   files.folder.write("parts/base.json", std::string(base).replace(std::string(base).find("tent.obj"), 8, "no.obj"));
   CHECK(files.message_of(including("\"parts/base.json\""))
             .starts_with("parts/base.json: bodies[0].mesh.file: parts/no.obj: no such file"));
+}
+
+TEST_CASE("old names of an included scene give way to new ones of the scene itself") {
+  const Files files;
+  files.folder.write("old.json", R"({"pliant": 1, "include": "chain", "view": {"colour": "speed", "legend": false}})");
+  const Scene scene = files.load(including("\"old.json\"", R"(, "view": {"color": "energy"})"));
+  CHECK(scene.view.color == ColorBy::energy);
+  CHECK_FALSE(scene.view.legend);
+  REQUIRE(scene.warnings.size() == 1);
+  CHECK(scene.warnings[0].find("old.json: view.colour: 'colour' is called 'color' now") != std::string::npos);
+}
+
+TEST_CASE("messages name the text that a value stands in, however deep it was merged") {
+  const Files files;
+  const auto with_view = [&](const std::string& base_view, const std::string& view) {
+    files.folder.write("b.json", R"({"pliant": 1, "include": "chain", "view": )" + base_view + "}");
+    return files.message_of(including("\"b.json\"", ", \"view\": " + view));
+  };
+  CHECK(with_view(R"({"camera": {"up": [0, 1, 0], "field_of_view": 200}})", R"({"camera": {"up": [1, 0, 0]}})")
+            .starts_with("b.json: view.camera.field_of_view: 200 is out of range"));
+  CHECK(with_view(R"({"camera": {"up": [0, 1, 0]}})", R"({"camera": {"field_of_view": 200}})")
+            .starts_with("scene.json: view.camera.field_of_view: 200 is out of range"));
+  CHECK(with_view(R"({"front": [0, 0, 2]})", R"({"wireframe": true})").starts_with("b.json: view.front[2]: is no"));
+  CHECK(with_view("7", R"({"wireframe": true})").starts_with("b.json: view: found a number; give an object"));
+  CHECK(with_view("{}", "[]").starts_with("scene.json: view: found a list; give an object"));
+  files.folder.write("b.json", R"({"pliant": 1, "include": "chain", "events": [{"step": 1, "remove": "x"}]})");
+  CHECK(files.message_of(including("\"b.json\"", R"(, "events": [{"step": 0, "remove": "y"}])"))
+            .starts_with("scene.json: events[0].remove: no group"));
+  CHECK(files.message_of(including("\"b.json\"", R"(, "events": [{"step": 3, "remove": "y"}])"))
+            .starts_with("b.json: events[0].remove: no group"));
+  CHECK(files.message_of(including("\"b.json\"", R"(, "events": {})")).starts_with("scene.json: events: found an obj"));
 }
 
 TEST_CASE("scenes that include themselves, too deep or too often") {

@@ -102,10 +102,10 @@ TEST_CASE("selections of selections") {
 TEST_CASE("selections that the mesh does not have") {
   const Files files;
   CHECK(files.selection_error("strip.obj", R"({"group": "lift"})")
-            .find("no group, object, material or part 'lift'; known, the nearest first: left") != std::string::npos);
+            .find("no group, object, material or part 'lift'; did you mean 'left'?") != std::string::npos);
   CHECK(files.selection_error("strip.ply", R"({"group": "left"})").find("the mesh has no groups") != std::string::npos);
   CHECK(files.selection_error("strip.ply", R"({"map": {"name": "wight"}, "above": 0})")
-            .find("no map 'wight'; known, the nearest first: weight") != std::string::npos);
+            .find("unknown map 'wight'; did you mean 'weight'?") != std::string::npos);
   CHECK(files.selection_error("strip.obj", R"({"map": {"name": "x"}, "above": 0})").find("has no maps") !=
         std::string::npos);
   CHECK(files.selection_error("strip.ply", R"({"map": {"name": "weight"}})").find("neither 'above' nor 'below'") !=

@@ -81,8 +81,8 @@ TEST_CASE("a wrong value names the option that it comes from") {
   CHECK(message_of("settings.time_step=-1") ==
         "--set settings.time_step=-1: -1 is out of range; give a finite number above 0 [s]");
   CHECK(message_of("settings.iteratons=5")
-            .starts_with("--set settings.iteratons=5: unknown key; known here, the nearest "
-                         "first: iterations"));
+            .starts_with("--set settings.iteratons=5: unknown key; did you mean "
+                         "'iterations'? (known: "));
   CHECK(message_of("setings.iterations=5").starts_with("--set setings.iterations=5: unknown key"));
   CHECK(message_of("bodies[0].mass={\"totl\":1}").starts_with("--set bodies[0].mass={\"totl\":1}: totl: unknown key"));
   CHECK(message_of("bodies[0].mass.density=1").starts_with("s.json: bodies[0].mass: has both"));
@@ -106,7 +106,7 @@ TEST_CASE("a path that leads nowhere says how far it leads") {
   }
   CHECK(message_of("bodies[2].name=x") == "--set bodies[2].name=x: [2] is out of range; the list has entries 0 to 1");
   CHECK(message_of("bodies[-1].name=x").find("no entry is called '-1'") != std::string::npos);
-  CHECK(message_of("bodies[shet].name=x").find("no entry is called 'shet'; known, the nearest first: sheet") !=
+  CHECK(message_of("bodies[shet].name=x").find("no entry is called 'shet'; did you mean 'sheet'? (known: ") !=
         std::string::npos);
   CHECK(message_of("forces[wind].drag=1").find("[0] and [1] both have the type 'wind'; give an index") !=
         std::string::npos);

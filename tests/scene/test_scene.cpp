@@ -42,6 +42,53 @@ TEST_CASE("selections") {
   CHECK(selected(R"({"nearest": [[11.1, 0.9, 5], [0, 0, 0]]})") == std::vector<Index>{0, 4});
 }
 
+TEST_CASE("one line of the boundary, by its number or the nearest") {
+  CHECK(selected(R"({"boundary_loop": 0})") == std::vector<Index>{0, 1, 2, 3, 5, 6, 7, 8});
+  CHECK(selected(R"({"boundary_loop": {"nearest": [0, 0, 0]}})").size() == 8);
+  const auto selected_of = [](const std::string& mesh, const std::string& loop) {
+    const Scene scene = body_scene("\"mesh\": " + mesh + ", " + mass + R"(, "transform": {"translate": [0, 0, 5]},
+      "constraints": [{"type": "position", "on": {"boundary_loop": )" +
+                                   loop + "}}]");
+    const std::span<const Index> held = scene.simulation.groups().begin()->second.set.parts[0]->pinned_vertices();
+    return std::vector<Index>(held.begin(), held.end());
+  };
+  // Three triangles by themselves: the loops go by their first vertex.
+  const std::string three = R"({"vertices": [[0,0,0],[1,0,0],[0,1,0], [9,0,0],[8,0,0],[9,1,0], [4,0,0],[5,0,0],[4,1,0]],
+    "triangles": [[6,7,8], [3,4,5], [0,1,2]]})";
+  CHECK(selected_of(three, "0") == std::vector<Index>{0, 1, 2});
+  CHECK(selected_of(three, "1") == std::vector<Index>{3, 4, 5});
+  CHECK(selected_of(three, "2") == std::vector<Index>{6, 7, 8});
+  CHECK(selected_of(three, R"({"nearest": [4.4, 0, 0]})") == std::vector<Index>{6, 7, 8});
+  CHECK(selected_of(three, R"({"nearest": [20, 0, 0]})") == std::vector<Index>{3, 4, 5});
+  // Two triangles that meet in a vertex: the walk turns there into the lower edge.
+  const std::string bow =
+      R"({"vertices": [[0,0,0],[-1,0,0],[-1,1,0],[1,0,0],[1,1,0]], "triangles": [[0,1,2], [0,3,4]]})";
+  CHECK(selected_of(bow, "0").size() == 5);
+
+  const auto refusal = [&](const std::string& mesh, const std::string& loop) -> std::string {
+    try {
+      selected_of(mesh, loop);
+    } catch (const Error& error) {
+      return std::string(error.what()).substr(std::string("s.json: bodies[0].constraints[0].on.boundary_loop").size());
+    }
+    return "(no error)";
+  };
+  CHECK(refusal(three, "3") == ": there is no boundary loop 3; the body has loops 0 to 2, as `pliant info` lists them");
+  CHECK(refusal(three, "-1").starts_with(": there is no boundary loop -1;"));
+  CHECK(refusal(three, "9223372036854775807").starts_with(": there is no boundary loop 9223372036854775807;"));
+  CHECK(refusal(three, "1e30").starts_with(": found 1e+30; give a whole number"));
+  CHECK(refusal(three, "0.5").starts_with(": found 0.5; give a whole number"));
+  CHECK(refusal(three, "\"first\"") == ": found a string; give the number of a loop, or {\"nearest\": [x, y, z]}");
+  CHECK(refusal(three, "[0, 1]").starts_with(": found a list; give the number of a loop"));
+  CHECK(refusal(three, "null").starts_with(": found null; give the number of a loop"));
+  CHECK(refusal(three, "{}") == ": the key 'nearest' is missing; add it");
+  CHECK(refusal(three, R"({"nearest": [0, 0]})").starts_with(".nearest: the list has 2 entries"));
+  CHECK(refusal(three, R"({"nearest": [0, 0, 1e200]})").starts_with(".nearest[2]: 1e+200 is out of range"));
+  CHECK(refusal(three, R"({"nearst": [0, 0, 0]})").starts_with(".nearst: unknown key; did you mean 'nearest'?"));
+  CHECK(refusal(R"({"shape": "chain", "links": 3})", "0").starts_with(": the triangles of the body have no boundary;"));
+  CHECK(refusal(R"({"shape": "sphere"})", "0").starts_with(": the triangles of the body have no boundary;"));
+}
+
 TEST_CASE("corners are those before the transform") {
   const Scene scene = body_scene(grid + mass + R"(, "transform": {"rotate": {"axis": [0, 0, 1], "degrees": 30}},
     "constraints": [{"type": "position", "on": "corners"}])");

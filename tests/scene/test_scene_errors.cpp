@@ -65,17 +65,20 @@ TEST_CASE("the scene that the slips are made in is sound") {
   CHECK(message_of(scene_with("5", "5")) == "(no error)");
 }
 
-TEST_CASE("unknown keys name the known ones, the nearest first") {
+TEST_CASE("unknown keys name the near ones, and those that are known") {
   constexpr Slip slips[] = {
-      {"\"steps\"", "\"stepz\"", "s.json: stepz: unknown key", "nearest first: steps,"},
-      {"\"iterations\"", "\"iteration\"", "s.json: settings.iteration: unknown key", "first: iterations,"},
-      {"\"columns\"", "\"colums\"", "s.json: bodies[0].mesh.colums: unknown key", "first: columns,"},
-      {"\"total\"", "\"totl\"", "s.json: bodies[0].mass.totl: unknown key", "first: total,"},
-      {"\"stiffness\"", "\"stifness\"", "s.json: bodies[0].constraints[1].stifness: unknown key", "first: stiffness,"},
-      {"\"velocity\"", "\"velocty\"", "s.json: forces[0].velocty: unknown key", "first: velocity,"},
-      {"\"vertex\": 1", "\"vertexes\": [1]", "s.json: forces[1].vertexes: unknown key", "first: vertex, vertices,"},
-      {"\"offset\"", "\"ofset\"", "s.json: moves[0].ofset: unknown key", "first: offset,"},
-      {"\"every\"", "\"evry\"", "s.json: output.evry: unknown key", "first: every,"},
+      {"\"steps\"", "\"stepz\"", "s.json: stepz: unknown key", "did you mean 'steps'? (known: "},
+      {"\"iterations\"", "\"iteration\"", "s.json: settings.iteration: unknown key",
+       "did you mean 'iterations'? (known: "},
+      {"\"columns\"", "\"colums\"", "s.json: bodies[0].mesh.colums: unknown key", "did you mean 'columns'? (known: "},
+      {"\"total\"", "\"totl\"", "s.json: bodies[0].mass.totl: unknown key", "did you mean 'total'? (known: "},
+      {"\"stiffness\"", "\"stifness\"", "s.json: bodies[0].constraints[1].stifness: unknown key",
+       "did you mean 'stiffness'? (known: "},
+      {"\"velocity\"", "\"velocty\"", "s.json: forces[0].velocty: unknown key", "did you mean 'velocity'? (known: "},
+      {"\"vertex\": 1", "\"vertexes\": [1]", "s.json: forces[1].vertexes: unknown key",
+       "did you mean 'vertex' or 'vertices'? (known: "},
+      {"\"offset\"", "\"ofset\"", "s.json: moves[0].ofset: unknown key", "did you mean 'offset'? (known: "},
+      {"\"every\"", "\"evry\"", "s.json: output.evry: unknown key", "did you mean 'every'? (known: "},
       {"\"steps\"", "\"st\\neps\"", "s.json: st eps: unknown key", "steps"},
   };
   check(slips);
@@ -91,8 +94,9 @@ TEST_CASE("a wrong type says what is wanted and what was found") {
       {"{\"iterations\": 3}", "[3]", "s.json: settings: found a list; give an object {...}"},
       {"\"iterations\": 3", "\"iterations\": null", "s.json: settings.iterations: found "},
       {"\"iterations\": 3", "\"iterations\": 3000000000", "s.json: settings.iterations: 3000000000 is out of range"},
-      {"\"iterations\": 3", "\"start\": \"postions\"", "s.json: settings.start: 'postions' is none of the choices",
-       "positions, prediction"},
+      {"\"iterations\": 3", "\"start\": \"postions\"",
+       "s.json: settings.start: unknown choice 'postions'; did you mean 'positions'?",
+       "(known: prediction, positions)"},
       {"\"iterations\": 3", "\"time_step\": true", "s.json: settings.time_step: found a boolean; give a number"},
       {"\"stiffness\": 10", "\"stiffness\": [1, \"2\"]",
        "s.json: bodies[0].constraints[1].stiffness[1]: found a string; give a number"},
@@ -103,7 +107,8 @@ TEST_CASE("a wrong type says what is wanted and what was found") {
       {"[1, 2, 3]", "{\"x\": 1}", "s.json: forces[0].velocity: found an object; give a list [...]"},
       {"\"on\": [0, 2]", "\"on\": 0",
        "s.json: bodies[0].constraints[0].on: found a number; give \"all\", a list of vertices"},
-      {"\"on\": [0, 2]", "\"on\": \"edges\"", "s.json: bodies[0].constraints[0].on: 'edges' is no selection"},
+      {"\"on\": [0, 2]", "\"on\": \"edges\"",
+       "s.json: bodies[0].constraints[0].on: unknown selection 'edges'; known: all, "},
       {"\"on\": [0, 2]", "\"on\": {\"box\": 1}",
        "s.json: bodies[0].constraints[0].on.box: found a number; give an object {...}"},
       {"\"name\": \"sheet\"", "\"name\": 7", "s.json: bodies[0].name: found a number; give a text"},
@@ -123,7 +128,7 @@ TEST_CASE("an index out of range and a number not finite name the place") {
       {"\"step\": 2", "\"step\": 2, \"index\": 2", "s.json: moves[0]: index 2 is out of range", "constraints 0 to 1"},
       {"\"stiffness\": 10", "\"stiffness\": 1e999", "s.json: bodies[0].constraints[1].stiffness: 1e999 is beyond"},
       {"[1, 2, 3]", "[1, -1e400, 3]", "s.json: forces[0].velocity[1]: -1e400 is beyond"},
-      {"\"stiffness\": 10", "\"stiffness\": NaN", "s.json:7:", "mend the JSON"},
+      {"\"stiffness\": 10", "\"stiffness\": NaN", "s.json:7:", "fix the JSON"},
   };
   check(slips);
 }
@@ -164,14 +169,17 @@ TEST_CASE("what a lower layer refuses gets the place in front") {
 
 TEST_CASE("names must be known where they are used, and new where they are given") {
   constexpr Slip slips[] = {
-      {"\"shape\": \"grid\"", "\"shape\": \"gird\"", "s.json: bodies[0].mesh.shape: 'gird' is no shape",
-       "first: grid,"},
-      {"\"type\": \"edge_spring\"", "\"type\": \"edge\"", "s.json: bodies[0].constraints[1].type: 'edge' is no",
-       "first: edge_spring,"},
-      {"\"type\": \"wind\"", "\"type\": \"gravity\"", "s.json: forces[0].type: 'gravity' is no force", "its own key"},
+      {"\"shape\": \"grid\"", "\"shape\": \"gird\"",
+       "s.json: bodies[0].mesh.shape: unknown shape 'gird'; did you mean 'grid'?", "did you mean 'grid'? (known: "},
+      {"\"type\": \"edge_spring\"", "\"type\": \"edge\"",
+       "s.json: bodies[0].constraints[1].type: unknown constraint 'edge'",
+       "did you mean 'edge_spring' or 'edge_strain'? (known: "},
+      {"\"type\": \"wind\"", "\"type\": \"gravity\"",
+       "s.json: forces[0].type: unknown force 'gravity'; known: ", "its own key"},
       {"\"type\": \"wind\"", "\"type\": \"wind\", \"body\": \"shet\"",
-       "s.json: forces[0].body: there is no body 'shet'", "sheet"},
-      {"\"group\": \"pins\"", "\"group\": \"pin\"", "s.json: moves[0].group: there is no group 'pin'", "first: pins,"},
+       "s.json: forces[0].body: unknown body 'shet'; did you mean 'sheet'?", "sheet"},
+      {"\"group\": \"pins\"", "\"group\": \"pin\"", "s.json: moves[0].group: unknown group 'pin'",
+       "did you mean 'pins'? (known: "},
       {"\"group\": \"pins\"", "\"group\": \"sheet.edge_spring\"",
        "s.json: moves[0]: the group 'sheet.edge_spring' has no targets"},
       {"\"type\": \"edge_spring\"", "\"type\": \"edge_spring\", \"name\": \"pins\"",

@@ -54,7 +54,7 @@ WRONG = [
     (["bodies", 0, "constraints", 0, "hold"], "firm"),
     (["forces", 0, "type"], "gravity"), (["forces", 0, "velocity"], [1, 2]), (["forces", 1, "vertices"], [1]),
     (["forces", 1, "frames"], [1]),
-    (["view", "color"], "stretch"), (["view", "color"], "red"), (["view", "background"], "red"),
+    (["view", "colr"], "stretch"), (["view", "color"], "red"), (["view", "background"], "red"),
     (["view", "background"], [0, 0, 2]), (["view", "wireframe"], 1), (["view", "size"], [1280]),
     (["view", "camera", "field_of_view"], 180),
     (["include"], 3), (["include"], {"set": {}}),
@@ -115,6 +115,8 @@ class Schema(unittest.TestCase):
     def test_what_the_schema_accepts_besides(self):
         for path, value in [
             (["bodies", 0, "constraints", 1, "stiffness"], [1] * 16), (["bodies", 0, "constraints", 0, "on"], "corners"),
+            (["bodies", 0, "constraints", 0, "on"], {"boundary_loop": 0}),
+            (["bodies", 0, "constraints", 0, "on"], {"boundary_loop": {"nearest": [0, 0, 1]}}),
             (["bodies", 0, "constraints", 0, "on"], {"any_of": [[1], {"not": {"nearest": [0, 0, 0]}}]}),
             (["include"], {"file": "chain", "set": {"steps": 3}}), (["include"], ["chain", "bar"]),
             (["gravity"], None), (["$schema"], "scene.schema.json"), (["view", "background"], [0, 0.5, 1]),

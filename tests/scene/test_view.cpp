@@ -54,13 +54,42 @@ TEST_CASE("every key of a view") {
   CHECK_FALSE(with_view("{}").view.camera.position.has_value());
 }
 
+TEST_CASE("keys of 0.1.0 are read, with a warning that names both") {
+  const auto scene = [](const std::string& view, const SceneOverrides& overrides = {}) {
+    return parse_scene(R"({"pliant": 1, "view": )" + view + R"(, "bodies": [{"mesh": {"shape": "chain", "links": 2},
+      "mass": {"total": 1}}]})",
+                       {}, "s.json", overrides);
+  };
+  const Scene old = scene(R"({"legend": false, "colour": "speed", "colour_range": [1, 2]})");
+  CHECK(old.view.color == ColorBy::speed);
+  CHECK(old.view.color_range == std::array<Real, 2>{1, 2});
+  CHECK_FALSE(old.view.legend);
+  REQUIRE(old.warnings.size() == 2);
+  CHECK(old.warnings[0] ==
+        "s.json: view.colour: 'colour' is called 'color' now; rename it, since the next version refuses the old name");
+  CHECK(old.warnings[1].starts_with("s.json: view.colour_range: 'colour_range' is called 'color_range' now;"));
+  CHECK(scene(R"({"color": "speed"})").warnings.empty());
+  const Scene set = scene(R"({"color": "speed"})",
+                          {.set = {"view.colour=energy", "view.colour_range=[1,3]", "view.colour_range[0]=2"}});
+  CHECK(set.view.color == ColorBy::energy);
+  CHECK(set.view.color_range == std::array<Real, 2>{2, 3});
+  REQUIRE(set.warnings.size() == 3);
+  CHECK(set.warnings[0].starts_with("--set view.colour=energy: 'colour' is called 'color' now;"));
+  CHECK(scene(R"({"color": "speed"})", {.set = {R"(view={"colour": "energy"})"}}).view.color == ColorBy::energy);
+  CHECK_THROWS_WITH(scene(R"({"colour": "red"})"),
+                    "s.json: view.colour: unknown choice 'red'; known: none, stretch, energy, speed");
+  CHECK_THROWS_WITH(scene(R"({"colour": "speed", "color": "speed"})"),
+                    "s.json: view.colour: 'colour' is called 'color' now, and both stand here; keep 'color'");
+  CHECK_THROWS_AS(scene(R"({"colours": "speed"})"), Error);
+}
+
 TEST_CASE("a view that cannot be drawn") {
   const auto check = [](const std::string& view, const std::string& start) {
     CAPTURE(message_of(view));
     CHECK(message_of(view).starts_with("s.json: view" + start));
   };
-  check(R"({"color": "stretch"})", ".color: unknown key; known here, the nearest first: color");
-  check(R"({"color": "red"})", ".color: 'red' is none of the choices");
+  check(R"({"colr": "stretch"})", ".colr: unknown key; did you mean 'color'? (known: ");
+  check(R"({"color": "red"})", ".color: unknown choice 'red'; known: none, ");
   check(R"({"background": "red"})", ".background: is not a color");
   check(R"({"background": "#12345g"})", ".background: is not a color");
   check(R"({"background": [0, 0, 2]})", ".background[2]: is not a color");

@@ -19,16 +19,16 @@ namespace {
 
 std::string read_bytes(const Node& node) {
   if (!node.is_bytes()) node.fail_type("a string of bytes");
-  return std::string(node.text());
+  return std::string(node.bytes());
 }
 
 /// Numbers written as bytes, into all of `numbers`.
 void read_numbers(const Node& node, std::span<Real> numbers) {
-  if (!node.is_bytes() || node.text().size() != numbers.size_bytes()) {
+  if (!node.is_bytes() || node.bytes().size() != numbers.size_bytes()) {
     node.fail(fmt::format("the list has another length than the scene of this checkpoint makes; {} numbers belong here",
                           numbers.size()));
   }
-  if (!numbers.empty()) std::memcpy(numbers.data(), node.text().data(), numbers.size_bytes());
+  if (!numbers.empty()) std::memcpy(numbers.data(), node.bytes().data(), numbers.size_bytes());
   if (std::ranges::all_of(numbers, [](Real x) { return std::isfinite(x); })) return;
   node.fail("a number is not finite; take another checkpoint");
 }
@@ -190,11 +190,11 @@ void restore_groups(const Node& list, const Simulation& simulation) {
     if (read_bytes(node.require("name")) != group.name) {
       node.fail(fmt::format("the scene has the group '{}' here; take another checkpoint", printable(group.name)));
     }
-    const Node parts = node.require("parts");
-    parts.require_list(group.set.parts.size(), "(one a part)");
+    const Node parts = node.require("batches");
+    parts.require_list(group.set.parts.size(), "(one a batch)");
     for (std::size_t p = 0; p < group.set.parts.size(); ++p) {
       ConstraintGroup& part = *group.set.parts[p];
-      read_numbers(parts[p].require("numbers"), part.parameters());
+      read_numbers(parts[p].require("parameters"), part.parameters());
       const Node stiffness = parts[p].require("stiffness");
       stiffness.locate([&] { part.set_stiffness(read_real(stiffness)); });
     }
@@ -221,7 +221,7 @@ State read_state(const Node& node, const State& fresh) {
     for (Positions* rows : {&state.previous_positions, &state.previous_velocities}) rows->resizeLike(state.positions);
     read_rows(*previous, state.previous_positions, state.previous_velocities);
   }
-  if (const auto debts = node.find("energy_debts")) {
+  if (const auto debts = node.find("energy_surplus")) {
     state.energy_debts.resize(state.masses.size());
     read_numbers(*debts, state.energy_debts);
   }
@@ -231,9 +231,9 @@ State read_state(const Node& node, const State& fresh) {
 /// `folder` is where the checkpoint is; empty: not known.
 Scene restore_scene(std::string_view bytes, std::string_view name, const fs::path& folder,
                     const ResumeOptions& options) {
-  const Document document = parse_cbor(unseal(bytes, name), name);
   const Origin origin{std::string(name)};
-  const Node root(document, origin);
+  const Document document(parse_cbor(unseal(bytes, name), name), {&origin});
+  const Node root(document);
   SceneSource source = read_source(root.require("source"));
   if (options.steps) source.overrides.steps = options.steps;
   if (options.threads) source.overrides.threads = options.threads;

@@ -85,7 +85,7 @@ Json write_state(const State& state) {
                         {"positions", bytes_of(state.previous_positions)},
                         {"velocities", bytes_of(state.previous_velocities)}};
   }
-  if (!state.energy_debts.empty()) json["energy_debts"] = bytes_of(state.energy_debts);
+  if (!state.energy_debts.empty()) json["energy_surplus"] = bytes_of(state.energy_debts);
   return json;
 }
 
@@ -94,9 +94,9 @@ Json write_groups(const Simulation& simulation) {
   for (const auto& [id, group] : simulation.groups()) {
     Json parts = Json::array();
     for (const auto& part : group.set.parts) {
-      parts.push_back({{"stiffness", part->stiffness()}, {"numbers", bytes_of(part->parameters())}});
+      parts.push_back({{"stiffness", part->stiffness()}, {"parameters", bytes_of(part->parameters())}});
     }
-    groups.push_back({{"name", bytes_of(group.name)}, {"parts", std::move(parts)}});
+    groups.push_back({{"name", bytes_of(group.name)}, {"batches", std::move(parts)}});
   }
   return groups;
 }

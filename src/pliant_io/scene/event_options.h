@@ -8,8 +8,8 @@ namespace pliant {
 
 /// When an event acts: one of the two.
 struct EventTime {
-  std::int64_t step = 0;
-  Real time = 0;
+  std::int64_t step = 0;  ///< n ≥ 0: acts before the step n → n + 1
+  Real time = 0;          ///< t [s], ≥ 0: acts before the first step n with t ≤ tₙ + 1e-9 h
 
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -23,14 +23,14 @@ using ConstraintNumbers = std::vector<Index>;
 
 /// Of `move`, which has one of target, offset, rotate and keyframes.
 struct MoveOptions {
-  ConstraintNumbers index{};
-  Points target{};
-  Points offset{};
-  std::optional<Rotation> rotate{};
-  std::vector<Keyframe> keyframes{};
-  std::optional<Vec3> center{};
-  Real over = 0;
-  Ease ease = Ease::linear;
+  ConstraintNumbers index{};  ///< of the group, from 0; empty: all
+  Points target{};            ///< [m]: one for all, or one for each
+  Points offset{};            ///< [m], from where the targets are as the move begins: one for all, or one for each
+  std::optional<Rotation> rotate{};   ///< of all together about the center
+  std::vector<Keyframe> keyframes{};  ///< of a rigid motion of all together, with times from the start of the move
+  std::optional<Vec3> center{};       ///< of turns [m]; none: the mean of the targets as the move begins
+  Real over = 0;                      ///< duration [s], ≥ 0; 0: a jump. Keyframes have their own
+  Ease ease = Ease::linear;           ///< how the way is shared over the time
 
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -48,9 +48,9 @@ struct MoveOptions {
 
 /// Of `follow`, which has a body or a file besides.
 struct FollowOptions {
-  ConstraintNumbers index{};
-  std::vector<Index> vertices{};
-  Attach attach = Attach::offset;
+  ConstraintNumbers index{};       ///< of the group, from 0; empty: all
+  std::vector<Index> vertices{};   ///< followed ones, one for each constraint or one for all; empty: the nearest
+  Attach attach = Attach::offset;  ///< offset: in the distance at the start; exact: where the vertex is
 
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -64,7 +64,7 @@ struct FollowOptions {
 
 /// What a file of frames adds to `follow`.
 struct FileOptions {
-  Real frames_per_second = 24;
+  Real frames_per_second = 24;  ///< [1/s], > 0; of PC2 and NPY files, MDD has its own times
 
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -75,8 +75,8 @@ struct FileOptions {
 
 /// What `change` of a group adds to the options of its type.
 struct RampOptions {
-  Real over = 0;
-  Ease ease = Ease::linear;
+  Real over = 0;             ///< [s], ≥ 0, in which the stiffness goes to its new value by equal ratios; 0: at once
+  Ease ease = Ease::linear;  ///< how the way is shared over the time
 
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& field) {

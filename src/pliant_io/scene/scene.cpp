@@ -6,48 +6,16 @@
 #include "pliant/core/printable.h"
 #include "pliant_io/files/read_file.h"
 #include "pliant_io/scene/detail/option_reader.h"
-#include "pliant_io/scene/detail/scene_documents.h"
+#include "pliant_io/scene/detail/resolve_scene.h"
 #include "pliant_io/scene/detail/scene_files.h"
 #include "pliant_io/scene/detail/scene_reader.h"
 
 namespace pliant {
 namespace {
 
-constexpr std::int64_t format_version = 1;
 const std::vector<std::string_view> top_keys = {"pliant",  "name",   "description", "settings", "steps",
                                                 "gravity", "bodies", "forces",      "moves",    "events",
                                                 "output",  "view",   "include",     "$schema"};
-
-void check_version(const Node& root) {
-  const Node version = root.require("pliant");
-  if (!version.is_integer() || version.integer() != format_version) {
-    version.fail(fmt::format("this program reads scenes of version {} alone; write \"pliant\": {}", format_version,
-                             format_version));
-  }
-}
-
-/// Calls f for the value of a key in each layer that has it.
-void for_each_value(std::span<SceneLayer* const> layers, std::string_view key, auto&& f) {
-  for (const SceneLayer* layer : layers) {
-    if (const auto value = layer->root().find(key)) f(*value);
-  }
-}
-
-/// Options that may be spread over the layers, the later ones in front.
-void read_merged(std::span<SceneLayer* const> layers, std::string_view key, auto& options) {
-  for_each_value(layers, key, [&](const Node& node) { read_options(node, options); });
-}
-
-/// The value of the last layer that has the key.
-std::optional<Node> find_last(std::span<SceneLayer* const> layers, std::string_view key) {
-  std::optional<Node> last;
-  for_each_value(layers, key, [&](const Node& node) { last = node; });
-  return last;
-}
-
-void read_last(std::span<SceneLayer* const> layers, std::string_view key, auto& value) {
-  if (const auto node = find_last(layers, key)) read(*node, value);
-}
 
 /// What no option can tell by itself.
 void check_view(const Node& node, const ViewSettings& view) {
@@ -71,48 +39,45 @@ void check_view(const Node& node, const ViewSettings& view) {
   }
 }
 
-void read_run(std::span<SceneLayer* const> layers, Scene& scene) {
-  read_last(layers, "name", scene.name);
-  read_last(layers, "description", scene.description);
-  if (const auto steps = find_last(layers, "steps")) {
+/// Options of an object that need not be there.
+void read_group_of_options(const Node& root, std::string_view key, auto& options) {
+  if (const auto node = root.find(key)) read_options(*node, options);
+}
+
+void read_run(const Node& root, Scene& scene) {
+  read_optional(root, "name", scene.name);
+  read_optional(root, "description", scene.description);
+  if (const auto steps = root.find("steps")) {
     read(*steps, scene.steps);
     if (scene.steps < 0 || scene.steps > max_steps) {
       steps->fail(fmt::format("{} is out of range; give a number from 0 to {}", scene.steps, max_steps));
     }
   }
-  read_merged(layers, "output", scene.output);
-  read_merged(layers, "view", scene.view);
-  if (const auto view = find_last(layers, "view")) check_view(*view, scene.view);
+  read_group_of_options(root, "output", scene.output);
+  read_group_of_options(root, "view", scene.view);
+  if (const auto view = root.find("view")) check_view(*view, scene.view);
 }
 
-/// Calls f for each entry of the lists of all layers.
-void for_each_entry(std::span<SceneLayer* const> layers, std::string_view key, auto&& f) {
-  for_each_value(layers, key, [&](const Node& list) {
-    list.require_list();
-    for (std::size_t i = 0; i < list.size(); ++i) f(list[i]);
-  });
+/// Calls f for each entry of a list that need not be there.
+void for_each_entry(const Node& root, std::string_view key, auto&& f) {
+  const auto list = root.find(key);
+  if (!list) return;
+  list->require_list();
+  for (std::size_t i = 0; i < list->size(); ++i) f((*list)[i]);
 }
 
-void require_bodies(std::span<SceneLayer* const> layers) {
-  std::size_t count = 0;
-  for_each_entry(layers, "bodies", [&](const Node&) { ++count; });
-  if (count == 0) layers.back()->root().require("bodies").fail("there is no body; add one");
-}
-
-void read_simulation(std::span<SceneLayer* const> layers, Scene& scene) {
+void read_simulation(const Node& root, Scene& scene) {
   SolverSettings settings;
-  read_merged(layers, "settings", settings);
-  const Node root = layers.back()->root();
-  const Node settings_node = find_last(layers, "settings").value_or(root);
-  scene.simulation = settings_node.locate([&] { return Simulation(settings); });
-  require_bodies(layers);
+  read_group_of_options(root, "settings", settings);
+  scene.simulation = root.find("settings").value_or(root).locate([&] { return Simulation(settings); });
+  if (const Node bodies = root.require("bodies"); bodies.is_list() && bodies.empty()) {
+    bodies.fail("there is no body; add one");
+  }
   SceneReader reader(scene.simulation);
-  for_each_entry(layers, "bodies", [&](const Node& node) { reader.read_body(node); });
-  reader.read_gravity(find_last(layers, "gravity"));
-  for_each_entry(layers, "forces", [&](const Node& node) { reader.read_force(node); });
-  std::vector<Node> roots;
-  for (const SceneLayer* layer : layers) roots.push_back(layer->root());
-  reader.read_events(roots, scene.timeline);
+  for_each_entry(root, "bodies", [&](const Node& node) { reader.read_body(node); });
+  reader.read_gravity(root.find("gravity"));
+  for_each_entry(root, "forces", [&](const Node& node) { reader.read_force(node); });
+  reader.read_events(root, scene.timeline);
   scene.group_names = scene.simulation.group_names();
   std::set<std::string> names(scene.group_names.begin(), scene.group_names.end());
   for (std::string& name : reader.later_groups) {
@@ -136,13 +101,13 @@ Scene parse_scene(SceneSource source) {
   Scene scene;
   scene.name = std::filesystem::path(source.texts[0].name).stem().string();
   {
-    const SceneDocuments documents(source, files);
-    for (const SceneLayer* layer : documents.layers()) {
-      check_version(layer->root());
-      layer->root().check_keys(top_keys);
-    }
-    read_run(documents.layers(), scene);
-    read_simulation(documents.layers(), scene);
+    ResolvedScene resolved = resolve_scene(source, files);
+    scene.warnings = std::move(resolved.warnings);
+    const Node root(resolved.document);
+    check_scene_version(root);
+    root.check_keys(top_keys);
+    read_run(root, scene);
+    read_simulation(root, scene);
   }
   source.is_complete = true;
   scene.source = std::move(source);
@@ -166,9 +131,9 @@ Scene load_scene(const std::filesystem::path& file, const SceneOverrides& overri
 }
 
 std::string scene_description(std::string_view text, std::string_view name) {
-  const Document document = parse_json(text, name);
   const Origin origin{std::string(name)};
-  const Node root(document, origin);
+  const Document document(parse_json(text, name), {&origin});
+  const Node root(document);
   root.require_object();
   std::string description;
   read_optional(root, "description", description);

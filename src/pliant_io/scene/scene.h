@@ -15,8 +15,8 @@
 namespace pliant {
 
 struct OutputSettings {
-  FrameFormat format = FrameFormat::npy;
-  std::int64_t every = 1;  ///< record the start and every n-th step, ≥ 1
+  FrameFormat format = FrameFormat::npy;  ///< what the frames are written as
+  std::int64_t every = 1;                 ///< record the start and every n-th step, ≥ 1
 
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -40,6 +40,8 @@ struct Scene {
   SceneSource source;                    ///< what it was read from, for parse_scene
   std::vector<SceneFile> files;          ///< of its meshes and maps, each once
   std::vector<std::string> group_names;  ///< of the groups there are, and behind them those that events add
+
+  std::vector<std::string> warnings;  ///< of its texts: keys whose names are old, with their places
 
   /// What messages call it: its file.
   std::string place() const;

@@ -49,6 +49,7 @@ SchemaJson definitions() {
           only("box", object_schema({{"min", vector}, {"max", vector}}, {"min", "max"})),
           only("half_space", object_schema({{"point", vector}, {"normal", vector}}, {"point", "normal"})),
           only("nearest", schema_reference("points")),
+          only("boundary_loop", {{"anyOf", {vertex, only("nearest", vector)}}}),
           only("group", text_schema("of the mesh's file: a group, an object or a material")), std::move(by_map),
           only("any_of", selections), only("all_of", selections), only("not", selection)}}}},
   };
@@ -66,14 +67,30 @@ SchemaJson transform_schema() {
 SchemaJson all_definitions() {
   SchemaJson all = definitions();
   all["transform"] = described(transform_schema(), "of the rest positions: scaled, then turned, then moved");
-  all["mesh"] = mesh_schema();
-  all["mesh_part"] = mesh_part_schema();
+  all["settings"] = object_schema(options_properties<SolverSettings>());
+  all.update(part_definitions());
+  all.update(event_definitions());
   return all;
+}
+
+/// Text of JSON in which what fits into a line stands in one.
+std::string short_text(const SchemaJson& json, const std::string& indent = "") {
+  constexpr std::size_t width = 120;
+  const std::string line = json.dump();
+  if (!json.is_structured() || indent.size() + line.size() <= width) return line;
+  const std::string inner = indent + ' ';
+  std::string text;
+  for (const auto& [key, value] : json.items()) {
+    text += (text.empty() ? "\n" : ",\n") + inner;
+    if (json.is_object()) text += SchemaJson(key).dump() + ": ";
+    text += short_text(value, inner);
+  }
+  return json.is_object() ? "{" + text + '\n' + indent + '}' : "[" + text + '\n' + indent + ']';
 }
 
 SchemaJson body_schema() {
   return object_schema({{"name", text_schema("what others refer to it by; default \"body 0\", ...")},
-                        {"mesh", schema_reference("mesh")},
+                        {"mesh", mesh_schema()},
                         {"transform", schema_reference("transform")},
                         {"mass", mass_schema()},
                         {"start_positions", list_schema(schema_reference("vector"))},
@@ -102,13 +119,13 @@ SchemaJson root_properties() {
       {"name", text_schema("default: the file's name")},
       {"description", text_schema("one line")},
       {"include", described(include_schema(), "scenes that this one goes on from")},
-      {"settings", object_schema(options_properties<SolverSettings>())},
+      {"settings", schema_reference("settings")},
       {"steps", {{"type", "integer"}, {"minimum", 0}, {"default", defaults.steps}}},
       {"gravity", {{"anyOf", {schema_reference("vector"), {{"type", "null"}}}}, {"description", "[m/s²]; null: none"}}},
       {"bodies", list_schema(body_schema())},
-      {"forces", list_schema(force_schema())},
-      {"moves", list_schema(move_schema())},
-      {"events", list_schema(event_schema())},
+      {"forces", list_schema(schema_reference("force"))},
+      {"moves", list_schema(schema_reference("timed_move"))},
+      {"events", list_schema(schema_reference("event"))},
       {"output", object_schema(options_properties<OutputSettings>())},
       {"view", object_schema(options_properties<ViewSettings>())}};
 }
@@ -122,7 +139,7 @@ std::string scene_schema() {
   schema.update(object_schema(root_properties(), {"pliant"}));
   schema["anyOf"] = {{{"required", {"bodies"}}}, {{"required", {"include"}}}};
   schema["$defs"] = all_definitions();
-  return schema.dump(1, '\t') + '\n';
+  return short_text(schema) + '\n';
 }
 
 }  // namespace pliant

@@ -9,16 +9,16 @@ namespace pliant {
 
 /// Shares of red, green and blue, each from 0 to 1 (sRGB).
 struct Color {
-  Real red = 0;
-  Real green = 0;
-  Real blue = 0;
+  Real red = 0;    ///< 0 to 1
+  Real green = 0;  ///< 0 to 1
+  Real blue = 0;   ///< 0 to 1
 };
 
 struct Camera {
-  std::optional<Vec3> position{};  ///< [m]
-  std::optional<Vec3> target{};    ///< [m]
-  Vec3 up{0, 0, 1};
-  Real field_of_view = 40;  ///< [degrees]
+  std::optional<Vec3> position{};  ///< [m]; none: where all that moves is in the picture
+  std::optional<Vec3> target{};    ///< [m]; none: the middle of the bodies
+  Vec3 up{0, 0, 1};                ///< direction that is up in the picture, of any length but zero
+  Real field_of_view = 40;         ///< [degrees], from the lower edge of the picture to the upper, 1 to 170
 
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -44,20 +44,20 @@ constexpr std::array<std::string_view, 2> choice_names(Shading) {
 }
 
 struct ViewSettings {
-  Camera camera{};
-  Color background{0.93, 0.94, 0.95};
-  ColorBy color = ColorBy::none;
-  std::optional<std::array<Real, 2>> color_range{};
-  bool legend = true;
-  Color front{0.82, 0.33, 0.24};
-  Color back{0.95, 0.77, 0.55};
-  Shading shading = Shading::smooth;
-  bool wireframe = false;
-  bool ground = true;
-  std::optional<Real> ground_height{};
-  bool shadow = true;
-  Vec3 light{-0.5, -0.8, 1.6};
-  std::array<Index, 2> size{1280, 720};
+  Camera camera{};                                   ///< where the picture is taken from
+  Color background{0.93, 0.94, 0.95};                ///< behind everything
+  ColorBy color = ColorBy::none;                     ///< none: two tones, front and back
+  std::optional<std::array<Real, 2>> color_range{};  ///< low, high, in the unit of `color`; none: those of all frames
+  bool legend = true;                                ///< show the color map and its range
+  Color front{0.82, 0.33, 0.24};                     ///< of the side that normals point from
+  Color back{0.95, 0.77, 0.55};                      ///< of the other side
+  Shading shading = Shading::smooth;                 ///< smooth, or each face by itself
+  bool wireframe = false;                            ///< draw the edges of the elements too
+  bool ground = true;                                ///< draw a plane below the bodies
+  std::optional<Real> ground_height{};               ///< z of that plane [m]; none: a little below everything
+  bool shadow = true;                                ///< on the ground
+  Vec3 light{-0.5, -0.8, 1.6};                       ///< direction that the light comes from, of any length but zero
+  std::array<Index, 2> size{1280, 720};              ///< width and height of the picture [pixels], 16 to 8192
 
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& field) {

@@ -15,7 +15,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "numbers are written as they are in memory");
 
 constexpr std::string_view magic = "PLIANTCP";
-constexpr std::uint32_t format_version = 1;
+constexpr std::uint32_t format_version = 2;
 constexpr std::size_t version_place = 8;
 constexpr std::size_t checksum_place = 12;
 constexpr std::size_t size_place = 16;
@@ -63,6 +63,11 @@ std::string_view unseal(std::string_view bytes, std::string_view name) {
   const std::string_view content = bytes.substr(header_size);
   const bool whole = size == content.size();
   const bool sound = whole && number_at<std::uint32_t>(bytes, checksum_place) == checksum(found_version, content);
+  if (sound && found_version == 1) {
+    fail(
+        "this checkpoint was written by Pliant 0.1.0, whose format this version no longer reads; resume it with Pliant "
+        "0.1.0, or run the scene from its start");
+  }
   if (sound && found_version != format_version) {
     fail(fmt::format(
         "this checkpoint has the format {}, and this program reads {}; resume it with the program that wrote it",

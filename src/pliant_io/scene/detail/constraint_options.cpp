@@ -20,8 +20,8 @@ ConstraintOptions read_any(const Node& node, const std::vector<std::string_view>
   read(type, name);
   ConstraintOptions options;
   if ((read_as<Constraint>(node, name, keys, body, options) || ...)) return options;
-  type.fail(fmt::format("'{}' is no constraint; known, the nearest first: {}", printable(name),
-                        nearest_names_text(name, {Constraint::info.name...})));
+  type.fail(
+      fmt::format("unknown constraint '{}'; {}", printable(name), suggestion_text(name, {Constraint::info.name...})));
 }
 
 }  // namespace

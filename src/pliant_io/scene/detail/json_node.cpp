@@ -5,41 +5,69 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "pliant_io/scene/detail/overlay.h"
 #include "pliant_io/scene/nearest_names.h"
 
 namespace pliant {
 
-Node Node::operator[](std::size_t i) const {
-  if (overlay_ != nullptr) {
-    if (const auto found = overlay_->entries.find(i); found != overlay_->entries.end()) {
-      const Overlay& over = found->second;
-      if (over.value) return Node(*over.value->document_, *over.value->origin_, over.value->place_, &over);
-      return Node(*document_, *origin_, document_->entry(place_, i), &over);
+namespace {
+
+/// The way from a value to one inside it, ".bodies[0].mesh"; false: it is not inside.
+bool find_way(const SceneJson& from, const SceneJson& to, std::string& way) {
+  if (&from == &to) return true;
+  if (from.is_array()) {
+    for (std::size_t i = 0; i < from.size(); ++i) {
+      if (find_way(from[i], to, way)) return way.insert(0, fmt::format("[{}]", i)), true;
+    }
+  } else if (from.is_object()) {
+    for (const auto& [key, value] : from.get_ref<const SceneJson::object_t&>()) {
+      if (find_way(value, to, way)) return way.insert(0, "." + printable(key)), true;
     }
   }
-  return Node(*document_, *origin_, document_->entry(place_, i), nullptr);
+  return false;
 }
 
-std::optional<Node> Node::find_below(std::string_view key) const {
-  for (std::size_t i = 0; i < document_->size(place_); ++i) {
-    if (document_->text(document_->key(place_, i)) != key) continue;
-    return Node(*document_, *origin_, document_->member(place_, i), nullptr);
+}  // namespace
+
+SourcePlace Node::place() const {
+  std::string way;
+  find_way(*placed_, *value_, way);
+  if (place_->path.empty() && way.starts_with('.')) way.erase(0, 1);
+  return {place_->origin, place_->path + way};
+}
+
+std::string_view Node::bytes() const {
+  const SceneJson::binary_t& bytes = value_->get_binary();
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};  // NOLINT
+}
+
+Node Node::inner(const SceneJson& value, const OriginMap* origins) const {
+  Node node = *this;
+  node.value_ = &value;
+  node.origins_ = origins;
+  if (origins == nullptr || !origins->place) return node;
+  node.place_ = &*origins->place;
+  node.placed_ = &value;
+  return node;
+}
+
+Node Node::operator[](std::size_t i) const {
+  const OriginMap* origins = nullptr;
+  if (origins_ != nullptr) {
+    if (const auto found = origins_->entries.find(i); found != origins_->entries.end()) origins = &found->second;
   }
-  return std::nullopt;
+  return inner((*value_)[i], origins);
 }
 
 std::optional<Node> Node::find(std::string_view key) const {
   if (!is_object()) return std::nullopt;
-  std::optional<Node> below = find_below(key);
-  if (overlay_ == nullptr) return below;
-  const auto found = overlay_->keys.find(key);
-  if (found == overlay_->keys.end()) return below;
-  const Overlay& over = found->second;
-  if (over.value) below = over.value;
-  if (!below) below = over.made;
-  below->overlay_ = &over;
-  return below;
+  const auto& object = value_->get_ref<const SceneJson::object_t&>();
+  const auto entry = std::ranges::find_if(object, [&](const auto& each) { return each.first == key; });
+  if (entry == object.end()) return std::nullopt;
+  const OriginMap* origins = nullptr;
+  if (origins_ != nullptr) {
+    if (const auto found = origins_->keys.find(key); found != origins_->keys.end()) origins = &found->second;
+  }
+  return inner(entry->second, origins);
 }
 
 Node Node::require(std::string_view key) const {
@@ -52,13 +80,7 @@ Node Node::require(std::string_view key) const {
 std::vector<std::string_view> Node::keys() const {
   std::vector<std::string_view> keys;
   if (!is_object()) return keys;
-  for (std::size_t i = 0; i < document_->size(place_); ++i) keys.push_back(document_->text(document_->key(place_, i)));
-  if (overlay_ == nullptr) return keys;
-  const std::size_t count = keys.size();
-  for (const auto& [key, over] : overlay_->keys) {
-    const auto end = keys.begin() + static_cast<std::ptrdiff_t>(count);
-    if (std::find(keys.begin(), end, key) == end) keys.push_back(key);
-  }
+  for (const auto& [key, value] : value_->get_ref<const SceneJson::object_t&>()) keys.push_back(key);
   return keys;
 }
 
@@ -81,7 +103,7 @@ void Node::check_keys(const std::vector<std::string_view>& known) const {
   require_object();
   for (const std::string_view key : keys()) {
     if (std::ranges::find(known, key) != known.end()) continue;
-    require(key).fail(fmt::format("unknown key; known here, the nearest first: {}", nearest_names_text(key, known)));
+    require(key).fail(fmt::format("unknown key; {}", suggestion_text(key, known)));
   }
 }
 
@@ -98,7 +120,8 @@ std::string_view Node::require_one_of(const std::vector<std::string_view>& keys)
 }
 
 void Node::fail(std::string_view what) const {
-  fail_at(origin_->name, document_->path_of(place_), what);
+  const SourcePlace place = this->place();
+  fail_at(place.origin->name, place.path, what);
 }
 
 void Node::fail_type(std::string_view wanted) const {

@@ -1,6 +1,7 @@
 #pragma once
 // Values of a scene that know their place, for messages.
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -9,12 +10,12 @@
 
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
-#include "pliant_io/scene/document.h"
+#include "pliant/core/types.h"
+#include "pliant_io/scene/detail/json_text.h"
 
 namespace pliant {
 
 class SceneFiles;
-struct Overlay;
 
 /// Where values come from: a file, or an option of the command line.
 struct Origin {
@@ -23,39 +24,67 @@ struct Origin {
   SceneFiles* files = nullptr;        ///< reads what such paths name; null: no value names a file
 };
 
+/// The place of a value in the text that it was written in.
+struct SourcePlace {
+  const Origin* origin = nullptr;
+  std::string path = {};  ///< "bodies[0].mesh"; empty: the whole text
+};
+
+/// Which values of a document stand elsewhere than the object or the list that holds them: those of included scenes,
+/// and those that were set. Only the ways to such values are here.
+struct OriginMap {
+  std::optional<SourcePlace> place = {};  ///< none: inside that of what holds it
+  std::map<std::string, OriginMap, std::less<>> keys = {};
+  std::map<std::size_t, OriginMap> entries = {};
+};
+
+/// JSON with the origins of its values.
+struct Document {
+  Document(SceneJson value, SourcePlace place) : json(std::move(value)), origins{.place = std::move(place)} {}
+
+  SceneJson json;
+  OriginMap origins;  ///< with a place of its own
+};
+
 /// A value and its place, "bodies[0].mesh"; the whole text has the empty path. Cheap to copy: the path is found when a
-/// message needs it. Refers to document, origin and overlay, which must live longer.
-///
-/// An overlay (overlay.h) puts values of other origin in the place of some; those name their own place in messages.
+/// message needs it. Refers to the document, which must live longer and stay as it is.
 class Node {
  public:
   /// The whole document.
-  Node(const Document& document, const Origin& origin, const Overlay* overlay = nullptr)
-      : Node(document, origin, document.root(), overlay) {}
+  explicit Node(const Document& document)
+      : value_(&document.json),
+        origins_(&document.origins),
+        place_(&document.origins.place.value()),
+        placed_(&document.json) {}
 
-  const Origin& origin() const { return *origin_; }
+  const Origin& origin() const { return *place_->origin; }
+  /// Where it was written.
+  SourcePlace place() const;
+  /// Whether it was written elsewhere than what holds it.
+  bool has_own_place() const { return placed_ == value_; }
+  const SceneJson& json() const { return *value_; }
 
-  bool is_null() const { return kind() == Document::Kind::null; }
-  bool is_boolean() const { return kind() == Document::Kind::boolean; }
-  bool is_number() const { return is_integer() || kind() == Document::Kind::real; }
+  bool is_null() const { return value_->is_null(); }
+  bool is_boolean() const { return value_->is_boolean(); }
+  bool is_number() const { return value_->is_number(); }
   /// A number without point and exponent, within 64 bits.
-  bool is_integer() const { return kind() == Document::Kind::integer || kind() == Document::Kind::wide_integer; }
-  bool is_text() const { return kind() == Document::Kind::text; }
+  bool is_integer() const { return value_->is_number_integer(); }
+  bool is_text() const { return value_->is_string(); }
   /// Bytes, of which JSON has none.
-  bool is_bytes() const { return kind() == Document::Kind::bytes; }
-  bool is_list() const { return kind() == Document::Kind::list; }
-  bool is_object() const { return kind() == Document::Kind::object; }
+  bool is_bytes() const { return value_->is_binary(); }
+  bool is_list() const { return value_->is_array(); }
+  bool is_object() const { return value_->is_object(); }
 
   /// Entries of a list or keys of an object; 0 for other values.
-  std::size_t size() const { return is_object() ? keys().size() : is_list() ? document_->size(place_) : 0; }
+  std::size_t size() const { return is_object() || is_list() ? value_->size() : 0; }
   bool empty() const { return size() == 0; }
 
   /// The value itself, of the type that was asked for first.
-  bool boolean() const { return document_->boolean(place_); }
-  std::int64_t integer() const { return document_->integer(place_); }
-  Real number() const { return is_integer() ? static_cast<Real>(integer()) : document_->real(place_); }
-  /// Of a text, or bytes.
-  std::string_view text() const { return document_->text(place_); }
+  bool boolean() const { return value_->get<bool>(); }
+  std::int64_t integer() const { return value_->get<std::int64_t>(); }
+  Real number() const { return value_->get<Real>(); }
+  std::string_view text() const { return value_->get_ref<const std::string&>(); }
+  std::string_view bytes() const;
 
   /// Entry i of a list, with i in range.
   Node operator[](std::size_t i) const;
@@ -92,16 +121,13 @@ class Node {
   }
 
  private:
-  Node(const Document& document, const Origin& origin, Document::Place place, const Overlay* overlay)
-      : document_(&document), origin_(&origin), overlay_(overlay), place_(place) {}
-  Document::Kind kind() const { return document_->kind(place_); }
-  /// The value below an overlay, of a key of the document.
-  std::optional<Node> find_below(std::string_view key) const;
+  /// What this holds, with its origins if there are any.
+  Node inner(const SceneJson& value, const OriginMap* origins) const;
 
-  const Document* document_;
-  const Origin* origin_;
-  const Overlay* overlay_;
-  Document::Place place_;
+  const SceneJson* value_;
+  const OriginMap* origins_;  ///< of the value and what is in it; null: all of one place
+  const SourcePlace* place_;  ///< of placed_
+  const SceneJson* placed_;   ///< the value itself or what holds it
 };
 
 }  // namespace pliant

@@ -78,8 +78,8 @@ void read(const Node& node, Choice& choice) {
       return;
     }
   }
-  node.fail(fmt::format("'{}' is none of the choices; give one of {}", printable(name),
-                        nearest_names_text(name, {names.begin(), names.end()})));
+  node.fail(
+      fmt::format("unknown choice '{}'; {}", printable(name), suggestion_text(name, {names.begin(), names.end()})));
 }
 
 template <class Value>

@@ -119,8 +119,7 @@ GroupEntry& SceneReader::group(const Node& node) {
   if (found != groups.end()) return found->second;
   std::vector<std::string_view> names;
   for (const auto& [known, entry] : groups) names.push_back(known);
-  node.fail(fmt::format("there is no group '{}'; known, the nearest first: {}", printable(name),
-                        nearest_names_text(name, names)));
+  node.fail(fmt::format("unknown group '{}'; {}", printable(name), suggestion_text(name, names)));
 }
 
 BodyId SceneReader::read_body_name(const Node& node) const {
@@ -137,8 +136,7 @@ BodyId SceneReader::read_body_name(const Node& node) const {
   if (found != bodies.end()) return found->second;
   std::vector<std::string_view> names;
   for (const auto& [known, id] : bodies) names.push_back(known);
-  given->fail(fmt::format("there is no body '{}'; known, the nearest first: {}", printable(name),
-                          nearest_names_text(name, names)));
+  given->fail(fmt::format("unknown body '{}'; {}", printable(name), suggestion_text(name, names)));
 }
 
 }  // namespace pliant

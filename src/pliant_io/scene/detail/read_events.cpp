@@ -16,13 +16,13 @@ using Keys = std::vector<std::string_view>;
 
 GroupId find_group(const Simulation& simulation, const std::string& name) {
   const std::optional<GroupId> found = simulation.find_group(name);
-  if (!found) fail_input(fmt::format("there is no group '{}' any more; add it before", printable(name)));
+  if (!found) fail_input(fmt::format("the group '{}' no longer exists; add it before", printable(name)));
   return *found;
 }
 
 ForceId find_force(const Simulation& simulation, const std::string& name) {
   const std::optional<ForceId> found = simulation.find_force(name);
-  if (!found) fail_input(fmt::format("there is no force '{}' any more; add it before", printable(name)));
+  if (!found) fail_input(fmt::format("the force '{}' no longer exists; add it before", printable(name)));
   return *found;
 }
 
@@ -97,8 +97,8 @@ void EventReader::fail_unknown(const Node& node) const {
   Keys names;
   for (const auto& [known, entry] : scene_.groups) names.push_back(known);
   for (const auto& [known, entry] : scene_.forces) names.push_back(known);
-  node.fail(fmt::format("there is no group and no force '{}' then; known, the nearest first: {}", printable(name),
-                        nearest_names_text(name, names)));
+  node.fail(
+      fmt::format("no group and no force is called '{}' then; {}", printable(name), suggestion_text(name, names)));
 }
 
 Timeline::Edit EventReader::read_change(const Node& node) {
@@ -423,7 +423,7 @@ class DueOrder {
 
 }  // namespace
 
-void SceneReader::read_events(std::span<const Node> roots, Timeline& timeline) {
+void SceneReader::read_events(const Node& root, Timeline& timeline) {
   struct Entry {
     Node node;
     std::string name;
@@ -431,17 +431,17 @@ void SceneReader::read_events(std::span<const Node> roots, Timeline& timeline) {
   };
   std::vector<Entry> entries;
   DueOrder order;
-  const auto add_list = [&](const Node& root, std::string_view key) {
-    const std::optional<Node> list = root.find(key);
-    if (!list) return;
-    list->require_list();
-    for (std::size_t i = 0; i < list->size(); ++i) {
-      entries.push_back({(*list)[i], fmt::format("{}: {}[{}]", list->origin().name, key, i), key == "moves"});
-      order.add(entries.back().node);
-    }
-  };
   for (const std::string_view key : {"moves", "events"}) {
-    for (const Node& root : roots) add_list(root, key);
+    const std::optional<Node> list = root.find(key);
+    if (!list) continue;
+    list->require_list();
+    const SourcePlace place = list->place();
+    for (std::size_t i = 0; i < list->size(); ++i) {
+      const Node node = (*list)[i];
+      const std::string path = node.has_own_place() ? node.place().path : fmt::format("{}[{}]", place.path, i);
+      entries.push_back({node, fmt::format("{}: {}", node.origin().name, path), key == "moves"});
+      order.add(node);
+    }
   }
   std::vector<Timeline::Edit> edits(entries.size());
   {

@@ -71,8 +71,8 @@ ForceEntry read_force_options(const Node& node, std::vector<std::string_view> mo
     entry = ForceEntry{body, std::move(options)};
   });
   if (entry) return *std::move(entry);
-  type.fail(fmt::format("'{}' is no force; known, the nearest first: {}; gravity has its own key at the top",
-                        printable(name), nearest_names_text(name, names)));
+  type.fail(fmt::format("unknown force '{}'; {}; gravity has its own key at the top", printable(name),
+                        suggestion_text(name, names)));
 }
 
 void read_changed_force(const Node& node, std::vector<std::string_view> more_keys, const SceneReader& scene,

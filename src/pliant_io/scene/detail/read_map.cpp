@@ -17,8 +17,7 @@ std::vector<Real> named_map(const Node& node, const Mesh& mesh) {
   if (mesh.maps.empty()) node.fail("the mesh has no maps; read one of a file, or take a mesh from PLY that has some");
   std::vector<std::string_view> names;
   for (const VertexMap& map : mesh.maps) names.push_back(map.name);
-  node.fail(fmt::format("the mesh has no map '{}'; known, the nearest first: {}", printable(name),
-                        nearest_names_text(name, names)));
+  node.fail(fmt::format("unknown map '{}'; {}", printable(name), suggestion_text(name, names)));
 }
 
 }  // namespace

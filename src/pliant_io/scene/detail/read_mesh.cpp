@@ -37,8 +37,7 @@ Mesh read_shape(const Node& node, const Keys& more_keys, std::tuple<Options...>*
   Mesh mesh;
   const bool found = ((Options::shape == name && (mesh = read_shape_of<Options>(node, more_keys), true)) || ...);
   if (!found) {
-    type.fail(fmt::format("'{}' is no shape; known, the nearest first: {}", printable(name),
-                          nearest_names_text(name, {Options::shape...})));
+    type.fail(fmt::format("unknown shape '{}'; {}", printable(name), suggestion_text(name, {Options::shape...})));
   }
   return mesh;
 }

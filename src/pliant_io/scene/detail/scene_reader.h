@@ -2,7 +2,6 @@
 // The parts of a scene file that add to a simulation: bodies with their constraints, forces, events.
 #include <map>
 #include <optional>
-#include <span>
 #include <string>
 
 #include "pliant/timeline/timeline.h"
@@ -33,7 +32,7 @@ struct SceneReader {
   SceneBody body(BodyId id) const {
     const Mesh& mesh = simulation.body(id).mesh;
     const Positions& before = untransformed[static_cast<std::size_t>(id)];
-    return {mesh, before.size() == 0 ? mesh.vertices : before};
+    return {mesh, before.size() == 0 ? mesh.vertices : before, indices_[id]};
   }
 
   void read_body(const Node& node);
@@ -41,8 +40,8 @@ struct SceneReader {
   void read_gravity(const std::optional<Node>& node);
   void read_force(const Node& node);
   /// The lists "moves" and "events". They are read in the order in which they act, each as what its predecessors leave,
-  /// and tried out; the simulation is as before then. `roots`: the scenes that have such lists.
-  void read_events(std::span<const Node> roots, Timeline& timeline);
+  /// and tried out; the simulation is as before then. `root`: the scene.
+  void read_events(const Node& root, Timeline& timeline);
 
   /// The body that the object's key "body" names; without the key, the only one that stands in the same text, or the
   /// only one there is.
@@ -64,6 +63,7 @@ struct SceneReader {
   std::string read_new_name(const Node& node) const;
   std::string free_name(const std::string& base);
 
+  mutable std::map<BodyId, std::optional<NearestVertex>> indices_ = {};
   std::map<std::string, int, std::less<>> last_numbers_ = {};  ///< behind a base, of those given so far
 };
 

@@ -2,9 +2,15 @@
 
 namespace pliant {
 
-SchemaJson object_schema(SchemaJson properties, std::vector<std::string_view> required) {
-  SchemaJson schema = {{"type", "object"}, {"properties", std::move(properties)}, {"additionalProperties", false}};
+SchemaJson open_object_schema(SchemaJson properties, std::vector<std::string_view> required) {
+  SchemaJson schema = {{"type", "object"}, {"properties", std::move(properties)}};
   if (!required.empty()) schema["required"] = required;
+  return schema;
+}
+
+SchemaJson object_schema(SchemaJson properties, std::vector<std::string_view> required) {
+  SchemaJson schema = open_object_schema(std::move(properties), std::move(required));
+  schema["additionalProperties"] = false;
   return schema;
 }
 

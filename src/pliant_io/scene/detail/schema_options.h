@@ -17,6 +17,9 @@ inline SchemaJson schema_reference(std::string_view definition) {
   return {{"$ref", "#/$defs/" + std::string(definition)}};
 }
 
+/// An object of which these keys are known; what refers to it says whether there may be others.
+SchemaJson open_object_schema(SchemaJson properties, std::vector<std::string_view> required = {});
+
 /// An object without other keys than these.
 SchemaJson object_schema(SchemaJson properties, std::vector<std::string_view> required = {});
 

@@ -21,20 +21,27 @@ SchemaJson joined(SchemaJson properties, const SchemaJson& more) {
   return properties;
 }
 
+/// What a definition says, with more keys, and none besides.
+SchemaJson closed_reference(std::string_view definition, SchemaJson more = SchemaJson::object()) {
+  SchemaJson schema = schema_reference(definition);
+  if (!more.empty()) schema["properties"] = std::move(more);
+  schema["unevaluatedProperties"] = false;
+  return schema;
+}
+
 template <class Options>
-SchemaJson shape_schema(const SchemaJson& more) {
-  SchemaJson properties = {{"shape", {{"const", Options::shape}}}};
-  properties.update(options_properties<Options>());
-  return object_schema(joined(std::move(properties), more), {"shape"});
+SchemaJson shape_schema() {
+  const SchemaJson properties = {{"shape", {{"const", Options::shape}}}};
+  return open_object_schema(joined(properties, options_properties<Options>()), {"shape"});
 }
 
 template <class... Options>
-void add_shapes(SchemaJson& choices, const SchemaJson& more, std::tuple<Options...>*) {
-  (choices.push_back(shape_schema<Options>(more)), ...);
+void add_shapes(SchemaJson& choices, std::tuple<Options...>*) {
+  (choices.push_back(shape_schema<Options>()), ...);
 }
 
-/// A mesh of any kind, with more properties.
-SchemaJson mesh_choices(const SchemaJson& more) {
+/// A mesh of any kind.
+SchemaJson mesh_choices() {
   SchemaJson file = {{"file", text_schema("path of a mesh file, from the folder of the scene")},
                      {"source", text_schema("how to get the file, for the message when it is missing")}};
   file.update(options_properties<ImportOptions>());
@@ -44,27 +51,26 @@ SchemaJson mesh_choices(const SchemaJson& more) {
                             {"tetrahedra", list_schema(list_schema(vertex_schema(), 4))}};
   const SchemaJson weld = {{"type", "number"}, {"minimum", 0}, {"description", "vertices so near become one [m]"}};
   const SchemaJson parts = {{"parts", list_schema(schema_reference("mesh_part"))}, {"weld", weld}};
-  SchemaJson choices = {object_schema(joined(std::move(file), more), {"file"}),
-                        object_schema(joined(lists, more), {"vertices"}),
-                        object_schema(joined(parts, more), {"parts"})};
-  add_shapes(choices, more, static_cast<Shapes*>(nullptr));
+  SchemaJson choices = {open_object_schema(std::move(file), {"file"}), open_object_schema(lists, {"vertices"}),
+                        open_object_schema(parts, {"parts"})};
+  add_shapes(choices, static_cast<Shapes*>(nullptr));
   return {{"oneOf", std::move(choices)}};
 }
 
 template <class Constraint>
-SchemaJson constraint_type_schema(const SchemaJson& more) {
-  SchemaJson properties = {{"type", {{"const", Constraint::info.name}}},
-                           {"name", text_schema("what others refer to it by")}};
-  properties.update(more);
-  properties.update(options_properties<Constraint>());
-  SchemaJson schema = object_schema(std::move(properties), {"type"});
+SchemaJson constraint_type_schema() {
+  const SchemaJson properties = {{"type", {{"const", Constraint::info.name}}},
+                                 {"name", text_schema("what others refer to it by")}};
+  SchemaJson schema = open_object_schema(joined(properties, options_properties<Constraint>()), {"type"});
   schema["description"] = std::string(Constraint::info.energy);
   return schema;
 }
 
 template <class... Constraint>
-void add_constraints(SchemaJson& choices, const SchemaJson& more, std::tuple<Constraint...>*) {
-  (choices.push_back(constraint_type_schema<Constraint>(more)), ...);
+SchemaJson constraint_choices(std::tuple<Constraint...>*) {
+  SchemaJson choices = SchemaJson::array();
+  (choices.push_back(constraint_type_schema<Constraint>()), ...);
+  return choices;
 }
 
 template <class Options>
@@ -111,19 +117,17 @@ SchemaJson one_of_keys(std::initializer_list<const char*> keys) {
 }
 
 /// What happens at a step or a time: `key` with what it means, and more properties.
-SchemaJson timed_schema(std::string_view key, SchemaJson value, const SchemaJson& more) {
-  SchemaJson properties = {{std::string(key), std::move(value)}};
-  properties.update(options_properties<EventTime>());
-  for (const char* name : {"step", "time"}) properties[name].erase("default");
-  SchemaJson schema = object_schema(joined(std::move(properties), more), {key});
-  schema["allOf"] = SchemaJson::array({one_of_keys({"step", "time"})});
+SchemaJson timed_schema(std::string_view key, SchemaJson value, const SchemaJson& more = SchemaJson::object()) {
+  const SchemaJson properties = {{std::string(key), std::move(value)}};
+  SchemaJson schema = open_object_schema(joined(properties, more), {key});
+  schema["allOf"] = SchemaJson::array({schema_reference("when")});
+  schema["unevaluatedProperties"] = false;
   return schema;
 }
 
 SchemaJson timed_move_schema(std::string_view key) {
-  SchemaJson schema =
-      timed_schema(key, text_schema("name of a group of positions or drags"), options_properties<MoveOptions>());
-  schema["allOf"].push_back(one_of_keys({"target", "offset", "rotate", "keyframes"}));
+  SchemaJson schema = timed_schema(key, schema_reference("moved_group"));
+  schema["allOf"].push_back(schema_reference("move"));
   return schema;
 }
 
@@ -136,22 +140,19 @@ SchemaJson change_schema() {
     }
   };
   add(options_properties<RampOptions>());
-  const SchemaJson constraints = constraint_schema()["oneOf"];
+  const SchemaJson constraints = constraint_choices(static_cast<BuiltinConstraints*>(nullptr));
   for (const SchemaJson& type : constraints) add(type["properties"]);
   for (const SchemaJson& type : force_choices()) add(type["properties"]);
-  SchemaJson schema = timed_schema("change", text_schema("name of a group or a force"), SchemaJson::object());
-  schema.erase("additionalProperties");
+  SchemaJson schema = timed_schema("change", text_schema("name of a group or a force"));
+  schema.erase("unevaluatedProperties");
   std::set<std::string> sorted(names.begin(), names.end());
   schema["propertyNames"] = {{"enum", sorted}};
   return schema;
 }
 
 SchemaJson add_schema() {
-  SchemaJson choices = SchemaJson::array();
   const SchemaJson body = {{"body", text_schema("name of the body; default: the only one")}};
-  add_constraints(choices, body, static_cast<BuiltinConstraints*>(nullptr));
-  for (const SchemaJson& force : force_choices()) choices.push_back(force);
-  return {{"oneOf", std::move(choices)}};
+  return {{"oneOf", {closed_reference("constraint", body), schema_reference("force")}}};
 }
 
 SchemaJson follow_schema() {
@@ -159,7 +160,7 @@ SchemaJson follow_schema() {
   properties.update(options_properties<FileOptions>());
   properties["body"] = text_schema("whose vertices are followed");
   properties["file"] = text_schema("of frames whose vertices are followed: PC2, MDD or NPY");
-  SchemaJson schema = timed_schema("follow", text_schema("name of a group of positions or drags"), properties);
+  SchemaJson schema = timed_schema("follow", schema_reference("moved_group"), properties);
   schema["allOf"].push_back(one_of_keys({"body", "file"}));
   return schema;
 }
@@ -171,14 +172,11 @@ SchemaJson text_schema(std::string_view description) {
 }
 
 SchemaJson mesh_schema() {
-  return mesh_choices(SchemaJson::object());
+  return closed_reference("mesh");
 }
 
-SchemaJson mesh_part_schema() {
-  const SchemaJson count = {{"type", "integer"}, {"minimum", 1}, {"maximum", 10000}};
-  return mesh_choices({{"name", text_schema("of the group of its vertices")},
-                       {"transform", schema_reference("transform")},
-                       {"copies", object_schema({{"count", count}, {"offset", schema_reference("vector")}})}});
+SchemaJson constraint_schema() {
+  return closed_reference("constraint");
 }
 
 SchemaJson mass_schema() {
@@ -201,33 +199,39 @@ SchemaJson mass_schema() {
   return schema;
 }
 
-SchemaJson constraint_schema() {
-  SchemaJson choices = SchemaJson::array();
-  add_constraints(choices, SchemaJson::object(), static_cast<BuiltinConstraints*>(nullptr));
-  return {{"oneOf", std::move(choices)}};
+SchemaJson part_definitions() {
+  const SchemaJson count = {{"type", "integer"}, {"minimum", 1}, {"maximum", 10000}};
+  const SchemaJson part = {{"name", text_schema("of the group of its vertices")},
+                           {"transform", schema_reference("transform")},
+                           {"copies", object_schema({{"count", count}, {"offset", schema_reference("vector")}})}};
+  return {{"mesh", mesh_choices()},
+          {"mesh_part", closed_reference("mesh", part)},
+          {"constraint", {{"oneOf", constraint_choices(static_cast<BuiltinConstraints*>(nullptr))}}},
+          {"force", {{"oneOf", force_choices()}}}};
 }
 
-SchemaJson force_schema() {
-  return {{"oneOf", force_choices()}};
-}
+SchemaJson event_definitions() {
+  SchemaJson when = open_object_schema(options_properties<EventTime>());
+  for (const char* name : {"step", "time"}) when["properties"][name].erase("default");
+  when.update(one_of_keys({"step", "time"}));
+  SchemaJson move = open_object_schema(options_properties<MoveOptions>());
+  move.update(one_of_keys({"target", "offset", "rotate", "keyframes"}));
 
-SchemaJson move_schema() {
-  return timed_move_schema("group");
-}
-
-SchemaJson event_schema() {
   const SchemaJson name = text_schema("name of a group or a force");
-  const SchemaJson group = text_schema("name of a group of positions or drags");
+  const SchemaJson group = schema_reference("moved_group");
   const SchemaJson index = {{"index", value_schema(OptionInfo{}, ConstraintNumbers{})}};
   const SchemaJson gravity = {{"anyOf", {schema_reference("vector"), {{"type", "null"}}}}};
-  const SchemaJson none = SchemaJson::object();
   SchemaJson release = timed_schema("release", group, joined(index, {{"vertices", schema_reference("selection")}}));
   release["allOf"].push_back(one_of_keys({"vertices", "index"}));
-  return {{"oneOf",
-           {change_schema(), timed_schema("settings", object_schema(options_properties<SolverSettings>()), none),
-            timed_schema("gravity", gravity, none), timed_schema("add", add_schema(), none),
-            timed_schema("remove", name, none), std::move(release), timed_move_schema("move"), follow_schema(),
-            timed_schema("stop", group, index)}}};
+  return {{"when", std::move(when)},
+          {"moved_group", text_schema("name of a group of positions or drags")},
+          {"move", std::move(move)},
+          {"timed_move", timed_move_schema("group")},
+          {"event",
+           {{"oneOf",
+             {change_schema(), timed_schema("settings", schema_reference("settings")), timed_schema("gravity", gravity),
+              timed_schema("add", add_schema()), timed_schema("remove", name), std::move(release),
+              timed_move_schema("move"), follow_schema(), timed_schema("stop", group, index)}}}}};
 }
 
 }  // namespace pliant

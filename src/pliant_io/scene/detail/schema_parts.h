@@ -6,13 +6,14 @@ namespace pliant {
 
 /// A string that means this.
 SchemaJson text_schema(std::string_view description);
+/// A mesh and a constraint of a body.
 SchemaJson mesh_schema();
-SchemaJson mesh_part_schema();
-SchemaJson mass_schema();
 SchemaJson constraint_schema();
-SchemaJson force_schema();
-/// Entries of "moves" and of "events".
-SchemaJson move_schema();
-SchemaJson event_schema();
+SchemaJson mass_schema();
+
+/// Definitions: what meshes, constraints and forces there are ("mesh", "mesh_part", "constraint", "force"), and entries
+/// of "moves" and "events" ("timed_move", "event").
+SchemaJson part_definitions();
+SchemaJson event_definitions();
 
 }  // namespace pliant

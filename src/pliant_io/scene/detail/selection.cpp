@@ -44,17 +44,21 @@ std::vector<Index> corners(const Positions& x) {
   });
 }
 
+/// How far beyond its limits "included" goes [m].
+Real slack_of(const SceneBody& body) {
+  const NearestVertex::Box bounds = body.places().bounds();
+  return tolerance * BoundingBox{bounds.min(), bounds.max()}.diagonal();
+}
+
 std::vector<Index> in_box(const Node& node, const SceneBody& body) {
   node.check_keys({"min", "max"});
   Vec3 min;
   Vec3 max;
   read(node.require("min"), min);
   read(node.require("max"), max);
-  if ((min.array() > max.array()).any()) node.fail("min is above max; exchange them");
-  const Real slack = tolerance * bounding_box(body.mesh.vertices).diagonal();
-  return vertices_where(body.mesh.vertices, [&](const Vec3& p) {
-    return (p.array() >= min.array() - slack).all() && (p.array() <= max.array() + slack).all();
-  });
+  if ((min.array() > max.array()).any()) node.fail("min is above max; swap them");
+  const Real slack = slack_of(body);
+  return body.places().inside((min.array() - slack).matrix(), (max.array() + slack).matrix());
 }
 
 std::vector<Index> in_half_space(const Node& node, const SceneBody& body) {
@@ -65,7 +69,7 @@ std::vector<Index> in_half_space(const Node& node, const SceneBody& body) {
   read(node.require("normal"), normal);
   const Real length = normal.stableNorm();
   if (!(length > 0)) node.require("normal").fail("a normal of length 0 has no direction; give another");
-  const Real slack = tolerance * bounding_box(body.mesh.vertices).diagonal();
+  const Real slack = slack_of(body);
   return vertices_where(body.mesh.vertices, [&](const Vec3& p) { return (p - point).dot(normal / length) >= -slack; });
 }
 
@@ -73,8 +77,46 @@ std::vector<Index> nearest(const Node& node, const SceneBody& body) {
   Points points;
   read(node, points);
   std::vector<Index> chosen;
-  const NearestVertex nearest_vertex(body.mesh.vertices);
-  for (const Vec3& point : points.list()) chosen.push_back(nearest_vertex(point));
+  for (const Vec3& point : points.list()) chosen.push_back(body.places()(point));
+  return chosen;
+}
+
+/// The number of the loop with the vertex nearest to a point; of several the first.
+std::size_t nearest_loop(const Node& node, const std::vector<std::vector<Index>>& loops, const Positions& x) {
+  node.check_keys({"nearest"});
+  Vec3 point;
+  read(node.require("nearest"), point);
+  std::size_t found = 0;
+  Real least = std::numeric_limits<Real>::infinity();
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    for (const Index vertex : loops[i]) {
+      const Real squared = (row(x, vertex) - point).squaredNorm();
+      if (squared < least) {
+        least = squared;
+        found = i;
+      }
+    }
+  }
+  return found;
+}
+
+std::vector<Index> in_boundary_loop(const Node& node, const SceneBody& body) {
+  std::vector<std::vector<Index>> loops = boundary_loops(boundary_edges(body.mesh));
+  if (loops.empty()) node.fail("the triangles of the body have no boundary; select its vertices in another way");
+  std::int64_t number = 0;
+  if (node.is_object()) {
+    number = static_cast<std::int64_t>(nearest_loop(node, loops, body.mesh.vertices));
+  } else {
+    if (!node.is_number()) node.fail_type("the number of a loop, or {\"nearest\": [x, y, z]}");
+    read(node, number);
+    if (number < 0 || number >= static_cast<std::int64_t>(loops.size())) {
+      node.fail(fmt::format("there is no boundary loop {}; the body has loops 0 to {}, as `pliant info` lists them",
+                            number, loops.size() - 1));
+    }
+  }
+  std::vector<Index> chosen = std::move(loops[static_cast<std::size_t>(number)]);
+  std::ranges::sort(chosen);
+  chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());  // a walk may cross itself
   return chosen;
 }
 
@@ -85,8 +127,8 @@ std::vector<Index> nearest(const Node& node, const SceneBody& body) {
   if (names.empty()) {
     node.fail("the mesh has no groups; select by place, name its parts, or take a mesh from OBJ that has some");
   }
-  node.fail(fmt::format("the mesh has no group, object, material or part '{}'; known, the nearest first: {}",
-                        printable(name), nearest_names_text(name, {names.begin(), names.end()})));
+  node.fail(fmt::format("the mesh has no group, object, material or part '{}'; {}", printable(name),
+                        suggestion_text(name, {names.begin(), names.end()})));
 }
 
 /// The corners of the faces in every group, object or material of that name, and the vertices of the part.
@@ -182,9 +224,9 @@ struct ByPlace {
 };
 constexpr std::array by_place = {
     ByPlace{"box", in_box},      ByPlace{"half_space", in_half_space},
-    ByPlace{"nearest", nearest}, ByPlace{"group", in_group},
-    ByPlace{"any_of", any_of},   ByPlace{"all_of", all_of},
-    ByPlace{"not", none_of},
+    ByPlace{"nearest", nearest}, ByPlace{"boundary_loop", in_boundary_loop},
+    ByPlace{"group", in_group},  ByPlace{"any_of", any_of},
+    ByPlace{"all_of", all_of},   ByPlace{"not", none_of},
 };
 
 std::vector<Index> named(const Node& node, const SceneBody& body) {
@@ -192,8 +234,8 @@ std::vector<Index> named(const Node& node, const SceneBody& body) {
   read(node, name);
   const auto found = std::ranges::find(by_name, std::string_view(name), &ByName::name);
   if (found == by_name.end()) {
-    node.fail(fmt::format("'{}' is no selection; known: {}, a list of vertices, {{\"box\": ...}}", printable(name),
-                          nearest_names_text(name, {"all", "boundary", "corners"})));
+    node.fail(fmt::format("unknown selection '{}'; {}, or give a list of vertices, {{\"box\": ...}}, ...",
+                          printable(name), suggestion_text(name, {"all", "boundary", "corners"})));
   }
   return found->choose(body);
 }

@@ -1,14 +1,21 @@
 #pragma once
 #include "pliant/core/options.h"
 #include "pliant/mesh/mesh.h"
+#include "pliant/mesh/nearest_vertex.h"
 #include "pliant_io/scene/detail/json_node.h"
 
 namespace pliant {
 
 /// A body as selections and options see it.
 struct SceneBody {
-  const Mesh& mesh;                ///< at rest, after the transform
-  const Positions& untransformed;  ///< the same vertices before it, m × 3 [m]
+  const Mesh& mesh;                     ///< at rest, after the transform
+  const Positions& untransformed;       ///< the same vertices before it, m × 3 [m]
+  std::optional<NearestVertex>& index;  ///< of mesh.vertices, made when it is first asked for
+
+  const NearestVertex& places() const {
+    if (!index) index.emplace(mesh.vertices);
+    return *index;
+  }
 };
 
 /// Reads which vertices are meant:
@@ -19,6 +26,8 @@ struct SceneBody {
 ///     {"box": {"min": [..], "max": [..]}}  in the box, faces included
 ///     {"half_space": {"point": [..], "normal": [..]}}   on the normal's side of the plane, the plane included
 ///     {"nearest": [..]}                    the vertex nearest to the point, or to each point of a list
+///     {"boundary_loop": 0}                 one line of the boundary, by its number in `pliant info`
+///     {"boundary_loop": {"nearest": [..]}} the one that comes nearest to the point with a vertex
 ///     {"group": "sleeve"}                  of the faces in a group, an object or a material of the mesh's file
 ///     {"map": .., "above": a, "below": b}  where a map (read_map.h) is above a and below b; one of the two will do
 ///     {"any_of": [..]}, {"all_of": [..]}, {"not": ..}   of selections
