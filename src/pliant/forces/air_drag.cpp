@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 
@@ -72,7 +73,8 @@ AirDrag::AirDrag(const SurfaceTriangles& surface, const Wind& options) : surface
 
 void AirDrag::begin_step(const StateView& state, Real time_step) {
   const Real step = state.inertia_step > 0 ? state.inertia_step : time_step;
-  set_stiffness(options_->drag / step);
+  // A step too short for the quotient ends as one too short for m/h² does, with the same message.
+  set_stiffness(std::min(options_->drag / step, std::numeric_limits<Real>::max()));
   gather_areas(state);
   const Vec3 way = step * air_velocity(*options_, state.time);
   for (std::size_t i = 0; i < vertices_.size(); ++i) centers_[i] = state.origin(vertices_[i]) + way;

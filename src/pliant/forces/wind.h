@@ -41,7 +41,7 @@ struct Wind {
           self.model);
     field(OptionInfo{"area", "", "A of a triangle: `current`, or at `rest`: then stretched cloth catches no more wind"},
           self.area);
-    field(OptionInfo{"drag", "kg/(m² s)", "c of the relative wind; doubling it doubles the force", not_negative},
+    field(OptionInfo{"drag", "kg/(m² s)", "c of the relative wind; doubling it doubles the force", Range{0, 1e9}},
           self.drag);
     field(OptionInfo{"gust_strength", "", "share of the velocity by which gusts vary it; 0: steady", Range{0, 1}},
           self.gust_strength);
