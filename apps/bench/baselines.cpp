@@ -122,7 +122,7 @@ class BaselineMaker {
     own.analyze(reference_.matrix);
     ThreadPool one_thread(1);
     SetUpTimes times;
-    const ConnectedParts nothing_is_free;
+    const Components nothing_is_free;
     own.factorize(reference_.matrix, settings.precision, {}, nothing_is_free, one_thread, times);
     const Positions b = right_hand_sides(reference_.matrix.size());
     Positions x = Positions::Zero(b.rows(), 3);

@@ -8,7 +8,7 @@
 #include "bench/solves.h"
 #include "bench/system.h"
 #include "pliant/core/version.h"
-#include "pliant/solver/global/factorization/sweeps.h"
+#include "pliant/solver/global/factorization/triangular_solve.h"
 
 namespace pliant_bench {
 Machine this_machine() {
@@ -17,7 +17,7 @@ Machine this_machine() {
           std::string(pliant::compiler),
           eigen_version(),
           cholmod_version(),
-          pliant::fastest_sweeps<float>().instruction_set,
+          pliant::fastest_triangular_solve<float>().instruction_set,
           utc_date()};
 }
 

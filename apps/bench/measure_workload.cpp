@@ -33,9 +33,9 @@ struct PhaseSamples {
   std::vector<Phase> phases(const Traffic& traffic) const {
     return {{"projections", projections.spread(), traffic.projections},
             {"gather", gather.spread(), traffic.gather},
-            {"forward sweep", forward.spread(), traffic.sweep},
-            {"backward sweep", backward.spread(), traffic.sweep},
-            {"solve", solve.spread(), 2 * traffic.sweep},
+            {"forward substitution", forward.spread(), traffic.substitution},
+            {"backward substitution", backward.spread(), traffic.substitution},
+            {"solve", solve.spread(), 2 * traffic.substitution},
             {"iteration", iteration.spread(), traffic.iteration()},
             {"step", step.spread()}};
   }

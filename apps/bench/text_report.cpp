@@ -36,7 +36,7 @@ std::string binary_size(std::int64_t bytes) {
 
 void print_machine(const BenchResult& result, Out out) {
   const Machine& machine = result.machine;
-  fmt::format_to(out, "pliant {}, {} UTC\n{}, {} in use; {}; Eigen {}, {}; sweeps for {}\n", pliant::version,
+  fmt::format_to(out, "pliant {}, {} UTC\n{}, {} in use; {}; Eigen {}, {}; triangular solves for {}\n", pliant::version,
                  machine.date, machine.processor,
                  machine.processors == 1 ? "1 processor" : fmt::format("{} processors", machine.processors),
                  machine.compiler, machine.eigen, machine.cholmod.empty() ? "no CHOLMOD" : "CHOLMOD " + machine.cholmod,

@@ -35,11 +35,11 @@ Traffic traffic_of(const Simulation& simulation, const SystemInfo& info) {
   traffic.projections = constraints + m * point + info.local_list_bytes + info.partial_bytes;
   // q, s, M/h² and the mark of held vertices in, r out
   traffic.gather = info.partial_list_bytes + info.partial_bytes + m * (2 * point + real + 1 + point);
-  const std::int64_t lanes = 4 * (info.precision == Precision::mixed ? 4 : 8);  // of a vertex in a sweep
-  traffic.sweep = info.sweep_bytes + m * (2 * lanes + point + index);
-  traffic.update = m * point;  // a sweep adds to it where it writes
+  const std::int64_t lanes = 4 * (info.precision == Precision::mixed ? 4 : 8);  // of a vertex in a substitution
+  traffic.substitution = info.substitution_bytes + m * (2 * lanes + point + index);
+  traffic.update = m * point;  // backward substitution adds to it where it writes
   traffic.working_set = constraints + info.local_list_bytes + info.partial_bytes + info.partial_list_bytes +
-                        info.sweep_bytes + m * (4 * point + lanes + real + 1 + index);
+                        info.substitution_bytes + m * (4 * point + lanes + real + 1 + index);
   return traffic;
 }
 

@@ -5,15 +5,15 @@
 namespace pliant_bench {
 
 /// What each phase of one iteration must read and write at least [bytes]: every number once, and the factor once in
-/// each sweep.
+/// each substitution.
 struct Traffic {
   std::int64_t projections = 0;
   std::int64_t gather = 0;
-  std::int64_t sweep = 0;        ///< forward with the way into the order of the factor, or backward with that back
-  std::int64_t update = 0;       ///< q += correction
-  std::int64_t working_set = 0;  ///< everything that an iteration touches
+  std::int64_t substitution = 0;  ///< forward or backward, with the permutation into or out of the factor's order
+  std::int64_t update = 0;        ///< q += correction
+  std::int64_t working_set = 0;   ///< everything that an iteration touches
 
-  std::int64_t iteration() const { return projections + gather + 2 * sweep + update; }
+  std::int64_t iteration() const { return projections + gather + 2 * substitution + update; }
 };
 
 Traffic traffic_of(const pliant::Simulation& simulation, const pliant::SystemInfo& info);

@@ -117,18 +117,18 @@ std::string steps_text(const pliant::SolverSettings& settings) {
 /// What a run would not refuse, but is seldom meant.
 std::vector<std::string> warnings_of(const Simulation& simulation, const SystemInfo& info) {
   std::vector<std::string> warnings = simulation.warnings();
-  for (const pliant::FreePart& part : info.free_parts) {
+  for (const pliant::FreeComponent& component : info.free_components) {
     const Body* owner = &simulation.bodies().front();
     for (const Body& body : simulation.bodies()) {
-      if (body.first_vertex <= part.first_vertex) owner = &body;
+      if (body.first_vertex <= component.first_vertex) owner = &body;
     }
     constexpr std::size_t shown = 20;
     if (warnings.size() >= simulation.warnings().size() + shown) {
-      warnings.push_back(fmt::format("and {} more parts that nothing holds", info.free_parts.size() - shown));
+      warnings.push_back(fmt::format("and {} more components that nothing holds", info.free_components.size() - shown));
       break;
     }
     warnings.push_back(fmt::format("nothing holds the {} vertices from vertex {} of '{}' on: they will move freely",
-                                   part.vertex_count, part.first_vertex - owner->first_vertex, owner->name));
+                                   component.vertex_count, component.first_vertex - owner->first_vertex, owner->name));
   }
   return warnings;
 }
@@ -173,39 +173,40 @@ Json describe(Scene& scene) {
   Json files = Json::array();
   for (const pliant::SceneFile& file : scene.files) files.push_back({{"path", file.path}, {"bytes", file.size}});
   const Index vertices = simulation.state().vertex_count();
-  return {{"scene", scene.name},
-          {"description", scene.description},
-          {"steps", scene.steps},
-          {"seconds", static_cast<Real>(scene.steps) * time_step},
-          {"time_step", time_step},
-          {"integrator", choice_names(settings.integrator)[static_cast<std::size_t>(settings.integrator)]},
-          {"substeps", settings.substeps},
-          {"step_text", steps_text(settings)},
-          {"iterations", simulation.settings().iterations},
-          {"backend", simulation.backend()},
-          {"bodies", describe_bodies(simulation)},
-          {"constraints", counts},
-          {"groups", describe_groups(simulation)},
-          {"forces", std::move(forces)},
-          {"events", scene.timeline.event_count()},
-          {"files", std::move(files)},
-          {"vertices", {{"all", vertices}, {"held", info.pinned_vertices}, {"free", vertices - info.pinned_vertices}}},
-          {"free_parts", info.free_parts.size()},
-          {"system",
-           {{"matrix_entries", info.matrix_entries},
-            {"factor_entries", info.factor_entries},
-            {"precision", choice_names(info.precision)[static_cast<std::size_t>(info.precision)]},
-            {"contraction", info.contraction},
-            {"bytes", info.bytes},
-            {"peak_memory", peak_memory()}}},
-          {"fastest_frequency",
-           {{"rad_per_s", info.fastest_frequency},
-            {"hz", info.fastest_frequency / (2 * std::numbers::pi)},
-            {"times_time_step", info.fastest_frequency * time_step},
-            {"loss_per_step", loss_per_step(info.fastest_frequency, settings)},
-            {"half_life_hz", half_life_frequency(settings)},
-            {"text", frequency_text(info, simulation)}}},
-          {"warnings", warnings_of(simulation, info)}};
+  return {
+      {"scene", scene.name},
+      {"description", scene.description},
+      {"steps", scene.steps},
+      {"seconds", static_cast<Real>(scene.steps) * time_step},
+      {"time_step", time_step},
+      {"integrator", choice_names(settings.integrator)[static_cast<std::size_t>(settings.integrator)]},
+      {"substeps", settings.substeps},
+      {"step_text", steps_text(settings)},
+      {"iterations", simulation.settings().iterations},
+      {"backend", simulation.backend()},
+      {"bodies", describe_bodies(simulation)},
+      {"constraints", counts},
+      {"groups", describe_groups(simulation)},
+      {"forces", std::move(forces)},
+      {"events", scene.timeline.event_count()},
+      {"files", std::move(files)},
+      {"vertices", {{"all", vertices}, {"pinned", info.pinned_vertices}, {"free", vertices - info.pinned_vertices}}},
+      {"free_components", info.free_components.size()},
+      {"system",
+       {{"matrix_entries", info.matrix_entries},
+        {"factor_entries", info.factor_entries},
+        {"precision", choice_names(info.precision)[static_cast<std::size_t>(info.precision)]},
+        {"contraction", info.contraction},
+        {"bytes", info.bytes},
+        {"peak_memory", peak_memory()}}},
+      {"fastest_frequency",
+       {{"rad_per_s", info.fastest_frequency},
+        {"hz", info.fastest_frequency / (2 * std::numbers::pi)},
+        {"times_time_step", info.fastest_frequency * time_step},
+        {"loss_per_step", loss_per_step(info.fastest_frequency, settings)},
+        {"half_life_hz", half_life_frequency(settings)},
+        {"text", frequency_text(info, simulation)}}},
+      {"warnings", warnings_of(simulation, info)}};
 }
 
 /// A value of the description, for the terminal.
@@ -241,8 +242,8 @@ void print_text(const Json& json) {
   for (const Json& force : json["forces"]) fmt::print(" {}", text_of(force));
   fmt::print("{}; events: {}\n", json["forces"].empty() ? " none" : "", json["events"].get<std::size_t>());
   const Json& vertices = json["vertices"];
-  fmt::print("vertices: {}, of which {} free and {} held\n", vertices["all"].get<Index>(),
-             vertices["free"].get<Index>(), vertices["held"].get<Index>());
+  fmt::print("vertices: {}, of which {} free and {} pinned\n", vertices["all"].get<Index>(),
+             vertices["free"].get<Index>(), vertices["pinned"].get<Index>());
   const Json& system = json["system"];
   fmt::print("system: {} non-zeros in the matrix, {} in the factor ({}, {}), {:.1f} MB; {:.0f} MB in all\n",
              system["matrix_entries"].get<std::int64_t>(), system["factor_entries"].get<std::int64_t>(),

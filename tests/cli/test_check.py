@@ -67,7 +67,7 @@ class Check(unittest.TestCase):
         self.assertEqual(info["constraints"], {"edge_spring": 1})
         self.assertEqual(info["system"]["matrix_entries"], 3)
         self.assertEqual(info["seconds"], 5)
-        self.assertEqual(info["free_parts"], 1)
+        self.assertEqual(info["free_components"], 1)
         self.assertIn("nothing holds the 2 vertices", info["warnings"][0])
 
     def test_values_are_set(self):

@@ -131,8 +131,8 @@ TEST_CASE("resume at every tenth step: the same bits") {
     check_resume(parse_scene(busy_scene, {}, "busy.json", {.set = set}));
     Scene scene = builtin("bar", {.steps = 60, .set = set});
     for (int i = 0; i < 40; ++i) scene.step();
-    const std::vector<Real>& debts = scene.simulation.state().energy_debts;
-    CHECK(std::ranges::any_of(debts, [](Real debt) { return debt > 0; }));
+    const std::vector<Real>& surplus = scene.simulation.state().energy_surplus;
+    CHECK(std::ranges::any_of(surplus, [](Real energy) { return energy > 0; }));
     check_resume(builtin("bar", {.steps = 60, .set = set}));
   }
 }

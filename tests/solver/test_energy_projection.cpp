@@ -147,7 +147,7 @@ TEST_CASE("a stiff box that turns about its middle axis turns over, and neither 
   CHECK(tumbling(0).first < 0.3);
 }
 
-TEST_CASE("each part keeps its own energy, also where their constraints are mixed") {
+TEST_CASE("each component keeps its own energy, also where their constraints are mixed") {
   // Two ropes in one mesh, their vertices in turn: one shaken, the other at rest.
   const auto ropes = [](bool is_shaken, bool is_moving) {
     Mesh mesh;
@@ -179,7 +179,7 @@ TEST_CASE("each part keeps its own energy, also where their constraints are mixe
   }
 }
 
-TEST_CASE("energies past all numbers leave no debt behind") {
+TEST_CASE("energies past all numbers leave no surplus behind") {
   Simulation simulation(keeping({.iterations = 4, .threads = 1}));
   BodyOptions options{.velocities = Positions::Constant(2, 3, 1e5)};
   const BodyId rod = simulation.add_body(chain({.links = 1}), Mass::per_vertex(1e300), options);
@@ -187,7 +187,7 @@ TEST_CASE("energies past all numbers leave no debt behind") {
   simulation.add(rod, Position{.on = {0}});
   for (int i = 0; i < 3; ++i) {
     simulation.step();
-    for (const Real debt : simulation.state().energy_debts) CHECK((debt >= 0 && std::isfinite(debt)));
+    for (const Real energy : simulation.state().energy_surplus) CHECK((energy >= 0 && std::isfinite(energy)));
   }
   CHECK_NOTHROW(simulation.restore(State(simulation.state())));
 }
@@ -225,7 +225,7 @@ TEST_CASE("few iterations: a stiff beam swings as it should, and what they gain 
   struct Swing {
     Real mean = 0;  // of the kinetic energy
     Real most = 0;
-    Real debt = 0;
+    Real surplus = 0;
   };
   const auto swing = [](Index iterations, Index substeps, Real share) {
     Simulation simulation(keeping({.substeps = substeps, .iterations = iterations, .threads = 1}, share));
@@ -238,8 +238,8 @@ TEST_CASE("few iterations: a stiff beam swings as it should, and what they gain 
       simulation.step();
       result.mean += kinetic(simulation) / 600;
       result.most = std::max(result.most, kinetic(simulation));
-      const std::vector<Real>& debts = simulation.state().energy_debts;
-      result.debt = std::max(result.debt, std::accumulate(debts.begin(), debts.end(), Real(0)));
+      const std::vector<Real>& surplus = simulation.state().energy_surplus;
+      result.surplus = std::max(result.surplus, std::accumulate(surplus.begin(), surplus.end(), Real(0)));
     }
     return result;
   };
@@ -251,9 +251,9 @@ TEST_CASE("few iterations: a stiff beam swings as it should, and what they gain 
     CHECK(coarse.most == doctest::Approx(fine.most).epsilon(0.1));
     CHECK(coarse.mean > 0.4 * fine.mean);
     CHECK(coarse.mean < 1.2 * fine.mean);
-    CHECK(coarse.debt < fine.most);
+    CHECK(coarse.surplus < fine.most);
   }
-  CHECK(swing(10, 1, 1).debt > 0);
+  CHECK(swing(10, 1, 1).surplus > 0);
 }
 
 TEST_CASE("everything at once stays calm, at any stiffness and time step") {
@@ -292,14 +292,14 @@ TEST_CASE("energy projection is switched on and off while it runs") {
   simulation.set_settings(settings);
   advance(simulation, 60);
   CHECK(total(simulation) < before - 0.01);
-  CHECK(simulation.state().energy_debts.empty());
+  CHECK(simulation.state().energy_surplus.empty());
 }
 
-TEST_CASE("debts that no step has made are refused") {
+TEST_CASE("a surplus that no step has made is refused") {
   Simulation simulation = swinging_rope(keeping({.iterations = 4, .threads = 1}));
   advance(simulation, 3);
   State state = simulation.state();
-  REQUIRE(state.energy_debts.size() == 9);
+  REQUIRE(state.energy_surplus.size() == 9);
   const auto refusal = [&] {
     try {
       simulation.restore(state);
@@ -310,12 +310,12 @@ TEST_CASE("debts that no step has made are refused") {
   };
   CHECK(refusal() == "(taken)");
   for (const Real wrong : {-1.0, std::nan(""), std::numeric_limits<Real>::infinity()}) {
-    state.energy_debts[2] = wrong;
-    CHECK(refusal().find("energy debts") != std::string::npos);
+    state.energy_surplus[2] = wrong;
+    CHECK(refusal().find("energy surplus") != std::string::npos);
   }
-  state.energy_debts = {0, 0};
-  CHECK(refusal().find("energy debts") != std::string::npos);
-  state.energy_debts.clear();
+  state.energy_surplus = {0, 0};
+  CHECK(refusal().find("energy surplus") != std::string::npos);
+  state.energy_surplus.clear();
   CHECK(refusal() == "(taken)");
 }
 

@@ -60,9 +60,9 @@ Eigen::MatrixXd random_matrix(Random& random, Index size, Real density) {
 template <class T>
 void check_panels(const Factorization& factorization, const Eigen::MatrixXd& dense, Random& random, Real tolerance) {
   ThreadPool threads(1);
-  for (const Sweeps<T>* sweeps : all_sweeps<T>()) {
-    CAPTURE(sweeps->instruction_set);
-    PanelFactor<T> panels(*sweeps);
+  for (const TriangularSolve<T>* solve : all_triangular_solves<T>()) {
+    CAPTURE(solve->instruction_set);
+    PanelFactor<T> panels(*solve);
     panels.lay_out(factorization.factor());
     panels.fill(factorization.factor(), dense.diagonal().maxCoeff(), threads);
     CHECK(panels.entry_count() >= static_cast<std::size_t>(dense.rows()));

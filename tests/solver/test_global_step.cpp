@@ -69,7 +69,7 @@ Positions solution(const Factorization& factorization, const Positions& b, int t
 
 struct Trial {
   GlobalStep step;
-  ConnectedParts parts;
+  Components components;
   std::vector<Real> weights;
   ThreadPool threads{2};
   SetUpTimes times;
@@ -77,12 +77,12 @@ struct Trial {
   Trial(const LowerMatrix& matrix, Precision precision, Real mass, Index free_size) {
     weights.assign(static_cast<std::size_t>(matrix.size()), mass);
     for (Index v = 0; free_size > 0 && v < matrix.size(); v += free_size) {
-      for (Index i = 0; i < free_size; ++i) parts.vertices.push_back(v + i);
-      parts.starts.push_back(parts.vertices.size());
+      for (Index i = 0; i < free_size; ++i) components.vertices.push_back(v + i);
+      components.starts.push_back(components.vertices.size());
     }
     step.set_factorization(make_factorization(Backend::automatic));
     step.analyze(matrix);
-    step.factorize(matrix, precision, weights, parts, threads, times);
+    step.factorize(matrix, precision, weights, components, threads, times);
   }
   Positions solve(const Positions& r) {
     Positions x(r.rows(), 3);
@@ -93,7 +93,7 @@ struct Trial {
 
 }  // namespace
 
-TEST_CASE("subtrees are swept by any number of threads to the same bits, in one stage or in several") {
+TEST_CASE("subtrees are solved by any number of threads to the same bits, in one stage or in several") {
   for (const auto& [size, backend] :
        {std::pair(90, Backend::automatic), std::pair(90, Backend::eigen), std::pair(260, Backend::automatic)}) {
     const LowerMatrix matrix = grid_matrix(size, 10, 100);
@@ -221,7 +221,7 @@ TEST_CASE("where single precision would cost iterations, double panels are taken
   CHECK(trial.solve(r) == asked.solve(r));
 }
 
-TEST_CASE("parts that nothing holds move as a whole exactly as the forces on them say") {
+TEST_CASE("components that nothing holds move as a whole exactly as the forces on them say") {
   const Real mass = 1e-3 / 64;  // 1 g at h = 8 s
   const LowerMatrix matrix = grid_matrix(20, mass, 1e7, 3);
   Trial trial(matrix, Precision::mixed, mass, 400);
@@ -229,9 +229,9 @@ TEST_CASE("parts that nothing holds move as a whole exactly as the forces on the
   Random random;
   const Positions r = random.positions(matrix.size(), 1);
   const Positions x = trial.solve(r);
-  for (std::size_t part = 0; part < 3; ++part) {
+  for (std::size_t i = 0; i < 3; ++i) {
     Vec3 force = Vec3::Zero(), moved = Vec3::Zero();
-    for (const Index v : trial.parts.part(part)) {
+    for (const Index v : trial.components.component(i)) {
       force += r.row(v).transpose();
       moved += mass * x.row(v).transpose();
     }

@@ -231,9 +231,9 @@ TEST_CASE("what is reported of a mesh in random order has the user's numbers") {
   const BodyId body = simulation.add_body(sheet(at_random()), Mass::total(1));
   simulation.add(body, EdgeSpring{.stiffness = 400});
   const SystemInfo info = simulation.system_info();
-  REQUIRE(info.free_parts.size() == 1);
-  CHECK(info.free_parts[0].first_vertex == 0);
-  CHECK(info.free_parts[0].vertex_count == side * side);
+  REQUIRE(info.free_components.size() == 1);
+  CHECK(info.free_components[0].first_vertex == 0);
+  CHECK(info.free_components[0].vertex_count == side * side);
   simulation.add(TestForce{.vertices = {50}, .force = Vec3(0, 1e200, 0), .frames = {1, TestForce::forever}});
   const State before = simulation.state();
   const std::string message = error_of([&] { advance(simulation, 3); }, ErrorKind::diverged);

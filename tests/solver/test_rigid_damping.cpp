@@ -79,7 +79,7 @@ TEST_CASE("damping leaves free fall as it is, and brings a shaken body to rest i
       RigidDamping damping;
       std::vector<Index> torus_vertices(72);
       for (Index i = 0; i < 72; ++i) torus_vertices[static_cast<std::size_t>(i)] = i;
-      damping.set_parts({torus_vertices, {0, 72}}, std::vector<char>(s.state().masses.size(), 0));
+      damping.set_components({torus_vertices, {0, 72}}, std::vector<char>(s.state().masses.size(), 0));
       Positions rigid = s.state().velocities;
       damping.apply(s.state().positions, s.state().masses, 0, rigid);
       return (s.state().velocities - rigid).topRows(72).norm();
@@ -91,7 +91,7 @@ TEST_CASE("damping leaves free fall as it is, and brings a shaken body to rest i
 TEST_CASE("rigid motions are not damped, whatever the shape") {
   const auto check = [](const Positions& x, const std::vector<Index>& vertices, const Vec3& omega) {
     RigidDamping damping;
-    damping.set_parts({vertices, {0, vertices.size()}}, std::vector<char>(static_cast<std::size_t>(x.rows()), 0));
+    damping.set_components({vertices, {0, vertices.size()}}, std::vector<char>(static_cast<std::size_t>(x.rows()), 0));
     const std::vector<Real> masses(static_cast<std::size_t>(x.rows()), 0.3);
     Positions v(x.rows(), 3);
     for (Index i = 0; i < static_cast<Index>(x.rows()); ++i)
@@ -111,12 +111,12 @@ TEST_CASE("rigid motions are not damped, whatever the shape") {
   check(far, {0, 1, 2, 3}, {1e-3, 2e-3, 3e-3});
 }
 
-TEST_CASE("held vertices keep their velocities, and count in the motion that is not damped") {
+TEST_CASE("pinned vertices keep their velocities, and count in the motion that is not damped") {
   RigidDamping damping;
-  damping.set_parts({{0, 1}, {0, 2}}, {1, 0});
+  damping.set_components({{0, 1}, {0, 2}}, {1, 0});
   Positions x(2, 3), v(2, 3);
   x << 0, 0, 0, 1, 0, 0;
-  v << 0, 0, 0, 2, 4, 0;  // it goes away from the held one, and round it
+  v << 0, 0, 0, 2, 4, 0;  // it goes away from the pinned one, and round it
   damping.apply(x, std::vector<Real>{1, 1}, 0, v);
   CHECK(row(v, 0) == Vec3(0, 0, 0));
   CHECK((row(v, 1) - Vec3(1, 4, 0)).norm() < 1e-14);

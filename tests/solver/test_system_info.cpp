@@ -23,8 +23,8 @@ TEST_CASE("one spring between two masses: ω² = k (1/m + 1/m)") {
   CHECK(info.matrix_entries == 3);
   CHECK(info.factor_entries >= 3);
   CHECK(info.pinned_vertices == 0);
-  REQUIRE(info.free_parts.size() == 1);
-  CHECK(info.free_parts[0].vertex_count == 2);
+  REQUIRE(info.free_components.size() == 1);
+  CHECK(info.free_components[0].vertex_count == 2);
 }
 
 TEST_CASE("a chain of equal springs, held at one end") {
@@ -38,7 +38,7 @@ TEST_CASE("a chain of equal springs, held at one end") {
   const Real expected = 2 * std::sqrt(1000 / 0.1) * std::sin((2 * n - 1) * std::numbers::pi / (2 * (2 * n + 1)));
   CHECK(info.fastest_frequency == doctest::Approx(expected).epsilon(1e-6));
   CHECK(info.pinned_vertices == 1);
-  CHECK(info.free_parts.empty());
+  CHECK(info.free_components.empty());
 }
 
 TEST_CASE("the time step does not change it, however short") {
@@ -55,7 +55,7 @@ TEST_CASE("the time step does not change it, however short") {
   }
 }
 
-TEST_CASE("parts that nothing holds, and those that something does") {
+TEST_CASE("components that nothing holds, and those that something does") {
   Simulation simulation;
   const BodyId held = simulation.add_body(grid({.columns = 3, .rows = 3}), Mass::total(1));
   simulation.add(held, EdgeSpring{});
@@ -68,21 +68,21 @@ TEST_CASE("parts that nothing holds, and those that something does") {
   const BodyId loose = simulation.add_body(chain({.links = 4}), Mass::total(1));
   simulation.add(loose, EdgeSpring{.on = {0, 1, 2}});
   const SystemInfo info = simulation.system_info();
-  REQUIRE(info.free_parts.size() == 3);
-  CHECK(info.free_parts[0].first_vertex == 12);
-  CHECK(info.free_parts[0].vertex_count == 3);
-  CHECK(info.free_parts[1].first_vertex == 15);
-  CHECK(info.free_parts[1].vertex_count == 1);
+  REQUIRE(info.free_components.size() == 3);
+  CHECK(info.free_components[0].first_vertex == 12);
+  CHECK(info.free_components[0].vertex_count == 3);
+  CHECK(info.free_components[1].first_vertex == 15);
+  CHECK(info.free_components[1].vertex_count == 1);
 }
 
 TEST_CASE("no constraints, all vertices held, and numbers beyond all bounds") {
   Simulation none;
   const BodyId body = none.add_body(grid({.columns = 3, .rows = 3}), Mass::total(1));
   CHECK(none.system_info().fastest_frequency == 0);
-  CHECK(none.system_info().free_parts.size() == 9);
+  CHECK(none.system_info().free_components.size() == 9);
   none.add(body, Position{});
   CHECK(none.system_info().fastest_frequency == 0);
-  CHECK(none.system_info().free_parts.empty());
+  CHECK(none.system_info().free_components.empty());
 }
 
 TEST_CASE("asking changes no step") {

@@ -36,12 +36,14 @@ void append(Positions& x, const Positions& more) {
   x.bottomRows(more.rows()) = more;
 }
 
-void check_debts(const State& state) {
-  const auto is_debt = [](Real energy) { return energy >= 0 && std::isfinite(energy); };
-  if (state.energy_debts.empty()) return;
-  if (state.energy_debts.size() == state.masses.size() && std::ranges::all_of(state.energy_debts, is_debt)) return;
+void check_surplus(const State& state) {
+  const auto is_surplus = [](Real energy) { return energy >= 0 && std::isfinite(energy); };
+  if (state.energy_surplus.empty()) return;
+  if (state.energy_surplus.size() == state.masses.size() && std::ranges::all_of(state.energy_surplus, is_surplus))
+    return;
   fail_input(
-      "restore: the energy debts are not one for each vertex, 0 or more; give a state that state() has returned");
+      "restore: the energy surplus is not one number for each vertex, 0 or more; give a state that state() has "
+      "returned");
 }
 
 }  // namespace
@@ -70,7 +72,7 @@ BodyId Simulation::add_body(Mesh mesh, const Mass& mass, BodyOptions options) {
   append(state_.velocities, velocities);
   state_.previous_time_step = 0;
   state_.masses.insert(state_.masses.end(), masses.begin(), masses.end());
-  if (!state_.energy_debts.empty()) state_.energy_debts.resize(state_.masses.size(), 0);
+  if (!state_.energy_surplus.empty()) state_.energy_surplus.resize(state_.masses.size(), 0);
   bodies_.push_back({std::move(options.name), std::move(mesh), first_vertex});
   groups_changed_ = true;
   return BodyId(static_cast<Index>(bodies_.size()) - 1);
@@ -177,7 +179,7 @@ void Simulation::set_state(const Positions& positions, const Positions& velociti
   state_.positions = positions;
   state_.velocities = velocities;
   state_.previous_time_step = 0;
-  state_.energy_debts.clear();
+  state_.energy_surplus.clear();
   solver_->forget_prediction();
 }
 
@@ -197,7 +199,7 @@ void Simulation::restore(const State& state) {
     check_rows(state.previous_positions, state_.vertex_count(), "restore: previous positions");
     check_rows(state.previous_velocities, state_.vertex_count(), "restore: previous velocities");
   }
-  check_debts(state);
+  check_surplus(state);
   if (undo_ != nullptr) undo_->save_state();
   state_ = state;
   if (state_.previous_time_step == 0) {

@@ -157,22 +157,22 @@ void Solver::build_layout() {
   for (const ConstraintGroup* group : groups) {
     for (const Index vertex : group->pinned_vertices()) is_pinned_[static_cast<std::size_t>(vertex)] = 1;
   }
-  lay_out_parts(groups);
+  lay_out_components(groups);
   groups_laid_out_ = true;
   factor_step_ = 0;
 }
 
-void Solver::lay_out_parts(std::span<ConstraintGroup* const> groups) {
-  ConnectedParts parts = find_parts(system_matrix_.matrix());
-  free_parts_ = find_free_parts(parts, groups, is_pinned_);
-  energy_.set_parts(parts, free_parts_, is_pinned_);
-  local_step_.set_parts(energy_.part_of_vertex());
-  for (Index& vertex : parts.vertices) vertex = local_groups_.vertex(vertex);
+void Solver::lay_out_components(std::span<ConstraintGroup* const> groups) {
+  Components components = find_components(system_matrix_.matrix());
+  free_components_ = find_free_components(components, groups, is_pinned_);
+  energy_.set_components(components, free_components_, is_pinned_);
+  local_step_.set_components(energy_.component_of_vertex());
+  for (Index& vertex : components.vertices) vertex = local_groups_.vertex(vertex);
   std::vector<char> is_pinned(is_pinned_.size());
   for (std::size_t i = 0; i < is_pinned.size(); ++i) {
     is_pinned[static_cast<std::size_t>(local_groups_.vertex(static_cast<Index>(i)))] = is_pinned_[i];
   }
-  damping_.set_parts(std::move(parts), std::move(is_pinned));
+  damping_.set_components(std::move(components), std::move(is_pinned));
 }
 
 void Solver::weigh_inertia(const State& state, Real step) {
@@ -199,8 +199,8 @@ void Solver::factorize(const State& state, SetUpTimes& times) {
   if (!pattern_analyzed_) global_step_.analyze(system_matrix_.matrix());
   pattern_analyzed_ = true;
   times.symbolic = watch.lap();
-  global_step_.factorize(system_matrix_.matrix(), settings_.precision, translation_weights_, free_parts_, *threads_,
-                         times);
+  global_step_.factorize(system_matrix_.matrix(), settings_.precision, translation_weights_, free_components_,
+                         *threads_, times);
   factor_step_ = step;
 }
 

@@ -69,9 +69,9 @@ class Solver {
   struct EnergyWork {
     Positions velocities, elastic_forces, outside, not_conservative, direction;
     Positions applied, end_positions, end_velocities, end_force;  // order of the simulation
-    std::vector<Real> elastic;                                    // of each part
-    std::vector<Real> debts, no_weights, slot;
-    std::vector<char> none_held;
+    std::vector<Real> elastic;                                    // of each component
+    std::vector<Real> surplus, no_weights, slot;
+    std::vector<char> none_pinned;
   };
 
   void take_substep(State& state, StepReport& report);
@@ -82,7 +82,7 @@ class Solver {
   void choose_order();
   void begin_groups(const State& state);
   void start_threads(Index asked);
-  void lay_out_parts(std::span<ConstraintGroup* const> groups);
+  void lay_out_components(std::span<ConstraintGroup* const> groups);
   void weigh_inertia(const State& state, Real step);
   void factorize(const State& state, SetUpTimes& times);
   bool groups_changed() const;
@@ -131,11 +131,11 @@ class Solver {
   bool pattern_analyzed_ = false;
 
   std::vector<char> is_pinned_;
-  ConnectedParts free_parts_;
+  Components free_components_;
   std::vector<Real> masses_;
-  std::vector<Real> inertia_weights_;  // M/η², 0 at held vertices
+  std::vector<Real> inertia_weights_;  // M/η², 0 at pinned vertices
   std::vector<Real>
-      translation_weights_;  // the same and what forces' groups add: Y as a translation of a part feels it
+      translation_weights_;  // the same and what forces' groups add: Y as a translation of a component feels it
   Real predicted_step_ = 0;  // η of s_; 0: s_ does not belong to the state
   Positions s_, q_, residual_;
   Positions force_;  // in the order of the simulation, as are the two that follow
@@ -143,7 +143,7 @@ class Solver {
   EnergyProjection energy_;
   EnergyWork energy_work_;
   State step_start_;           // of a step with substeps
-  Real substep_fraction_ = 1;  // of the way to their targets that pinned vertices have gone with the substep under way
+  Real substep_fraction_ = 1;  // of the path to their targets that pinned vertices have gone at the end of the substep
   std::vector<Real> history_;
 };
 

@@ -18,9 +18,9 @@ struct State {
   Positions previous_velocities{};
   Real previous_time_step = 0;  ///< [s]
 
-  /// What energy projection has let parts have too much and does not give them back, at one vertex of each, m numbers
-  /// [J]; empty: nothing.
-  std::vector<Real> energy_debts{};
+  /// What energy projection has let components have too much and does not give them back, at one vertex of each, m
+  /// numbers [J]; empty: nothing.
+  std::vector<Real> energy_surplus{};
 
   Index vertex_count() const { return static_cast<Index>(positions.rows()); }
   StateView view() const { return {positions, velocities, masses, step, time}; }
@@ -28,8 +28,8 @@ struct State {
 
 /// Where the time of the global solves goes [s].
 struct SolveTimes {
-  double forward = 0;   ///< with the way into the order of the factor
-  double backward = 0;  ///< with the way back
+  double forward = 0;   ///< with the permutation into the order of the factor
+  double backward = 0;  ///< with the permutation back
 
   SolveTimes& operator+=(const SolveTimes& other) {
     forward += other.forward;
@@ -64,7 +64,7 @@ struct StepReport {
 
 /// The objective at the positions that the last step ended with; energy projection has moved them past its minimum.
 struct Evaluation {
-  Real residual = 0;  ///< largest force left on a vertex that is not held [N]
+  Real residual = 0;  ///< largest force left on a vertex that is not pinned [N]
   Real inertia = 0;   ///< 1/(2h²) ‖M^½ (q − s)‖² [J], with 2h/3 for h in BDF2
   Real elastic = 0;   ///< Σ wᵢ/2 ‖zᵢ − pᵢ‖² [J]
   Real outside = 0;   ///< the same of what forces bring inside the minimization, as the wind does [J]

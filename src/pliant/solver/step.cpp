@@ -151,7 +151,7 @@ void Solver::commit(State& state) {
   if (projects_energy()) {
     commit_energy(state);
   } else {
-    state.energy_debts.clear();
+    state.energy_surplus.clear();
   }
   state.previous_time_step = is_bdf2 ? substep() : 0;
   if (settings_.damping > 0) damp(state);

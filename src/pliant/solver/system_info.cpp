@@ -13,7 +13,7 @@ namespace {
 
 using Vector = Eigen::VectorX<Real>;
 
-/// y = M^-½ K M^-½ x, where `scale` is M^-½, and 0 at held vertices.
+/// y = M^-½ K M^-½ x, where `scale` is M^-½, and 0 at pinned vertices.
 void multiply(const LowerMatrix& K, const Vector& scale, const Vector& x, Vector& y) {
   y.setZero();
   for (Index column = 0; column < K.size(); ++column) {
@@ -70,17 +70,17 @@ SystemInfo Solver::system_info(const State& state) {
   global_step_.describe(info);
   local_step_.describe(info);
   constexpr auto entry_bytes = static_cast<std::int64_t>(sizeof(Real) + sizeof(Index));
-  info.bytes = info.matrix_entries * entry_bytes + info.sweep_bytes;
-  info.pinned_vertices = static_cast<Index>(std::ranges::count_if(is_pinned_, [](char held) { return held != 0; }));
+  info.bytes = info.matrix_entries * entry_bytes + info.substitution_bytes;
+  info.pinned_vertices = static_cast<Index>(std::ranges::count_if(is_pinned_, [](char pinned) { return pinned != 0; }));
 
-  for (std::size_t i = 0; i < free_parts_.count(); ++i) {
-    const std::span<const Index> part = free_parts_.part(i);
+  for (std::size_t i = 0; i < free_components_.count(); ++i) {
+    const std::span<const Index> component = free_components_.component(i);
     Index first = vertex_count_;
-    for (const Index vertex : part) first = std::min(first, local_groups_.vertex(vertex));
-    info.free_parts.push_back({first, static_cast<Index>(part.size())});
+    for (const Index vertex : component) first = std::min(first, local_groups_.vertex(vertex));
+    info.free_components.push_back({first, static_cast<Index>(component.size())});
   }
 
-  std::ranges::sort(info.free_parts, {}, &FreePart::first_vertex);
+  std::ranges::sort(info.free_components, {}, &FreeComponent::first_vertex);
 
   SystemMatrix elastic = system_matrix_;
   elastic.assemble(masses_, std::numeric_limits<Real>::infinity(), local_groups_.in_use(),

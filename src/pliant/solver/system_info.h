@@ -4,8 +4,8 @@
 
 namespace pliant {
 
-/// A part of a simulation that nothing holds: no pin, drag or line, not even a soft one.
-struct FreePart {
+/// A connected component that nothing holds: no pin, drag or line, not even a soft one.
+struct FreeComponent {
   Index first_vertex = 0;  ///< the lowest of its vertices
   Index vertex_count = 0;
 };
@@ -14,7 +14,7 @@ struct SystemInfo {
   std::int64_t matrix_entries = 0;           ///< non-zeros of the lower triangle with the diagonal
   std::int64_t factor_entries = 0;           ///< of L, the zeros that panels carry along included
   std::int64_t supernodes = 0;               ///< panels of L
-  std::int64_t sweep_bytes = 0;              ///< that one of the two sweeps of a solve reads of L
+  std::int64_t substitution_bytes = 0;       ///< that one of the two substitutions of a solve reads of L
   std::int64_t local_list_bytes = 0;         ///< of the lists by which chunks of constraints collect for vertices
   std::int64_t partial_bytes = 0;            ///< that chunks write for vertices, which these then read
   std::int64_t partial_list_bytes = 0;       ///< of the lists by which vertices read them
@@ -22,9 +22,9 @@ struct SystemInfo {
   Precision precision = Precision::double_;  ///< of the panels in use
   Real contraction = 0;       ///< of single precision: the share of an error that a solve leaves; 0 when not asked for
   Index pinned_vertices = 0;  ///< by hard pins; the others are free
-  std::vector<FreePart> free_parts;
+  std::vector<FreeComponent> free_components;
   /// √λ_max(M⁻¹K) [rad/s], K the sum of the constraints' matrices on the free vertices: no vibration is faster. From
-  /// below, to about a part in a thousand.
+  /// below, to about 0.1 %.
   Real fastest_frequency = 0;
 };
 

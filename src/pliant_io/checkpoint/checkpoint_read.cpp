@@ -221,9 +221,9 @@ State read_state(const Node& node, const State& fresh) {
     for (Positions* rows : {&state.previous_positions, &state.previous_velocities}) rows->resizeLike(state.positions);
     read_rows(*previous, state.previous_positions, state.previous_velocities);
   }
-  if (const auto debts = node.find("energy_surplus")) {
-    state.energy_debts.resize(state.masses.size());
-    read_numbers(*debts, state.energy_debts);
+  if (const auto surplus = node.find("energy_surplus")) {
+    state.energy_surplus.resize(state.masses.size());
+    read_numbers(*surplus, state.energy_surplus);
   }
   return state;
 }

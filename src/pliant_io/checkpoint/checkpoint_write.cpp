@@ -85,7 +85,7 @@ Json write_state(const State& state) {
                         {"positions", bytes_of(state.previous_positions)},
                         {"velocities", bytes_of(state.previous_velocities)}};
   }
-  if (!state.energy_debts.empty()) json["energy_surplus"] = bytes_of(state.energy_debts);
+  if (!state.energy_surplus.empty()) json["energy_surplus"] = bytes_of(state.energy_surplus);
   return json;
 }
 

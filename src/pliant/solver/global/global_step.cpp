@@ -54,11 +54,11 @@ void GlobalStep::analyze(const LowerMatrix& matrix) {
 }
 
 void GlobalStep::factorize(const LowerMatrix& matrix, Precision precision, std::span<const Real> weights,
-                           const ConnectedParts& parts, ThreadPool& threads, SetUpTimes& times) {
+                           const Components& components, ThreadPool& threads, SetUpTimes& times) {
   Stopwatch watch;
   weights_ = weights;
-  parts_ = &parts;
-  correction_.resize(parts.count() == 0 ? 0 : matrix.size(), 3);
+  components_ = &components;
+  correction_.resize(components.count() == 0 ? 0 : matrix.size(), 3);
   contraction_ = 0;
   factorization_->factorize(matrix);
   times.numeric = watch.lap();
@@ -100,7 +100,7 @@ SolveTimes GlobalStep::solve(const Positions& r, Real largest, Positions& x, Thr
 }
 
 SolveTimes GlobalStep::move(const Positions& r, Real largest, Positions& q, ThreadPool& threads) {
-  if (parts_->count() == 0) {
+  if (components_->count() == 0) {
     return visit_panels([&](auto& panels) { return panels.solve(r, largest, q, threads, Store::onto); });
   }
   const SolveTimes times = solve(r, largest, correction_, threads);
@@ -108,19 +108,19 @@ SolveTimes GlobalStep::move(const Positions& r, Real largest, Positions& q, Thre
   return times;
 }
 
-/// On a part that nothing holds, Σ w x = Σ r exactly with w = M/h² and what forces' groups add to it, since no
+/// On a component that nothing holds, Σ w x = Σ r exactly with w = M/h² and what forces' groups add to it, since no
 /// constraint resists its translation; the factor alone is not that exact.
 void GlobalStep::correct_means(const Positions& r, Positions& x) const {
-  for (std::size_t i = 0; i < parts_->count(); ++i) {
+  for (std::size_t i = 0; i < components_->count(); ++i) {
     Vec3 missing = Vec3::Zero();
     Real weight = 0;
-    for (const Index v : parts_->part(i)) {
+    for (const Index v : components_->component(i)) {
       const Real w = weights_[static_cast<std::size_t>(v)];
       missing += r.row(v).transpose() - w * x.row(v).transpose();
       weight += w;
     }
     const Vec3 shift = missing / weight;
-    for (const Index v : parts_->part(i)) x.row(v) += shift.transpose();
+    for (const Index v : components_->component(i)) x.row(v) += shift.transpose();
   }
 }
 
@@ -147,7 +147,7 @@ void GlobalStep::describe(SystemInfo& info) const {
   const auto take = [&info](const auto& panels) {
     info.factor_entries = static_cast<std::int64_t>(panels.entry_count());
     info.supernodes = panels.panel_count();
-    info.sweep_bytes = static_cast<std::int64_t>(panels.sweep_bytes());
+    info.substitution_bytes = static_cast<std::int64_t>(panels.substitution_bytes());
   };
   if (precision_ == Precision::double_) {
     take(double_);

@@ -1,7 +1,7 @@
 #pragma once
 // The global step: x = Y⁻¹ r, as exactly as the factor is. In residual form the factor is a preconditioner: one in
 // single precision changes the speed of convergence, not what is converged to.
-#include "pliant/solver/global/connected_parts.h"
+#include "pliant/solver/global/components.h"
 #include "pliant/solver/global/factorization/factorization.h"
 #include "pliant/solver/global/factorization/panel_factor.h"
 #include "pliant/solver/system_info.h"
@@ -18,11 +18,11 @@ class GlobalStep {
   /// Finds the ordering for the pattern of a matrix.
   void analyze(const LowerMatrix& matrix);
 
-  /// Factorizes a matrix of the pattern analyzed last. weights: M/h² of each vertex, 0 at held ones; parts: those that
-  /// nothing holds. Both must outlive the solves. Panels are in single precision when asked for and when it does.
-  /// Throws Error(input) when the matrix is not positive definite.
+  /// Factorizes a matrix of the pattern analyzed last. weights: M/h² of each vertex, 0 at pinned ones; components:
+  /// those that nothing holds. Both must outlive the solves. Panels are in single precision when asked for and when it
+  /// does. Throws Error(input) when the matrix is not positive definite.
   void factorize(const LowerMatrix& matrix, Precision precision, std::span<const Real> weights,
-                 const ConnectedParts& parts, ThreadPool& threads, SetUpTimes& times);
+                 const Components& components, ThreadPool& threads, SetUpTimes& times);
 
   /// r, x: m × 3. largest: about the largest number in r. Never allocates.
   SolveTimes solve(const Positions& r, Real largest, Positions& x, ThreadPool& threads);
@@ -49,8 +49,8 @@ class GlobalStep {
   Precision precision_ = Precision::double_;
   Real contraction_ = 0;
   std::span<const Real> weights_;
-  const ConnectedParts* parts_ = nullptr;
-  Positions correction_;              // of free parts
+  const Components* components_ = nullptr;
+  Positions correction_;              // of free components
   Positions trial_, image_, solved_;  // of the estimate
 };
 

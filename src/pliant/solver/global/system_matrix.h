@@ -3,7 +3,7 @@
 //
 // Each group keeps its matrix at unit stiffness, L_g = Σ measureᵢ SᵢᵀAᵢᵀAᵢSᵢ, on the union of all patterns. A changed
 // stiffness or time step sums them anew: no entry is ever subtracted, and the pattern, hence the symbolic analysis,
-// stays. Held vertices keep their rows and columns in the pattern, emptied but for the diagonal, so that pinning and
+// stays. Pinned vertices keep their rows and columns in the pattern, emptied but for the diagonal, so that pinning and
 // releasing costs a numeric factorization alone.
 #include "pliant/constraints/constraint_group.h"
 

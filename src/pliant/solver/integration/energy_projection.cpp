@@ -31,45 +31,45 @@ Real turning_energy(const Mat3& inertia, const Vec3& angular_momentum) {
 
 }  // namespace
 
-void EnergyProjection::set_parts(ConnectedParts parts, const ConnectedParts& free_parts,
-                                 std::span<const char> is_pinned) {
-  parts_ = std::move(parts);
+void EnergyProjection::set_components(Components components, const Components& free_components,
+                                      std::span<const char> is_pinned) {
+  components_ = std::move(components);
   is_pinned_.assign(is_pinned.begin(), is_pinned.end());
-  part_of_vertex_.resize(is_pinned.size());
-  for (std::size_t p = 0; p < parts_.count(); ++p) {
-    for (const Index v : parts_.part(p)) part_of_vertex_[at(v)] = static_cast<Index>(p);
+  component_of_vertex_.resize(is_pinned.size());
+  for (std::size_t p = 0; p < components_.count(); ++p) {
+    for (const Index v : components_.component(p)) component_of_vertex_[at(v)] = static_cast<Index>(p);
   }
-  is_free_.assign(parts_.count(), 0);
-  for (std::size_t i = 0; i < free_parts.count(); ++i) {
-    is_free_[at(part_of_vertex_[at(free_parts.part(i).front())])] = 1;
+  is_free_.assign(components_.count(), 0);
+  for (std::size_t i = 0; i < free_components.count(); ++i) {
+    is_free_[at(component_of_vertex_[at(free_components.component(i).front())])] = 1;
   }
-  balances_.resize(parts_.count());
+  balances_.resize(components_.count());
 }
 
-/// All zero where something holds the part.
-RigidMotion EnergyProjection::rigid_motion(std::size_t part, const Positions& positions,
+/// All zero where something holds the component.
+RigidMotion EnergyProjection::rigid_motion(std::size_t component, const Positions& positions,
                                            const Positions& velocities) const {
-  if (!is_free_[part]) return {};
-  return fit_rigid_motion(parts_.part(part), positions, masses_, velocities);
+  if (!is_free_[component]) return {};
+  return fit_rigid_motion(components_.component(component), positions, masses_, velocities);
 }
 
 /// Σ m/2 ‖v − v_rigid‖² [J]
-Real EnergyProjection::non_rigid_energy(std::size_t part, const RigidMotion& rigid, const Positions& positions,
+Real EnergyProjection::non_rigid_energy(std::size_t component, const RigidMotion& rigid, const Positions& positions,
                                         const Positions& velocities) const {
   Real energy = 0;
-  for (const Index v : parts_.part(part)) {
+  for (const Index v : components_.component(component)) {
     if (is_pinned_[at(v)]) continue;
     energy += masses_[at(v)] / 2 * (row(velocities, v) - rigid.velocity_at(row(positions, v))).squaredNorm();
   }
   return energy;
 }
 
-void EnergyProjection::begin(const StepEnd& begin, std::span<const Real> masses, std::span<const Real> debts) {
+void EnergyProjection::begin(const StepEnd& begin, std::span<const Real> masses, std::span<const Real> surplus) {
   masses_ = masses;
   positions_ = begin.positions;
   velocities_ = begin.velocities;
   elastic_forces_ = begin.elastic_forces;
-  for (std::size_t p = 0; p < parts_.count(); ++p) {
+  for (std::size_t p = 0; p < components_.count(); ++p) {
     const RigidMotion rigid = rigid_motion(p, positions_, velocities_);
     Balance& balance = balances_[p];
     balance.target = begin.elastic[p] + non_rigid_energy(p, rigid, positions_, velocities_) +
@@ -77,25 +77,25 @@ void EnergyProjection::begin(const StepEnd& begin, std::span<const Real> masses,
     balance.center = rigid.center;
     balance.velocity = rigid.velocity;
     balance.angular_momentum = rigid.angular_momentum;
-    balance.debt = 0;
-    for (const Index v : parts_.part(p)) balance.debt += debts.empty() ? 0 : debts[at(v)];
+    balance.surplus = 0;
+    for (const Index v : components_.component(p)) balance.surplus += surplus.empty() ? 0 : surplus[at(v)];
   }
 }
 
 void EnergyProjection::balance(const StepEnd& end, const OutsideForces& outside, Real h, Real share,
                                Positions& forces) {
-  for (std::size_t p = 0; p < parts_.count(); ++p) {
-    balance_part(p, end, outside, h, share);
+  for (std::size_t p = 0; p < components_.count(); ++p) {
+    balance_component(p, end, outside, h, share);
     write_forces(p, end, outside, forces);
   }
 }
 
-EnergyProjection::Work EnergyProjection::outside_work(std::size_t part, const RigidMotion& rigid, const StepEnd& end,
-                                                      const OutsideForces& outside) const {
-  const Balance& balance = balances_[part];
+EnergyProjection::Work EnergyProjection::outside_work(std::size_t component, const RigidMotion& rigid,
+                                                      const StepEnd& end, const OutsideForces& outside) const {
+  const Balance& balance = balances_[component];
   const Vec3 shift = rigid.center - balance.center;
   Work work;
-  for (const Index v : parts_.part(part)) {
+  for (const Index v : components_.component(component)) {
     const Vec3 displacement = row(end.positions, v) - row(positions_, v);
     if (is_pinned_[at(v)]) {
       work.add(-(row(elastic_forces_, v) + row(end.elastic_forces, v)).dot(displacement) / 2);
@@ -104,54 +104,55 @@ EnergyProjection::Work EnergyProjection::outside_work(std::size_t part, const Ri
     const Vec3 force = row(outside.all, v);
     work.add(force.dot(displacement - shift));
     work.braked -= std::min(Real(0), row(outside.not_conservative, v).dot(displacement - shift));
-    if (!is_free_[part]) continue;
+    if (!is_free_[component]) continue;
     const Vec3 arm = (row(positions_, v) + row(end.positions, v) - balance.center - rigid.center) / 2;
     work.torque += arm.cross(force);
   }
   return work;
 }
 
-void EnergyProjection::balance_part(std::size_t part, const StepEnd& end, const OutsideForces& outside, Real h,
-                                    Real share) {
-  const RigidMotion rigid = rigid_motion(part, end.positions, end.velocities);
-  const Work work = outside_work(part, rigid, end, outside);
-  const Real energy = end.elastic[part] + non_rigid_energy(part, rigid, end.positions, end.velocities) +
+void EnergyProjection::balance_component(std::size_t component, const StepEnd& end, const OutsideForces& outside,
+                                         Real h, Real share) {
+  const RigidMotion rigid = rigid_motion(component, end.positions, end.velocities);
+  const Work work = outside_work(component, rigid, end, outside);
+  const Real energy = end.elastic[component] + non_rigid_energy(component, rigid, end.positions, end.velocities) +
                       turning_energy(rigid.inertia, rigid.angular_momentum);
-  Balance& balance = balances_[part];
+  Balance& balance = balances_[component];
   balance.noise = rounding * (balance.target + work.size + energy);
-  if (work.braked > 0) balance.debt *= std::max(Real(0), 1 - work.braked / balance.target);  // its share of it
+  if (work.braked > 0) balance.surplus *= std::max(Real(0), 1 - work.braked / balance.target);  // its share of it
   const Real missing = balance.target + work.sum - energy;
-  const Real owed = missing > 0 ? std::min(missing, balance.debt) : 0;
-  balance.debt -= owed;
-  balance.elastic = end.elastic[part];
+  const Real owed = missing > 0 ? std::min(missing, balance.surplus) : 0;
+  balance.surplus -= owed;
+  balance.elastic = end.elastic[component];
   balance.work = work.sum;
   balance.target = energy + share * (missing - owed);
   balance.angular_momentum =
       rigid.angular_momentum + share * (balance.angular_momentum + h * work.torque - rigid.angular_momentum);
 }
 
-/// Of a part that nothing holds, less what moves it as a whole.
-void EnergyProjection::write_forces(std::size_t part, const StepEnd& end, const OutsideForces& outside,
+/// Of a component that nothing holds, less what moves it as a whole.
+void EnergyProjection::write_forces(std::size_t component, const StepEnd& end, const OutsideForces& outside,
                                     Positions& forces) const {
   const auto force_on = [&](Index v) { return Vec3(row(end.elastic_forces, v) + row(outside.all, v)); };
   Vec3 acceleration = Vec3::Zero();
-  if (is_free_[part]) {
+  if (is_free_[component]) {
     Real mass = 0;
-    for (const Index v : parts_.part(part)) {
+    for (const Index v : components_.component(component)) {
       acceleration += force_on(v);
       mass += masses_[at(v)];
     }
     acceleration /= mass;
   }
-  for (const Index v : parts_.part(part)) {
+  for (const Index v : components_.component(component)) {
     const Vec3 force = force_on(v) - masses_[at(v)] * acceleration;
     forces.row(v) = (is_pinned_[at(v)] ? Vec3(Vec3::Zero()) : force).transpose();
   }
 }
 
-/// The angular momentum that a part should have, or as near to it as its energy allows.
-Vec3 EnergyProjection::allowed_momentum(std::size_t part, const RigidMotion& rigid, Real elastic, Real scaled) const {
-  const Balance& balance = balances_[part];
+/// The angular momentum that a component should have, or as near to it as its energy allows.
+Vec3 EnergyProjection::allowed_momentum(std::size_t component, const RigidMotion& rigid, Real elastic,
+                                        Real scaled) const {
+  const Balance& balance = balances_[component];
   const Vec3 change = balance.angular_momentum - rigid.angular_momentum;
   const Real room = balance.target - elastic - least_factor * least_factor * scaled -
                     turning_energy(rigid.inertia, rigid.angular_momentum);
@@ -165,10 +166,10 @@ Vec3 EnergyProjection::allowed_momentum(std::size_t part, const RigidMotion& rig
 
 void EnergyProjection::move(const StepEnd& end, const Positions& forces, const Positions& direction,
                             std::span<const Real> weights, Positions& positions) {
-  for (std::size_t p = 0; p < parts_.count(); ++p) {
+  for (std::size_t p = 0; p < components_.count(); ++p) {
     Real slope = 0;
     Real curvature = 0;
-    for (const Index v : parts_.part(p)) {
+    for (const Index v : components_.component(p)) {
       const Real along = row(forces, v).dot(row(direction, v));
       slope += along;
       curvature += along - weights[at(v)] * direction.row(v).squaredNorm();
@@ -182,12 +183,12 @@ void EnergyProjection::move(const StepEnd& end, const Positions& forces, const P
     curvature = std::clamp(curvature, Real(0), std::max(Real(0), slope));
     const Real excess = factor_of(scaled + curvature / 2, slope - curvature, missing, balance.noise) - 1;
     if (excess == 0) continue;
-    for (const Index v : parts_.part(p)) positions.row(v) -= excess * direction.row(v);
+    for (const Index v : components_.component(p)) positions.row(v) -= excess * direction.row(v);
   }
 }
 
 void EnergyProjection::finish(const StepEnd& end, const OutsideForces& outside, Positions& velocities) {
-  for (std::size_t p = 0; p < parts_.count(); ++p) {
+  for (std::size_t p = 0; p < components_.count(); ++p) {
     Balance& balance = balances_[p];
     const RigidMotion rigid = rigid_motion(p, end.positions, end.velocities);
     if (!rigid.turning.allFinite()) continue;
@@ -198,8 +199,8 @@ void EnergyProjection::finish(const StepEnd& end, const OutsideForces& outside, 
     const Real missing = balance.target - end.elastic[p] - scaled - turning.dot(angular_momentum) / 2;
     const Real factor = factor_of(scaled, 0, missing, balance.noise);
     const Real surplus = scaled * (factor * factor - 1) - missing;
-    if (surplus > balance.noise) balance.debt += surplus;
-    for (const Index v : parts_.part(p)) {
+    if (surplus > balance.noise) balance.surplus += surplus;
+    for (const Index v : components_.component(p)) {
       if (is_pinned_[at(v)]) continue;
       const Vec3 x = row(end.positions, v);
       const Vec3 vibration = row(end.velocities, v) - rigid.velocity_at(x);
@@ -208,9 +209,10 @@ void EnergyProjection::finish(const StepEnd& end, const OutsideForces& outside, 
   }
 }
 
-void EnergyProjection::write_debts(std::span<Real> debts) const {
-  std::ranges::fill(debts, Real(0));
-  for (std::size_t p = 0; p < parts_.count(); ++p) debts[at(parts_.part(p).front())] = balances_[p].debt;
+void EnergyProjection::write_surplus(std::span<Real> surplus) const {
+  std::ranges::fill(surplus, Real(0));
+  for (std::size_t p = 0; p < components_.count(); ++p)
+    surplus[at(components_.component(p).front())] = balances_[p].surplus;
 }
 
 }  // namespace pliant

@@ -23,33 +23,34 @@ void Solver::add_forces(const State& state) {
   add(true);
 }
 
-/// V of each part at q_, and −∇V.
+/// V of each component at q_, and −∇V.
 void Solver::evaluate_elastic() {
   EnergyWork& work = energy_work_;
-  local_step_.run(q_, q_, work.no_weights, work.none_held, work.elastic_forces, *threads_);
+  local_step_.run(q_, q_, work.no_weights, work.none_pinned, work.elastic_forces, *threads_);
   local_step_.elastic_energies(q_, work.elastic);
 }
 
 void Solver::begin_energy(const State& state) {
   EnergyWork& work = energy_work_;
-  work.elastic.resize(energy_.part_count());
+  work.elastic.resize(energy_.component_count());
   work.no_weights.assign(inertia_weights_.size(), 0);
-  work.none_held.assign(inertia_weights_.size(), 0);
+  work.none_pinned.assign(inertia_weights_.size(), 0);
   for (Positions* x : {&work.velocities, &work.elastic_forces, &work.outside, &work.not_conservative, &work.direction,
                        &work.end_positions, &work.end_velocities, &work.end_force}) {
     x->resize(vertex_count_, 3);
   }
   start_from_positions(state);
-  work.debts.resize(state.energy_debts.size());
+  work.surplus.resize(state.energy_surplus.size());
   for (Index i = 0; i < vertex_count_; ++i) {
     const Index v = local_groups_.vertex(i);
     work.velocities.row(i) = state.velocities.row(v);
-    if (!work.debts.empty()) work.debts[static_cast<std::size_t>(i)] = state.energy_debts[static_cast<std::size_t>(v)];
+    if (!work.surplus.empty())
+      work.surplus[static_cast<std::size_t>(i)] = state.energy_surplus[static_cast<std::size_t>(v)];
   }
   evaluate_elastic();
   work.outside.setZero();
   count_external_groups();
-  energy_.begin({q_, work.velocities, work.elastic, work.elastic_forces}, masses_, work.debts);
+  energy_.begin({q_, work.velocities, work.elastic, work.elastic_forces}, masses_, work.surplus);
 }
 
 /// Conservative ones are the mean of both ends of the step, at one time: they may change from step to step. The others
@@ -121,14 +122,14 @@ void Solver::project_energy(const State& state) {
 
 void Solver::commit_energy(State& state) {
   EnergyWork& work = energy_work_;
-  work.debts.resize(static_cast<std::size_t>(vertex_count_));
-  energy_.write_debts(work.debts);
-  state.energy_debts.resize(work.debts.size());
+  work.surplus.resize(static_cast<std::size_t>(vertex_count_));
+  energy_.write_surplus(work.surplus);
+  state.energy_surplus.resize(work.surplus.size());
   const Real left = std::exp(-2 * settings_.damping * substep());  // by damping, of the energy of a vibration
   for (Index i = 0; i < vertex_count_; ++i) {
     const Index v = local_groups_.vertex(i);
     state.velocities.row(v) = work.velocities.row(i);
-    state.energy_debts[static_cast<std::size_t>(v)] = left * work.debts[static_cast<std::size_t>(i)];
+    state.energy_surplus[static_cast<std::size_t>(v)] = left * work.surplus[static_cast<std::size_t>(i)];
   }
 }
 

@@ -23,13 +23,13 @@ Vec3 angular_velocity(const Mat3& inertia, const Vec3& angular_momentum) {
   return velocity;
 }
 
-RigidMotion fit_rigid_motion(std::span<const Index> part, const Positions& positions, std::span<const Real> masses,
+RigidMotion fit_rigid_motion(std::span<const Index> component, const Positions& positions, std::span<const Real> masses,
                              const Positions& velocities) {
   RigidMotion motion;
   Vec3 momentum = Vec3::Zero();
   // Relative to the first vertex: far from the origin the digits of the shape would be lost.
-  const Vec3 origin = row(positions, part.front());
-  for (const Index v : part) {
+  const Vec3 origin = row(positions, component.front());
+  for (const Index v : component) {
     const Real mass = masses[static_cast<std::size_t>(v)];
     motion.mass += mass;
     motion.center += mass * (row(positions, v) - origin);
@@ -37,7 +37,7 @@ RigidMotion fit_rigid_motion(std::span<const Index> part, const Positions& posit
   }
   motion.center = motion.center / motion.mass + origin;
   motion.velocity = momentum / motion.mass;
-  for (const Index v : part) {
+  for (const Index v : component) {
     const Real mass = masses[static_cast<std::size_t>(v)];
     const Vec3 r = row(positions, v) - motion.center;
     motion.inertia += mass * (r.squaredNorm() * Mat3::Identity() - r * r.transpose());

@@ -1,12 +1,12 @@
 #pragma once
-// The rigid motion nearest to how a connected part moves.
+// The rigid motion nearest to how a connected component moves.
 #include <span>
 
 #include "pliant/core/types.h"
 
 namespace pliant {
 
-/// v_rigid = velocity + turning × (x − center), nearest to v in Σ m ‖·‖²: it has the part's momentum and angular
+/// v_rigid = velocity + turning × (x − center), nearest to v in Σ m ‖·‖²: it has the component's momentum and angular
 /// momentum.
 struct RigidMotion {
   Real mass = 0;                         ///< [kg]
@@ -19,9 +19,9 @@ struct RigidMotion {
   Vec3 velocity_at(const Vec3& position) const { return velocity + turning.cross(position - center); }
 };
 
-/// Of these vertices, at least one, with all masses > 0. A part on a line, or of one vertex, has no turning about
+/// Of these vertices, at least one, with all masses > 0. A component on a line, or of one vertex, has no turning about
 /// itself. Never allocates.
-RigidMotion fit_rigid_motion(std::span<const Index> part, const Positions& positions, std::span<const Real> masses,
+RigidMotion fit_rigid_motion(std::span<const Index> component, const Positions& positions, std::span<const Real> masses,
                              const Positions& velocities);
 
 /// ω of L = I ω, without a share in axes about which there is no inertia: those of a body on a line.

@@ -242,36 +242,36 @@ LocalStep::VertexSums LocalStep::gather(Index begin, Index end, const Positions&
   return sums;
 }
 
-Index LocalStep::part_of(const Chunk& chunk, Index constraint) const {
+Index LocalStep::component_of(const Chunk& chunk, Index constraint) const {
   const ConstraintGroup& group = *groups_[chunk.group];
   const auto first = static_cast<std::size_t>(constraint) * static_cast<std::size_t>(group.shape().vertices);
-  return part_of_vertex_[static_cast<std::size_t>(group.stencil()[first])];
+  return component_of_vertex_[static_cast<std::size_t>(group.stencil()[first])];
 }
 
-void LocalStep::set_parts(std::span<const Index> part_of_vertex) {
-  part_of_vertex_ = part_of_vertex;
+void LocalStep::set_components(std::span<const Index> component_of_vertex) {
+  component_of_vertex_ = component_of_vertex;
   for (Chunk& chunk : chunks_) {
-    chunk.part = part_of(chunk, chunk.begin);
-    for (Index i = chunk.begin; i < chunk.end && chunk.part != mixed; ++i) {
-      if (part_of(chunk, i) != chunk.part) chunk.part = mixed;
+    chunk.component = component_of(chunk, chunk.begin);
+    for (Index i = chunk.begin; i < chunk.end && chunk.component != mixed; ++i) {
+      if (component_of(chunk, i) != chunk.component) chunk.component = mixed;
     }
   }
 }
 
-void LocalStep::elastic_energies(const Positions& q, std::span<Real> of_parts) {
-  std::ranges::fill(of_parts, Real(0));
+void LocalStep::elastic_energies(const Positions& q, std::span<Real> of_components) {
+  std::ranges::fill(of_components, Real(0));
   for (std::size_t c = 0; c < chunks_.size(); ++c) {
     const Chunk& chunk = chunks_[c];
     ConstraintGroup& group = *groups_[chunk.group];
     if (group.is_external()) continue;
-    if (chunk.part != mixed) {
-      of_parts[static_cast<std::size_t>(chunk.part)] += chunk_energies_[c];
+    if (chunk.component != mixed) {
+      of_components[static_cast<std::size_t>(chunk.component)] += chunk_energies_[c];
       continue;
     }
     for (Index begin = chunk.begin, end = begin; begin < chunk.end; begin = end) {
-      const Index part = part_of(chunk, begin);
-      while (end < chunk.end && part_of(chunk, end) == part) ++end;
-      of_parts[static_cast<std::size_t>(part)] += project_to_slots(group, q, slots_.front(), begin, end);
+      const Index component = component_of(chunk, begin);
+      while (end < chunk.end && component_of(chunk, end) == component) ++end;
+      of_components[static_cast<std::size_t>(component)] += project_to_slots(group, q, slots_.front(), begin, end);
     }
   }
 }

@@ -15,7 +15,7 @@ namespace pliant {
 
 /// What one local step finds at the iterate q.
 struct LocalResult {
-  Real residual = 0;  ///< largest |r| of a vertex that is not held [N]
+  Real residual = 0;  ///< largest |r| of a vertex that is not pinned [N]
   Real inertia = 0;   ///< 1/(2h²) ‖M^½ (q − s)‖² [J]
   Real elastic = 0;   ///< Σ wᵢ/2 ‖zᵢ − pᵢ‖² [J]
   double seconds_projections = 0;
@@ -27,14 +27,14 @@ class LocalStep {
   /// Lays out slots and gathers for these groups. They must outlive their use here.
   void set_groups(Index vertex_count, std::span<ConstraintGroup* const> groups);
 
-  /// Writes r (m × 3) [N], zero at held vertices. inertia_weights: M/h² of each vertex, 0 at held ones.
+  /// Writes r (m × 3) [N], zero at pinned vertices. inertia_weights: M/h² of each vertex, 0 at pinned ones.
   LocalResult run(const Positions& q, const Positions& s, std::span<const Real> inertia_weights,
                   std::span<const char> is_pinned, Positions& r, ThreadPool& threads);
 
-  /// Which part each vertex is in, as elastic_energies() will have it. A constraint is in that of its vertices.
-  void set_parts(std::span<const Index> part_of_vertex);
-  /// Elastic energy of each part in the last run, which was at q, but for external groups [J].
-  void elastic_energies(const Positions& q, std::span<Real> of_parts);
+  /// Which component each vertex is in, as elastic_energies() will have it. A constraint is in that of its vertices.
+  void set_components(std::span<const Index> component_of_vertex);
+  /// Elastic energy of each component in the last run, which was at q, but for external groups [J].
+  void elastic_energies(const Positions& q, std::span<Real> of_components);
 
   /// Elastic energy of a group in the last run [J].
   Real elastic_energy(std::size_t group) const;
@@ -57,8 +57,8 @@ class LocalStep {
     std::size_t last_partial = 0;
     std::size_t first_entry = 0;
     std::size_t first_coefficient = 0;
-    Index part = mixed;      // of all its constraints
-    bool has_units = false;  // every coefficient is 1 or -1, which its entry says by itself
+    Index component = mixed;  // of all its constraints
+    bool has_units = false;   // every coefficient is 1 or -1, which its entry says by itself
   };
   struct VertexSums {
     Real squared_residual = 0;
@@ -66,7 +66,7 @@ class LocalStep {
   };
   class Layout;
 
-  Index part_of(const Chunk& chunk, Index constraint) const;
+  Index component_of(const Chunk& chunk, Index constraint) const;
   void lay_out_chunks();
   void lay_out_vertices(Index vertex_count, std::span<const Index> partial_vertices);
   Real project(const Chunk& chunk, const Positions& q, std::vector<Real>& slots);
@@ -80,7 +80,7 @@ class LocalStep {
   Real chunks_of_vertex_ = 0;
   std::vector<Chunk> chunks_;
   std::vector<Real> chunk_energies_;
-  std::span<const Index> part_of_vertex_;
+  std::span<const Index> component_of_vertex_;
   std::vector<VertexSums> vertex_sums_;   // of each chunk of vertices
   std::vector<std::vector<Real>> slots_;  // of the chunk at hand of each thread
 

@@ -7,7 +7,7 @@ namespace pliant {
 /// An order for the constraints and vertices of a simulation.
 struct LocalOrder {
   std::vector<Index> vertices;                  ///< vertex i of the new order is vertex vertices[i] of the simulation
-  std::vector<Index> numbers;                   ///< the other way round
+  std::vector<Index> numbers;                   ///< the inverse
   std::vector<std::vector<Index>> constraints;  ///< of each group, the same as `vertices`
 };
 

@@ -203,11 +203,11 @@ SolveTimes PanelFactor<T>::solve(const Positions& b, Real scale, Positions& x, T
     for (const Task& task : stages_[s]) add_outer_rows(task);
   }
   if (stages_.empty()) load_all(rest_);
-  for (const Part& part : rest_) sweeps_.forward(sweep_data(), part.panel_begin, part.panel_end);
+  for (const Part& part : rest_) triangular_solve_.forward(substitution_data(), part.panel_begin, part.panel_end);
   times.forward = watch.lap();
   const Real factor = unit / (unit_ * unit_);
   for (auto part = rest_.rbegin(); part != rest_.rend(); ++part) {
-    sweeps_.backward(sweep_data(), part->panel_begin, part->panel_end);
+    triangular_solve_.backward(substitution_data(), part->panel_begin, part->panel_end);
   }
   for (const Part& part : rest_) store(part, x, factor, how);
   for (std::size_t s = stages_.size(); s-- > 0;) {
@@ -257,7 +257,7 @@ template <class T>
 void PanelFactor<T>::forward(const Task& task) {
   const auto own = x_.begin() + static_cast<std::ptrdiff_t>(lanes * task.own_rows);
   std::fill_n(own, lanes * (task.outer_end - task.outer_begin), T(0));
-  for (const Part& part : task.parts) sweeps_.forward(sweep_data(), part.panel_begin, part.panel_end);
+  for (const Part& part : task.parts) triangular_solve_.forward(substitution_data(), part.panel_begin, part.panel_end);
 }
 
 template <class T>
@@ -277,7 +277,7 @@ void PanelFactor<T>::backward(const Task& task) {
     for (std::size_t lane = 0; lane < lanes; ++lane) *to++ = from[lane];
   }
   for (auto part = task.parts.rbegin(); part != task.parts.rend(); ++part) {
-    sweeps_.backward(sweep_data(), part->panel_begin, part->panel_end);
+    triangular_solve_.backward(substitution_data(), part->panel_begin, part->panel_end);
   }
 }
 

@@ -10,9 +10,9 @@
 //       │ B  │  rows    B: blocks of 4 rows, all columns; row r belongs to row `rows[r]` of x
 //       └────┘
 //
-// A block of rows stands column after column, so four values at a time; what a last block lacks is zeros. Both sweeps
-// read the values of a panel from the first to the last. All three coordinates of a vertex, and a zero, go through a
-// sweep together in four lanes, so each value is read once a sweep and serves three right-hand sides.
+// A block of rows stands column after column, so four values at a time; what a last block lacks is zeros. Both
+// substitutions read the values of a panel from the first to the last. All three coordinates of a vertex, and a zero,
+// go through a sweep together in four lanes, so each value is read once and serves three right-hand sides.
 //
 // Subtrees of the elimination tree (panel_tasks.h) are swept at the same time, in stages. What one of them subtracts
 // from rows that are not its own goes to rows of x that it has for itself, and is added after its stage in the order of
@@ -21,7 +21,7 @@
 #include "pliant/core/thread_pool.h"
 #include "pliant/solver/global/factorization/panel_tasks.h"
 #include "pliant/solver/global/factorization/supernodes.h"
-#include "pliant/solver/global/factorization/sweeps.h"
+#include "pliant/solver/global/factorization/triangular_solve.h"
 #include "pliant/solver/state.h"
 
 namespace pliant {
@@ -33,7 +33,8 @@ enum class Store { over, onto };
 template <class T>
 class PanelFactor {
  public:
-  explicit PanelFactor(const Sweeps<T>& sweeps = fastest_sweeps<T>()) : sweeps_(sweeps) {}
+  explicit PanelFactor(const TriangularSolve<T>& triangular_solve = fastest_triangular_solve<T>())
+      : triangular_solve_(triangular_solve) {}
   PanelFactor(const PanelFactor&) = delete;
   PanelFactor& operator=(const PanelFactor&) = delete;
 
@@ -55,8 +56,8 @@ class PanelFactor {
   Index task_count() const;
   /// Stored entries of L, the zeros that panels carry along included.
   std::size_t entry_count() const { return values_.size(); }
-  /// What one sweep reads besides x: values, rows and panels.
-  std::size_t sweep_bytes() const {
+  /// What one substitution reads besides x: values, rows and panels.
+  std::size_t substitution_bytes() const {
     return sizeof(T) * values_.size() + sizeof(Index) * rows_.size() + sizeof(Panel) * panels_.size();
   }
 
@@ -90,15 +91,15 @@ class PanelFactor {
   void forward(const Task& task);
   void add_outer_rows(const Task& task);
   void backward(const Task& task);
-  SweepData<T> sweep_data() { return {panels_.data(), rows_.data(), values_.data(), x_.data()}; }
+  SubstitutionData<T> substitution_data() { return {panels_.data(), rows_.data(), values_.data(), x_.data()}; }
 
-  const Sweeps<T>& sweeps_;
+  const TriangularSolve<T>& triangular_solve_;
   std::vector<Index> permutation_;
   std::vector<Panel> panels_;
   std::vector<Index> rows_;  // of x, in blocks of four
   AlignedVector<T> values_;
   Real unit_ = 1;                  // L is stored as L / unit_, a power of two
-  std::vector<Stage> stages_;      // each swept after the one before it, on the way forward
+  std::vector<Stage> stages_;      // forward substitution takes one after the other
   std::vector<Part> rest_;         // runs of panels that belong to no task
   std::vector<Index> outer_rows_;  // of all tasks
   AlignedVector<T> x_;

@@ -30,9 +30,9 @@ struct PanelTask {
 /// Tasks that can be swept at the same time.
 using PanelStage = std::vector<PanelTask>;
 
-/// Divides the panels into stages and a rest. On the way forward each stage comes after the one before it, and the rest
-/// after them all; on the way back it is the other way round. Depends on the factor alone, never on the number of
-/// threads. Where panels do not stand in postorder, there are no stages.
+/// Divides the panels into stages and a rest. In forward substitution each stage comes after the one before it, and the
+/// rest after them all; in backward substitution the order is reversed. Depends on the factor alone, never on the
+/// number of threads. Where panels do not stand in postorder, there are no stages.
 std::vector<PanelStage> divide(const std::vector<PanelShape>& panels);
 
 }  // namespace pliant

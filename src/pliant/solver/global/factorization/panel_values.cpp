@@ -5,7 +5,7 @@
 
 #include <Eigen/Dense>
 
-#include "pliant/solver/global/factorization/sweeps.h"
+#include "pliant/solver/global/factorization/triangular_solve.h"
 
 namespace pliant {
 namespace {

@@ -1,8 +1,8 @@
 // Compiled with AVX2 and fused multiply-adds (see the folder's list in CMakeLists.txt); run only where they exist.
 #include <immintrin.h>
 
-#include "pliant/solver/global/factorization/sweeps_flush_mode.h"
-#include "pliant/solver/global/factorization/sweeps_generic_lanes.h"
+#include "pliant/solver/global/factorization/triangular_solve_flush_mode.h"
+#include "pliant/solver/global/factorization/triangular_solve_generic_lanes.h"
 
 namespace pliant {
 namespace {
@@ -83,7 +83,9 @@ struct DoubleLanes : GenericLanes<double> {
 
 }  // namespace
 
-const Sweeps<float> avx2_sweeps_single = {Kernel<SingleLanes>::forward, Kernel<SingleLanes>::backward, "AVX2"};
-const Sweeps<double> avx2_sweeps_double = {Kernel<DoubleLanes>::forward, Kernel<DoubleLanes>::backward, "AVX2"};
+const TriangularSolve<float> avx2_triangular_solve_single = {Kernel<SingleLanes>::forward,
+                                                             Kernel<SingleLanes>::backward, "AVX2"};
+const TriangularSolve<double> avx2_triangular_solve_double = {Kernel<DoubleLanes>::forward,
+                                                              Kernel<DoubleLanes>::backward, "AVX2"};
 
 }  // namespace pliant

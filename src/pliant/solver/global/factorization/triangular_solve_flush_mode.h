@@ -1,12 +1,12 @@
 #pragma once
-// Included as sweeps_kernel.h is, by sources for x86.
+// Included as triangular_solve_kernel.h is, by sources for x86.
 #include <immintrin.h>
 
 namespace pliant {
 namespace {
 
-/// While it lives, numbers too small to be normal count as zero: they fade out along a sweep, and each operation with
-/// one would cost a hundred times as much.
+/// While it lives, numbers too small to be normal count as zero: they fade out along a substitution, and each operation
+/// with one would cost a hundred times as much.
 class FlushMode {
  public:
   FlushMode() { _mm_setcsr(before_ | flush_to_zero | denormals_are_zero); }

@@ -1,8 +1,8 @@
 // Compiled with AVX-512 F, DQ and VL (see the folder's list in CMakeLists.txt); run only where they exist.
 #include <immintrin.h>
 
-#include "pliant/solver/global/factorization/sweeps_flush_mode.h"
-#include "pliant/solver/global/factorization/sweeps_kernel.h"
+#include "pliant/solver/global/factorization/triangular_solve_flush_mode.h"
+#include "pliant/solver/global/factorization/triangular_solve_kernel.h"
 
 namespace pliant {
 namespace {
@@ -127,7 +127,9 @@ struct DoubleLanes {
 
 }  // namespace
 
-const Sweeps<float> avx512_sweeps_single = {Kernel<SingleLanes>::forward, Kernel<SingleLanes>::backward, "AVX-512"};
-const Sweeps<double> avx512_sweeps_double = {Kernel<DoubleLanes>::forward, Kernel<DoubleLanes>::backward, "AVX-512"};
+const TriangularSolve<float> avx512_triangular_solve_single = {Kernel<SingleLanes>::forward,
+                                                               Kernel<SingleLanes>::backward, "AVX-512"};
+const TriangularSolve<double> avx512_triangular_solve_double = {Kernel<DoubleLanes>::forward,
+                                                                Kernel<DoubleLanes>::backward, "AVX-512"};
 
 }  // namespace pliant

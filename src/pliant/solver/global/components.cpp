@@ -1,4 +1,4 @@
-#include "pliant/solver/global/connected_parts.h"
+#include "pliant/solver/global/components.h"
 
 #include <algorithm>
 #include <cmath>
@@ -48,31 +48,31 @@ std::vector<Index> find_roots(const LowerMatrix& matrix) {
 
 }  // namespace
 
-ConnectedParts find_parts(const LowerMatrix& matrix) {
+Components find_components(const LowerMatrix& matrix) {
   const std::vector<Index> roots = find_roots(matrix);
-  ConnectedParts parts;
-  std::vector<std::size_t> next(roots.size(), 0);  // of the part of a root
+  Components components;
+  std::vector<std::size_t> next(roots.size(), 0);  // of the component of a root
   for (const Index root : roots) ++next[at(root)];
   for (std::size_t& place : next) {
     if (place == 0) continue;
-    const std::size_t first = parts.starts.back();
-    parts.starts.push_back(first + place);
+    const std::size_t first = components.starts.back();
+    components.starts.push_back(first + place);
     place = first;
   }
-  parts.vertices.resize(roots.size());
-  for (std::size_t i = 0; i < roots.size(); ++i) parts.vertices[next[at(roots[i])]++] = static_cast<Index>(i);
-  return parts;
+  components.vertices.resize(roots.size());
+  for (std::size_t i = 0; i < roots.size(); ++i) components.vertices[next[at(roots[i])]++] = static_cast<Index>(i);
+  return components;
 }
 
-ConnectedParts find_free_parts(const ConnectedParts& parts, std::span<ConstraintGroup* const> groups,
-                               std::span<const char> is_pinned) {
+Components find_free_components(const Components& components, std::span<ConstraintGroup* const> groups,
+                                std::span<const char> is_pinned) {
   std::vector<char> is_anchored(is_pinned.begin(), is_pinned.end());
   for (ConstraintGroup* group : groups) mark_anchored(*group, is_anchored);
-  ConnectedParts free;
-  for (std::size_t i = 0; i < parts.count(); ++i) {
-    const std::span<const Index> part = parts.part(i);
-    if (std::ranges::any_of(part, [&](Index vertex) { return is_anchored[at(vertex)] != 0; })) continue;
-    free.vertices.insert(free.vertices.end(), part.begin(), part.end());
+  Components free;
+  for (std::size_t i = 0; i < components.count(); ++i) {
+    const std::span<const Index> component = components.component(i);
+    if (std::ranges::any_of(component, [&](Index vertex) { return is_anchored[at(vertex)] != 0; })) continue;
+    free.vertices.insert(free.vertices.end(), component.begin(), component.end());
     free.starts.push_back(free.vertices.size());
   }
   return free;

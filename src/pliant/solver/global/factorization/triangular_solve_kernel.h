@@ -1,12 +1,12 @@
 #pragma once
-// The sweeps over any kind of lanes, compiled once for each instruction set: one source file for each includes this,
-// under its own compiler flags. Nothing here may call an inline function of another header, whose code the linker might
-// share between instruction sets.
+// Forward and backward substitution over any kind of lanes, compiled once for each instruction set: one source file for
+// each includes this, under its own compiler flags. Nothing here may call an inline function of another header, whose
+// code the linker might share between instruction sets.
 //
-// `Lanes` computes with blocks of 4 rows × 4 lanes. What bounds the sweeps is the latency of multiply-adds where panels
+// `Lanes` computes with blocks of 4 rows × 4 lanes. What bounds them is the latency of multiply-adds where panels
 // are narrow, and the reading of the values where they are wide; so several sums run side by side in registers, and
 // each value is read once.
-#include "pliant/solver/global/factorization/sweeps.h"
+#include "pliant/solver/global/factorization/triangular_solve.h"
 
 namespace pliant {
 namespace {
@@ -59,7 +59,7 @@ struct Kernel {
     for (int b = 0; b < count; ++b) Lanes::scatter_subtract(x, row + 4 * b, sum[b]);
   }
 
-  static void forward(const SweepData<T>& data, std::size_t begin, std::size_t end) {
+  static void forward(const SubstitutionData<T>& data, std::size_t begin, std::size_t end) {
     const typename Lanes::Mode mode;
     for (std::size_t i = begin; i < end; ++i) {
       const Panel& panel = data.panels[i];
@@ -122,7 +122,7 @@ struct Kernel {
     if (columns - c == 1) body(Count<1>(), c);
   }
 
-  static void backward(const SweepData<T>& data, std::size_t begin, std::size_t end) {
+  static void backward(const SubstitutionData<T>& data, std::size_t begin, std::size_t end) {
     const typename Lanes::Mode mode;
     for (std::size_t i = end; i-- > begin;) {
       const Panel& panel = data.panels[i];

@@ -1,6 +1,6 @@
 #pragma once
-// Lanes of any number type in the vectors of the compiler: one row of x each. Included as sweeps_kernel.h is.
-#include "pliant/solver/global/factorization/sweeps_kernel.h"
+// Lanes of any number type in the vectors of the compiler: one row of x each. Included as triangular_solve_kernel.h is.
+#include "pliant/solver/global/factorization/triangular_solve_kernel.h"
 
 namespace pliant {
 namespace {
