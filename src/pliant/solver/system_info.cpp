@@ -6,7 +6,7 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "pliant/solver/solver.h"
+#include "pliant/solver/system.h"
 
 namespace pliant {
 namespace {
@@ -16,14 +16,11 @@ using Vector = Eigen::VectorX<Real>;
 /// y = M^-½ K M^-½ x, where `scale` is M^-½, and 0 at pinned vertices.
 void multiply(const LowerMatrix& K, const Vector& scale, const Vector& x, Vector& y) {
   y.setZero();
-  for (Index column = 0; column < K.size(); ++column) {
-    for (Index e = K.column_starts[at(column)]; e < K.column_starts[at(column) + 1]; ++e) {
-      const Index row = K.rows[at(e)];
-      const Real value = K.values[at(e)] * scale[row] * scale[column];
-      y[row] += value * x[column];
-      if (row != column) y[column] += value * x[row];
-    }
-  }
+  for_each_entry(K, [&](Index row, Index column, std::size_t e) {
+    const Real value = K.values[e] * scale[row] * scale[column];
+    y[row] += value * x[column];
+    if (row != column) y[column] += value * x[row];
+  });
 }
 
 /// The largest eigenvalue by the Lanczos process (Golub & Van Loan, Matrix Computations, Sec. 10.1), which finds it
@@ -61,12 +58,9 @@ Real largest_eigenvalue(const LowerMatrix& K, const Vector& scale) {
 
 }  // namespace
 
-SystemInfo Solver::system_info(const State& state) {
-  StepReport unused;
-  prepare(state, unused);
+SystemInfo System::describe(std::span<const Real> masses) const {
   SystemInfo info;
-  const LowerMatrix& matrix = system_matrix_.matrix();
-  info.matrix_entries = static_cast<std::int64_t>(matrix.rows.size());
+  info.matrix_entries = static_cast<std::int64_t>(matrix_.matrix().rows.size());
   global_step_.describe(info);
   local_step_.describe(info);
   constexpr auto entry_bytes = static_cast<std::int64_t>(sizeof(Real) + sizeof(Index));
@@ -76,17 +70,17 @@ SystemInfo Solver::system_info(const State& state) {
   for (std::size_t i = 0; i < free_components_.count(); ++i) {
     const std::span<const Index> component = free_components_.component(i);
     Index first = vertex_count_;
-    for (const Index vertex : component) first = std::min(first, local_groups_.vertex(vertex));
+    for (const Index vertex : component) first = std::min(first, groups_.vertex(vertex));
     info.free_components.push_back({first, static_cast<Index>(component.size())});
   }
 
   std::ranges::sort(info.free_components, {}, &FreeComponent::first_vertex);
 
-  SystemMatrix elastic = system_matrix_;
-  elastic.assemble(masses_, std::numeric_limits<Real>::infinity(), local_groups_.in_use(),
+  SystemMatrix elastic = matrix_;
+  elastic.assemble(masses, std::numeric_limits<Real>::infinity(), groups(),
                    is_pinned_);  // M/h² vanishes
   Vector scale(vertex_count_);
-  for (Index i = 0; i < vertex_count_; ++i) scale[i] = is_pinned_[at(i)] ? 0 : 1 / std::sqrt(masses_[at(i)]);
+  for (Index i = 0; i < vertex_count_; ++i) scale[i] = is_pinned_[at(i)] ? 0 : 1 / std::sqrt(masses[at(i)]);
   info.fastest_frequency = std::sqrt(largest_eigenvalue(elastic.matrix(), scale));
   return info;
 }

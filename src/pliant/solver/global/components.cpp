@@ -4,26 +4,25 @@
 #include <cmath>
 #include <numeric>
 
+#include "pliant/solver/constraint_rows.h"
+
 namespace pliant {
 namespace {
 
 /// Marks the vertices of constraints that a translation does not leave as they are.
 void mark_anchored(ConstraintGroup& group, std::vector<char>& is_anchored) {
   if (group.is_external() && group.targets().empty()) return;  // a force's: it holds nothing
-  const GroupShape shape = group.shape();
-  const auto n = static_cast<std::size_t>(shape.vertices);
-  const auto k = static_cast<std::size_t>(shape.rows);
-  const std::span<const Real> reduction = group.reduction();
-  for (std::size_t i = 0; i < static_cast<std::size_t>(shape.count); ++i) {
+  for (std::size_t i = 0; i < at(group.shape().count); ++i) {
     bool holds = false;
-    for (std::size_t r = 0; r < k; ++r) {
-      const std::span<const Real> row = reduction.subspan((i * k + r) * n, n);
+    for (std::size_t r = 0; r < static_cast<std::size_t>(group.shape().rows); ++r) {
+      const std::span<const Real> row = reduction_row(group, i, r);
       const Real sum = std::accumulate(row.begin(), row.end(), Real(0));
       Real size = 0;
       for (const Real coefficient : row) size += std::abs(coefficient);
       holds = holds || std::abs(sum) > 1e-6 * size;
     }
-    for (std::size_t a = 0; holds && a < n; ++a) is_anchored[at(group.stencil()[i * n + a])] = 1;
+    if (!holds) continue;
+    for (const Index vertex : stencil_of(group, i)) is_anchored[at(vertex)] = 1;
   }
 }
 
@@ -35,13 +34,11 @@ std::vector<Index> find_roots(const LowerMatrix& matrix) {
     while (parent[at(vertex)] != vertex) vertex = parent[at(vertex)] = parent[at(parent[at(vertex)])];
     return vertex;
   };
-  for (Index column = 0; column < matrix.size(); ++column) {
-    for (Index e = matrix.column_starts[at(column)]; e < matrix.column_starts[at(column) + 1]; ++e) {
-      const Index a = root_of(column);
-      const Index b = root_of(matrix.rows[at(e)]);
-      parent[at(std::max(a, b))] = std::min(a, b);
-    }
-  }
+  for_each_entry(matrix, [&](Index row, Index column, std::size_t) {
+    const Index a = root_of(column);
+    const Index b = root_of(row);
+    parent[at(std::max(a, b))] = std::min(a, b);
+  });
   for (Index vertex = 0; vertex < matrix.size(); ++vertex) parent[at(vertex)] = root_of(vertex);
   return parent;
 }
@@ -62,6 +59,14 @@ Components find_components(const LowerMatrix& matrix) {
   components.vertices.resize(roots.size());
   for (std::size_t i = 0; i < roots.size(); ++i) components.vertices[next[at(roots[i])]++] = static_cast<Index>(i);
   return components;
+}
+
+std::vector<Index> component_of_vertex(const Components& components) {
+  std::vector<Index> owners(components.vertices.size());
+  for (std::size_t i = 0; i < components.count(); ++i) {
+    for (const Index v : components.component(i)) owners[at(v)] = static_cast<Index>(i);
+  }
+  return owners;
 }
 
 Components find_free_components(const Components& components, std::span<ConstraintGroup* const> groups,

@@ -16,6 +16,9 @@ struct Components {
   }
 };
 
+/// The component of each vertex.
+std::vector<Index> component_of_vertex(const Components& components);
+
 /// All components, as the matrix's pattern connects them.
 Components find_components(const LowerMatrix& matrix);
 

@@ -16,15 +16,10 @@ constexpr int power_iterations = 4;
 /// y = Y x for three columns.
 void multiply(const LowerMatrix& Y, const Positions& x, Positions& y) {
   y.setZero();
-  for (Index column = 0; column < Y.size(); ++column) {
-    const auto begin = static_cast<std::size_t>(Y.column_starts[static_cast<std::size_t>(column)]);
-    const auto end = static_cast<std::size_t>(Y.column_starts[static_cast<std::size_t>(column) + 1]);
-    y.row(column) += Y.values[begin] * x.row(column);
-    for (std::size_t e = begin + 1; e < end; ++e) {
-      y.row(Y.rows[e]) += Y.values[e] * x.row(column);
-      y.row(column) += Y.values[e] * x.row(Y.rows[e]);
-    }
-  }
+  for_each_entry(Y, [&](Index row, Index column, std::size_t e) {
+    y.row(row) += Y.values[e] * x.row(column);
+    if (row != column) y.row(column) += Y.values[e] * x.row(row);
+  });
 }
 
 Real largest_diagonal(const LowerMatrix& Y) {

@@ -117,12 +117,9 @@ void SystemMatrix::assemble(std::span<const Real> masses, Real time_step,
       matrix_.values[at(unit.places[e])] += stiffness * unit.values[e];
     }
   }
-  for (Index column = 0; column < m; ++column) {
-    const Index diagonal = matrix_.column_starts[at(column)];
-    for (Index e = diagonal + 1; e < matrix_.column_starts[at(column) + 1]; ++e) {
-      if (is_pinned[at(column)] || is_pinned[at(matrix_.rows[at(e)])]) matrix_.values[at(e)] = 0;
-    }
-  }
+  for_each_entry(matrix_, [&](Index row, Index column, std::size_t e) {
+    if (row != column && (is_pinned[at(column)] || is_pinned[at(row)])) matrix_.values[e] = 0;
+  });
 }
 
 }  // namespace pliant

@@ -18,6 +18,15 @@ struct LowerMatrix {
   Index size() const { return static_cast<Index>(column_starts.size()) - 1; }
 };
 
+/// Calls visit(row, column, place) for every entry of the lower triangle, column after column.
+template <class Visit>
+void for_each_entry(const LowerMatrix& matrix, Visit&& visit) {
+  for (Index column = 0; column < matrix.size(); ++column) {
+    const std::size_t end = at(matrix.column_starts[at(column) + 1]);
+    for (std::size_t e = at(matrix.column_starts[at(column)]); e < end; ++e) visit(matrix.rows[e], column, e);
+  }
+}
+
 class SystemMatrix {
  public:
   /// Finds the union pattern and the unit matrices. Returns whether the pattern is another than before. Throws

@@ -1,218 +1,79 @@
 #include "pliant/solver/integration/energy_projection.h"
 
-#include <algorithm>
 #include <cmath>
 
+#include "pliant/solver/constraint_rows.h"
+#include "pliant/solver/divergence.h"
+
 namespace pliant {
-namespace {
 
-/// Amplitudes are changed by no more than these in one step. What cannot be given back is of vibrations far too fast
-/// for the step, and better lost than given to others. What there is too much after few iterations is not taken at
-/// once, which would brake, but kept from what later steps would be given.
-constexpr Real least_factor = 0.98;
-constexpr Real largest_factor = 2;
-
-/// Shares of an energy that are rounding.
-constexpr Real rounding = 1e-13;
-
-/// x with square·(x² − 1) + linear·(x − 1) = missing, as far as it may go; 1 where that is rounding, or no number.
-Real factor_of(Real square, Real linear, Real missing, Real noise) {
-  const Real slope = 2 * square + linear;  // at 1
-  if (!(std::abs(missing) > noise)) return 1;
-  const Real root = std::sqrt(std::max(Real(0), slope * slope + 4 * square * missing));
-  const Real factor = 1 + 2 * missing / (slope + root);
-  return slope > 0 && !std::isnan(factor) ? std::clamp(factor, least_factor, largest_factor) : 1;
+void EnergyProjection::set_system(const System& system) {
+  balance_.set_components(system.components(), system.free_components(), system.is_pinned());
 }
 
-/// Of a turning with that angular momentum [J].
-Real turning_energy(const Mat3& inertia, const Vec3& angular_momentum) {
-  return angular_velocity(inertia, angular_momentum).dot(angular_momentum) / 2;
+void EnergyProjection::begin(const StepContext& step, const WorkingState& work) {
+  for (Positions* x : {&outside_, &outside_not_conservative_}) x->setZero(work.positions.rows(), 3);
+  for (Positions* x : {&elastic_forces_, &direction_}) x->resize(work.positions.rows(), 3);
+  evaluate_elastic(step, work.begin.positions);
+  balance_.begin({work.begin.positions, work.begin.velocities, elastic_, elastic_forces_}, work.begin.masses,
+                 work.begin.energy_surplus);
 }
 
-}  // namespace
+void EnergyProjection::project(const StepContext& step, WorkingState& work) {
+  const StepEnd end{work.positions, work.velocities, elastic_, elastic_forces_};
+  const OutsideForces outside{outside_, outside_not_conservative_};
+  evaluate_end(step, work);
+  Positions& forces = work.residual;
+  balance_.balance(end, outside, step.time_step, step.settings.energy_projection, forces);
+  step.system.solve(forces, direction_, step.threads);
+  balance_.move(end, forces, direction_, step.system.inertia_weights(), work.positions);
+  evaluate_end(step, work);
+  balance_.finish(end, outside, work.velocities);
+  check_finite(step, work);
 
-void EnergyProjection::set_components(Components components, const Components& free_components,
-                                      std::span<const char> is_pinned) {
-  components_ = std::move(components);
-  is_pinned_.assign(is_pinned.begin(), is_pinned.end());
-  component_of_vertex_.resize(is_pinned.size());
-  for (std::size_t p = 0; p < components_.count(); ++p) {
-    for (const Index v : components_.component(p)) component_of_vertex_[at(v)] = static_cast<Index>(p);
-  }
-  is_free_.assign(components_.count(), 0);
-  for (std::size_t i = 0; i < free_components.count(); ++i) {
-    is_free_[at(component_of_vertex_[at(free_components.component(i).front())])] = 1;
-  }
-  balances_.resize(components_.count());
+  const Real left = std::exp(-2 * step.settings.damping * step.time_step);  // by damping, of a vibration's energy
+  work.energy_surplus.resize(at(step.system.vertex_count()));
+  balance_.write_surplus(work.energy_surplus);
+  for (Real& energy : work.energy_surplus) energy *= left;
 }
 
-/// All zero where something holds the component.
-RigidMotion EnergyProjection::rigid_motion(std::size_t component, const Positions& positions,
-                                           const Positions& velocities) const {
-  if (!is_free_[component]) return {};
-  return fit_rigid_motion(components_.component(component), positions, masses_, velocities);
+/// Conservative forces are the mean of both ends of the step, at one time: they may change from step to step. The
+/// others are as they were at the beginning.
+void EnergyProjection::evaluate_end(const StepContext& step, const WorkingState& work) {
+  step.forces.evaluate_conservative(step.state, work.positions, work.velocities, step.time_step, step.system.order(),
+                                    conservative_);
+  outside_not_conservative_ = work.not_conservative;
+  outside_ = (work.forces - work.not_conservative + conservative_) / 2 + work.not_conservative;
+  evaluate_elastic(step, work.positions);
 }
 
-/// Σ m/2 ‖v − v_rigid‖² [J]
-Real EnergyProjection::non_rigid_energy(std::size_t component, const RigidMotion& rigid, const Positions& positions,
-                                        const Positions& velocities) const {
-  Real energy = 0;
-  for (const Index v : components_.component(component)) {
-    if (is_pinned_[at(v)]) continue;
-    energy += masses_[at(v)] / 2 * (row(velocities, v) - rigid.velocity_at(row(positions, v))).squaredNorm();
-  }
-  return energy;
+void EnergyProjection::evaluate_elastic(const StepContext& step, const Positions& q) {
+  elastic_.resize(step.system.components().count());
+  step.system.elastic_step(q, elastic_forces_, elastic_, step.threads);
+  add_external_groups(step.system, q);
 }
 
-void EnergyProjection::begin(const StepEnd& begin, std::span<const Real> masses, std::span<const Real> surplus) {
-  masses_ = masses;
-  positions_ = begin.positions;
-  velocities_ = begin.velocities;
-  elastic_forces_ = begin.elastic_forces;
-  for (std::size_t p = 0; p < components_.count(); ++p) {
-    const RigidMotion rigid = rigid_motion(p, positions_, velocities_);
-    Balance& balance = balances_[p];
-    balance.target = begin.elastic[p] + non_rigid_energy(p, rigid, positions_, velocities_) +
-                     turning_energy(rigid.inertia, rigid.angular_momentum);
-    balance.center = rigid.center;
-    balance.velocity = rigid.velocity;
-    balance.angular_momentum = rigid.angular_momentum;
-    balance.surplus = 0;
-    for (const Index v : components_.component(p)) balance.surplus += surplus.empty() ? 0 : surplus[at(v)];
-  }
-}
-
-void EnergyProjection::balance(const StepEnd& end, const OutsideForces& outside, Real h, Real share,
-                               Positions& forces) {
-  for (std::size_t p = 0; p < components_.count(); ++p) {
-    balance_component(p, end, outside, h, share);
-    write_forces(p, end, outside, forces);
-  }
-}
-
-EnergyProjection::Work EnergyProjection::outside_work(std::size_t component, const RigidMotion& rigid,
-                                                      const StepEnd& end, const OutsideForces& outside) const {
-  const Balance& balance = balances_[component];
-  const Vec3 shift = rigid.center - balance.center;
-  Work work;
-  for (const Index v : components_.component(component)) {
-    const Vec3 displacement = row(end.positions, v) - row(positions_, v);
-    if (is_pinned_[at(v)]) {
-      work.add(-(row(elastic_forces_, v) + row(end.elastic_forces, v)).dot(displacement) / 2);
-      continue;
-    }
-    const Vec3 force = row(outside.all, v);
-    work.add(force.dot(displacement - shift));
-    work.braked -= std::min(Real(0), row(outside.not_conservative, v).dot(displacement - shift));
-    if (!is_free_[component]) continue;
-    const Vec3 arm = (row(positions_, v) + row(end.positions, v) - balance.center - rigid.center) / 2;
-    work.torque += arm.cross(force);
-  }
-  return work;
-}
-
-void EnergyProjection::balance_component(std::size_t component, const StepEnd& end, const OutsideForces& outside,
-                                         Real h, Real share) {
-  const RigidMotion rigid = rigid_motion(component, end.positions, end.velocities);
-  const Work work = outside_work(component, rigid, end, outside);
-  const Real energy = end.elastic[component] + non_rigid_energy(component, rigid, end.positions, end.velocities) +
-                      turning_energy(rigid.inertia, rigid.angular_momentum);
-  Balance& balance = balances_[component];
-  balance.noise = rounding * (balance.target + work.size + energy);
-  if (work.braked > 0) balance.surplus *= std::max(Real(0), 1 - work.braked / balance.target);  // its share of it
-  const Real missing = balance.target + work.sum - energy;
-  const Real owed = missing > 0 ? std::min(missing, balance.surplus) : 0;
-  balance.surplus -= owed;
-  balance.elastic = end.elastic[component];
-  balance.work = work.sum;
-  balance.target = energy + share * (missing - owed);
-  balance.angular_momentum =
-      rigid.angular_momentum + share * (balance.angular_momentum + h * work.torque - rigid.angular_momentum);
-}
-
-/// Of a component that nothing holds, less what moves it as a whole.
-void EnergyProjection::write_forces(std::size_t component, const StepEnd& end, const OutsideForces& outside,
-                                    Positions& forces) const {
-  const auto force_on = [&](Index v) { return Vec3(row(end.elastic_forces, v) + row(outside.all, v)); };
-  Vec3 acceleration = Vec3::Zero();
-  if (is_free_[component]) {
-    Real mass = 0;
-    for (const Index v : components_.component(component)) {
-      acceleration += force_on(v);
-      mass += masses_[at(v)];
-    }
-    acceleration /= mass;
-  }
-  for (const Index v : components_.component(component)) {
-    const Vec3 force = force_on(v) - masses_[at(v)] * acceleration;
-    forces.row(v) = (is_pinned_[at(v)] ? Vec3(Vec3::Zero()) : force).transpose();
-  }
-}
-
-/// The angular momentum that a component should have, or as near to it as its energy allows.
-Vec3 EnergyProjection::allowed_momentum(std::size_t component, const RigidMotion& rigid, Real elastic,
-                                        Real scaled) const {
-  const Balance& balance = balances_[component];
-  const Vec3 change = balance.angular_momentum - rigid.angular_momentum;
-  const Real room = balance.target - elastic - least_factor * least_factor * scaled -
-                    turning_energy(rigid.inertia, rigid.angular_momentum);
-  const Real square = turning_energy(rigid.inertia, change);
-  const Real linear = rigid.turning.dot(change);
-  if (square + linear <= room + balance.noise) return balance.angular_momentum;
-  if (!(room > 0)) return rigid.angular_momentum;
-  const Real part_of_change = 2 * room / (linear + std::sqrt(linear * linear + 4 * square * room));
-  return rigid.angular_momentum + std::min(Real(1), part_of_change) * change;
-}
-
-void EnergyProjection::move(const StepEnd& end, const Positions& forces, const Positions& direction,
-                            std::span<const Real> weights, Positions& positions) {
-  for (std::size_t p = 0; p < components_.count(); ++p) {
-    Real slope = 0;
-    Real curvature = 0;
-    for (const Index v : components_.component(p)) {
-      const Real along = row(forces, v).dot(row(direction, v));
-      slope += along;
-      curvature += along - weights[at(v)] * direction.row(v).squaredNorm();
-    }
-    Balance& balance = balances_[p];
-    const RigidMotion rigid = rigid_motion(p, end.positions, end.velocities);
-    const Real scaled = non_rigid_energy(p, rigid, end.positions, end.velocities);
-    const Vec3 angular_momentum = allowed_momentum(p, rigid, balance.elastic, scaled);
-    const Real missing = balance.target - balance.elastic - scaled - turning_energy(rigid.inertia, angular_momentum);
-    // The elastic energy is no steeper along it than a parabola with Y − M/h² as its matrix.
-    curvature = std::clamp(curvature, Real(0), std::max(Real(0), slope));
-    const Real excess = factor_of(scaled + curvature / 2, slope - curvature, missing, balance.noise) - 1;
-    if (excess == 0) continue;
-    for (const Index v : components_.component(p)) positions.row(v) -= excess * direction.row(v);
-  }
-}
-
-void EnergyProjection::finish(const StepEnd& end, const OutsideForces& outside, Positions& velocities) {
-  for (std::size_t p = 0; p < components_.count(); ++p) {
-    Balance& balance = balances_[p];
-    const RigidMotion rigid = rigid_motion(p, end.positions, end.velocities);
-    if (!rigid.turning.allFinite()) continue;
-    balance.target += outside_work(p, rigid, end, outside).sum - balance.work;
-    const Real scaled = non_rigid_energy(p, rigid, end.positions, end.velocities);
-    const Vec3 angular_momentum = allowed_momentum(p, rigid, end.elastic[p], scaled);
-    const Vec3 turning = angular_velocity(rigid.inertia, angular_momentum);
-    const Real missing = balance.target - end.elastic[p] - scaled - turning.dot(angular_momentum) / 2;
-    const Real factor = factor_of(scaled, 0, missing, balance.noise);
-    const Real surplus = scaled * (factor * factor - 1) - missing;
-    if (surplus > balance.noise) balance.surplus += surplus;
-    for (const Index v : components_.component(p)) {
-      if (is_pinned_[at(v)]) continue;
-      const Vec3 x = row(end.positions, v);
-      const Vec3 vibration = row(end.velocities, v) - rigid.velocity_at(x);
-      velocities.row(v) = (rigid.velocity + turning.cross(x - rigid.center) + factor * vibration).transpose();
+/// What external groups do counts as from outside: their V is left out, so their forces are too.
+void EnergyProjection::add_external_groups(const System& system, const Positions& q) {
+  for (ConstraintGroup* group : system.groups()) {
+    if (!group->is_external()) continue;
+    const auto rows = static_cast<std::size_t>(group->shape().rows);
+    slots_.resize(3 * rows);
+    for (Index i = 0; i < group->shape().count; ++i) {
+      group->project(q, slots_, i, i + 1);
+      const std::span<const Index> stencil = stencil_of(*group, at(i));
+      for (std::size_t r = 0; r < rows; ++r) {
+        const Eigen::Map<const Vec3> slot(slots_.data() + 3 * r);
+        const std::span<const Real> row = reduction_row(*group, at(i), r);
+        for (std::size_t a = 0; a < row.size(); ++a) {
+          const Vec3 force = row[a] * slot;
+          outside_.row(stencil[a]) += force.transpose();
+          if (group->targets().empty()) outside_not_conservative_.row(stencil[a]) += force.transpose();
+          elastic_forces_.row(stencil[a]) -= force.transpose();
+        }
+      }
     }
   }
-}
-
-void EnergyProjection::write_surplus(std::span<Real> surplus) const {
-  std::ranges::fill(surplus, Real(0));
-  for (std::size_t p = 0; p < components_.count(); ++p)
-    surplus[at(components_.component(p).front())] = balances_[p].surplus;
 }
 
 }  // namespace pliant

@@ -4,25 +4,16 @@
 
 namespace pliant {
 
-void RigidDamping::set_components(Components components, std::vector<char> is_pinned) {
-  components_ = std::move(components);
-  is_pinned_ = std::move(is_pinned);
-}
-
-void RigidDamping::apply(const Positions& positions, std::span<const Real> masses, Real factor,
-                         Positions& velocities) const {
-  for (std::size_t i = 0; i < components_.count(); ++i)
-    apply_to(components_.component(i), positions, masses, factor, velocities);
-}
-
-void RigidDamping::apply_to(std::span<const Index> component, const Positions& positions, std::span<const Real> masses,
-                            Real factor, Positions& velocities) const {
-  const RigidMotion motion = fit_rigid_motion(component, positions, masses, velocities);
-  if (!motion.turning.allFinite()) return;
-  for (const Index v : component) {
-    if (is_pinned_[static_cast<std::size_t>(v)]) continue;
-    const Vec3 rigid = motion.velocity_at(row(positions, v));
-    velocities.row(v) = (rigid + factor * (row(velocities, v) - rigid)).transpose();
+void damp_vibrations(const Components& components, std::span<const char> is_pinned, const Positions& positions,
+                     std::span<const Real> masses, Real factor, Positions& velocities) {
+  for (std::size_t i = 0; i < components.count(); ++i) {
+    const RigidMotion motion = fit_rigid_motion(components.component(i), positions, masses, velocities);
+    if (!motion.turning.allFinite()) continue;
+    for (const Index v : components.component(i)) {
+      if (is_pinned[at(v)]) continue;
+      const Vec3 rigid = motion.velocity_at(row(positions, v));
+      velocities.row(v) = (rigid + factor * (row(velocities, v) - rigid)).transpose();
+    }
   }
 }
 

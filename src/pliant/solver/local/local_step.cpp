@@ -7,6 +7,7 @@
 
 #include "pliant/core/error.h"
 #include "pliant/core/stopwatch.h"
+#include "pliant/solver/constraint_rows.h"
 
 namespace pliant {
 namespace {
@@ -243,9 +244,7 @@ LocalStep::VertexSums LocalStep::gather(Index begin, Index end, const Positions&
 }
 
 Index LocalStep::component_of(const Chunk& chunk, Index constraint) const {
-  const ConstraintGroup& group = *groups_[chunk.group];
-  const auto first = static_cast<std::size_t>(constraint) * static_cast<std::size_t>(group.shape().vertices);
-  return component_of_vertex_[static_cast<std::size_t>(group.stencil()[first])];
+  return component_of_vertex_[at(stencil_of(*groups_[chunk.group], at(constraint)).front())];
 }
 
 void LocalStep::set_components(std::span<const Index> component_of_vertex) {
@@ -294,11 +293,10 @@ void LocalStep::describe(SystemInfo& info) const {
 Index LocalStep::first_not_finite(std::size_t group, const Positions& q) const {
   const ConstraintGroup& constraints = *groups_[group];
   const GroupShape shape = constraints.shape();
-  const auto n = static_cast<std::size_t>(shape.vertices);
   std::vector<Real> slot(static_cast<std::size_t>(3 * shape.rows));
+  const auto is_finite = [&](Index vertex) { return q.row(vertex).allFinite(); };
   for (Index i = 0; i < shape.count; ++i) {
-    const std::span<const Index> stencil = constraints.stencil().subspan(static_cast<std::size_t>(i) * n, n);
-    if (!std::ranges::all_of(stencil, [&](Index vertex) { return q.row(vertex).allFinite(); })) continue;
+    if (!std::ranges::all_of(stencil_of(constraints, at(i)), is_finite)) continue;
     constraints.project(q, slot, i, i + 1);
     if (!std::ranges::all_of(slot, [](Real x) { return std::isfinite(x); })) return i;
   }

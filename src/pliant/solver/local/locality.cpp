@@ -3,16 +3,13 @@
 #include <algorithm>
 #include <numeric>
 
+#include "pliant/solver/constraint_rows.h"
+
 namespace pliant {
 namespace {
 
 /// Vertices of a patch: those of two or three thousand constraints, about as many as a chunk has.
 constexpr std::size_t patch_size = 512;
-
-std::span<const Index> stencil_of(const ConstraintGroup& group, std::size_t i) {
-  const auto n = static_cast<std::size_t>(group.shape().vertices);
-  return group.stencil().subspan(i * n, n);
-}
 
 /// The constraints of each vertex, numbered through all groups.
 struct Incidence {
@@ -147,16 +144,24 @@ void LocalGroups::sync_parameters() {
   for (std::size_t g = 0; g < copies_.size(); ++g) copies_[g]->sync_parameters(*groups_[g], order_.constraints[g]);
 }
 
-Positions LocalGroups::in_local_order(const Positions& x) const {
-  Positions result(x.rows(), 3);
-  for (Index i = 0; i < static_cast<Index>(x.rows()); ++i) result.row(i) = x.row(vertex(i));
-  return result;
+void LocalGroups::gather(const Positions& from, Positions& to) const {
+  to.resize(from.rows(), 3);
+  for (Index i = 0; i < static_cast<Index>(from.rows()); ++i) to.row(i) = from.row(vertex(i));
 }
 
-Positions LocalGroups::in_simulation_order(const Positions& x) const {
-  Positions result(x.rows(), 3);
-  for (Index i = 0; i < static_cast<Index>(x.rows()); ++i) result.row(vertex(i)) = x.row(i);
-  return result;
+void LocalGroups::gather(const std::vector<Real>& from, std::vector<Real>& to) const {
+  to.resize(from.size());
+  for (std::size_t i = 0; i < from.size(); ++i) to[i] = from[at(vertex(static_cast<Index>(i)))];
+}
+
+void LocalGroups::scatter(const Positions& from, Positions& to) const {
+  to.resize(from.rows(), 3);
+  for (Index i = 0; i < static_cast<Index>(from.rows()); ++i) to.row(vertex(i)) = from.row(i);
+}
+
+void LocalGroups::scatter(const std::vector<Real>& from, std::vector<Real>& to) const {
+  to.resize(from.size());
+  for (std::size_t i = 0; i < from.size(); ++i) to[at(vertex(static_cast<Index>(i)))] = from[i];
 }
 
 Index LocalGroups::constraint(std::size_t group, Index local) const {

@@ -31,9 +31,12 @@ class LocalGroups {
   /// The constraint of the group of the simulation, for one of the group in use.
   Index constraint(std::size_t group, Index local) const;
   bool is_reordered() const { return !copies_.empty(); }
-  /// Rows of x, one a vertex, from one order into the other.
-  Positions in_local_order(const Positions& x) const;
-  Positions in_simulation_order(const Positions& x) const;
+  /// What each vertex has, from the order of the simulation into that of the groups in use, and back. `to` takes the
+  /// size of `from`; that must be the number of vertices, or zero.
+  void gather(const Positions& from, Positions& to) const;
+  void gather(const std::vector<Real>& from, std::vector<Real>& to) const;
+  void scatter(const Positions& from, Positions& to) const;
+  void scatter(const std::vector<Real>& from, std::vector<Real>& to) const;
 
  private:
   std::vector<ConstraintGroup*> groups_;

@@ -1,0 +1,213 @@
+#include "pliant/solver/integration/energy_balance.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pliant {
+namespace {
+
+/// Amplitudes are changed by no more than these in one step. What cannot be given back is of vibrations far too fast
+/// for the step, and better lost than given to others. What there is too much after few iterations is not taken at
+/// once, which would brake, but kept from what later steps would be given.
+constexpr Real least_factor = 0.98;
+constexpr Real largest_factor = 2;
+
+/// Shares of an energy that are rounding.
+constexpr Real rounding = 1e-13;
+
+/// x with square·(x² − 1) + linear·(x − 1) = missing, as far as it may go; 1 where that is rounding, or no number.
+Real factor_of(Real square, Real linear, Real missing, Real noise) {
+  const Real slope = 2 * square + linear;  // at 1
+  if (!(std::abs(missing) > noise)) return 1;
+  const Real root = std::sqrt(std::max(Real(0), slope * slope + 4 * square * missing));
+  const Real factor = 1 + 2 * missing / (slope + root);
+  return slope > 0 && !std::isnan(factor) ? std::clamp(factor, least_factor, largest_factor) : 1;
+}
+
+/// Of a turning with that angular momentum [J].
+Real turning_energy(const Mat3& inertia, const Vec3& angular_momentum) {
+  return angular_velocity(inertia, angular_momentum).dot(angular_momentum) / 2;
+}
+
+}  // namespace
+
+void EnergyBalance::set_components(Components components, const Components& free_components,
+                                   std::span<const char> is_pinned) {
+  components_ = std::move(components);
+  is_pinned_.assign(is_pinned.begin(), is_pinned.end());
+  const std::vector<Index> owners = component_of_vertex(components_);
+  is_free_.assign(components_.count(), 0);
+  for (std::size_t i = 0; i < free_components.count(); ++i) {
+    is_free_[at(owners[at(free_components.component(i).front())])] = 1;
+  }
+  accounts_.resize(components_.count());
+}
+
+/// All zero where something holds the component.
+RigidMotion EnergyBalance::rigid_motion(std::size_t component, const Positions& positions,
+                                        const Positions& velocities) const {
+  if (!is_free_[component]) return {};
+  return fit_rigid_motion(components_.component(component), positions, masses_, velocities);
+}
+
+/// Σ m/2 ‖v − v_rigid‖² [J]
+Real EnergyBalance::non_rigid_energy(std::size_t component, const RigidMotion& rigid, const Positions& positions,
+                                     const Positions& velocities) const {
+  Real energy = 0;
+  for (const Index v : components_.component(component)) {
+    if (is_pinned_[at(v)]) continue;
+    energy += masses_[at(v)] / 2 * (row(velocities, v) - rigid.velocity_at(row(positions, v))).squaredNorm();
+  }
+  return energy;
+}
+
+void EnergyBalance::begin(const StepEnd& begin, std::span<const Real> masses, std::span<const Real> surplus) {
+  masses_ = masses;
+  positions_ = begin.positions;
+  velocities_ = begin.velocities;
+  elastic_forces_ = begin.elastic_forces;
+  for (std::size_t p = 0; p < components_.count(); ++p) {
+    const RigidMotion rigid = rigid_motion(p, positions_, velocities_);
+    Account& account = accounts_[p];
+    account.target = begin.elastic[p] + non_rigid_energy(p, rigid, positions_, velocities_) +
+                     turning_energy(rigid.inertia, rigid.angular_momentum);
+    account.center = rigid.center;
+    account.velocity = rigid.velocity;
+    account.angular_momentum = rigid.angular_momentum;
+    account.surplus = 0;
+    for (const Index v : components_.component(p)) account.surplus += surplus.empty() ? 0 : surplus[at(v)];
+  }
+}
+
+void EnergyBalance::balance(const StepEnd& end, const OutsideForces& outside, Real h, Real share, Positions& forces) {
+  for (std::size_t p = 0; p < components_.count(); ++p) {
+    balance_component(p, end, outside, h, share);
+    write_forces(p, end, outside, forces);
+  }
+}
+
+EnergyBalance::Work EnergyBalance::outside_work(std::size_t component, const RigidMotion& rigid, const StepEnd& end,
+                                                const OutsideForces& outside) const {
+  const Account& account = accounts_[component];
+  const Vec3 shift = rigid.center - account.center;
+  Work work;
+  for (const Index v : components_.component(component)) {
+    const Vec3 displacement = row(end.positions, v) - row(positions_, v);
+    if (is_pinned_[at(v)]) {
+      work.add(-(row(elastic_forces_, v) + row(end.elastic_forces, v)).dot(displacement) / 2);
+      continue;
+    }
+    const Vec3 force = row(outside.all, v);
+    work.add(force.dot(displacement - shift));
+    work.braked -= std::min(Real(0), row(outside.not_conservative, v).dot(displacement - shift));
+    if (!is_free_[component]) continue;
+    const Vec3 arm = (row(positions_, v) + row(end.positions, v) - account.center - rigid.center) / 2;
+    work.torque += arm.cross(force);
+  }
+  return work;
+}
+
+void EnergyBalance::balance_component(std::size_t component, const StepEnd& end, const OutsideForces& outside, Real h,
+                                      Real share) {
+  const RigidMotion rigid = rigid_motion(component, end.positions, end.velocities);
+  const Work work = outside_work(component, rigid, end, outside);
+  const Real energy = end.elastic[component] + non_rigid_energy(component, rigid, end.positions, end.velocities) +
+                      turning_energy(rigid.inertia, rigid.angular_momentum);
+  Account& account = accounts_[component];
+  account.noise = rounding * (account.target + work.size + energy);
+  if (work.braked > 0) account.surplus *= std::max(Real(0), 1 - work.braked / account.target);  // its share of it
+  const Real missing = account.target + work.sum - energy;
+  const Real owed = missing > 0 ? std::min(missing, account.surplus) : 0;
+  account.surplus -= owed;
+  account.elastic = end.elastic[component];
+  account.work = work.sum;
+  account.target = energy + share * (missing - owed);
+  account.angular_momentum =
+      rigid.angular_momentum + share * (account.angular_momentum + h * work.torque - rigid.angular_momentum);
+}
+
+/// Of a component that nothing holds, less what moves it as a whole.
+void EnergyBalance::write_forces(std::size_t component, const StepEnd& end, const OutsideForces& outside,
+                                 Positions& forces) const {
+  const auto force_on = [&](Index v) { return Vec3(row(end.elastic_forces, v) + row(outside.all, v)); };
+  Vec3 acceleration = Vec3::Zero();
+  if (is_free_[component]) {
+    Real mass = 0;
+    for (const Index v : components_.component(component)) {
+      acceleration += force_on(v);
+      mass += masses_[at(v)];
+    }
+    acceleration /= mass;
+  }
+  for (const Index v : components_.component(component)) {
+    const Vec3 force = force_on(v) - masses_[at(v)] * acceleration;
+    forces.row(v) = (is_pinned_[at(v)] ? Vec3(Vec3::Zero()) : force).transpose();
+  }
+}
+
+/// The angular momentum that a component should have, or as near to it as its energy allows.
+Vec3 EnergyBalance::allowed_momentum(std::size_t component, const RigidMotion& rigid, Real elastic, Real scaled) const {
+  const Account& account = accounts_[component];
+  const Vec3 change = account.angular_momentum - rigid.angular_momentum;
+  const Real room = account.target - elastic - least_factor * least_factor * scaled -
+                    turning_energy(rigid.inertia, rigid.angular_momentum);
+  const Real square = turning_energy(rigid.inertia, change);
+  const Real linear = rigid.turning.dot(change);
+  if (square + linear <= room + account.noise) return account.angular_momentum;
+  if (!(room > 0)) return rigid.angular_momentum;
+  const Real part_of_change = 2 * room / (linear + std::sqrt(linear * linear + 4 * square * room));
+  return rigid.angular_momentum + std::min(Real(1), part_of_change) * change;
+}
+
+void EnergyBalance::move(const StepEnd& end, const Positions& forces, const Positions& direction,
+                         std::span<const Real> weights, Positions& positions) {
+  for (std::size_t p = 0; p < components_.count(); ++p) {
+    Real slope = 0;
+    Real curvature = 0;
+    for (const Index v : components_.component(p)) {
+      const Real along = row(forces, v).dot(row(direction, v));
+      slope += along;
+      curvature += along - weights[at(v)] * direction.row(v).squaredNorm();
+    }
+    Account& account = accounts_[p];
+    const RigidMotion rigid = rigid_motion(p, end.positions, end.velocities);
+    const Real scaled = non_rigid_energy(p, rigid, end.positions, end.velocities);
+    const Vec3 angular_momentum = allowed_momentum(p, rigid, account.elastic, scaled);
+    const Real missing = account.target - account.elastic - scaled - turning_energy(rigid.inertia, angular_momentum);
+    // The elastic energy is no steeper along it than a parabola with Y − M/h² as its matrix.
+    curvature = std::clamp(curvature, Real(0), std::max(Real(0), slope));
+    const Real excess = factor_of(scaled + curvature / 2, slope - curvature, missing, account.noise) - 1;
+    if (excess == 0) continue;
+    for (const Index v : components_.component(p)) positions.row(v) -= excess * direction.row(v);
+  }
+}
+
+void EnergyBalance::finish(const StepEnd& end, const OutsideForces& outside, Positions& velocities) {
+  for (std::size_t p = 0; p < components_.count(); ++p) {
+    Account& account = accounts_[p];
+    const RigidMotion rigid = rigid_motion(p, end.positions, end.velocities);
+    if (!rigid.turning.allFinite()) continue;
+    account.target += outside_work(p, rigid, end, outside).sum - account.work;
+    const Real scaled = non_rigid_energy(p, rigid, end.positions, end.velocities);
+    const Vec3 angular_momentum = allowed_momentum(p, rigid, end.elastic[p], scaled);
+    const Vec3 turning = angular_velocity(rigid.inertia, angular_momentum);
+    const Real missing = account.target - end.elastic[p] - scaled - turning.dot(angular_momentum) / 2;
+    const Real factor = factor_of(scaled, 0, missing, account.noise);
+    const Real surplus = scaled * (factor * factor - 1) - missing;
+    if (surplus > account.noise) account.surplus += surplus;
+    for (const Index v : components_.component(p)) {
+      if (is_pinned_[at(v)]) continue;
+      const Vec3 x = row(end.positions, v);
+      const Vec3 vibration = row(end.velocities, v) - rigid.velocity_at(x);
+      velocities.row(v) = (rigid.velocity + turning.cross(x - rigid.center) + factor * vibration).transpose();
+    }
+  }
+}
+
+void EnergyBalance::write_surplus(std::span<Real> surplus) const {
+  std::ranges::fill(surplus, Real(0));
+  for (std::size_t p = 0; p < components_.count(); ++p)
+    surplus[at(components_.component(p).front())] = accounts_[p].surplus;
+}
+
+}  // namespace pliant

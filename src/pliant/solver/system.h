@@ -1,0 +1,107 @@
+#pragma once
+// The system of equations of a simulation: which constraints there are, in which order the solver has them, which
+// vertices are pinned or hang together, what the vertices weigh, and the factor of Y = M/η² + Σ w SᵀAᵀAS. It knows when
+// each of these has to be made anew. All vertices are in the solver's order, but in set_groups(), begin_step() and the
+// numbers that vertex() and constraint() give.
+#include <unordered_map>
+
+#include "pliant/solver/global/global_step.h"
+#include "pliant/solver/local/local_step.h"
+#include "pliant/solver/local/locality.h"
+#include "pliant/solver/settings.h"
+#include "pliant/solver/state.h"
+#include "pliant/solver/system_info.h"
+
+namespace pliant {
+
+class System {
+ public:
+  System() = default;
+  System(const System&) = delete;
+  System& operator=(const System&) = delete;
+
+  /// Groups, with stencils in the order of the simulation. They must outlive their use here.
+  void set_groups(Index vertex_count, std::vector<ConstraintGroup*> groups);
+  /// Another back end or ordering: the next factor is analyzed anew.
+  void set_factorization(std::unique_ptr<Factorization> factorization);
+  bool has_factorization() const { return global_step_.has_factorization(); }
+  /// The next step factorizes, whatever else has changed.
+  void forget_factor() { factor_step_ = 0; }
+
+  /// Lets the groups take what they need of the state that a step of length h [s] begins with.
+  void begin_step(const State& state, Integrator integrator, Real h);
+  /// Whether a group was added, or has another stencil, reduction, measure or pin, since the layout was made.
+  bool needs_layout() const;
+  /// Order, slots, pattern and components. Gathered numbers are then in an order of no use.
+  void lay_out();
+  /// Takes up numbers of the groups that may have changed otherwise: targets, normals, stiffness.
+  void sync_parameters() { groups_.sync_parameters(); }
+
+  /// Masses [kg] of the vertices, and η of a step [s].
+  void set_inertia(std::span<const Real> masses, Real step);
+  /// Whether the factor is of another η or of other stiffnesses.
+  bool needs_factor(Real step) const;
+  /// Sums Y and factorizes it. Throws Error(input) where it is not positive definite.
+  void factorize(std::span<const Real> masses, Real step, Precision precision, ThreadPool& threads, SetUpTimes& times);
+
+  /// r = M/η² (s − q) + Σ w SᵀAᵀ (p − z), zero at pinned vertices.
+  LocalResult local_step(const Positions& q, const Positions& s, Positions& r, ThreadPool& threads);
+  /// −∇V at q, pinned vertices among them, and V of each component without external groups [J].
+  void elastic_step(const Positions& q, Positions& forces, std::span<Real> energies, ThreadPool& threads);
+  /// q ← q + Y⁻¹ r; largest: about the largest number in r.
+  SolveTimes global_step(const Positions& r, Real largest, Positions& q, ThreadPool& threads);
+  /// x = Y⁻¹ r.
+  void solve(const Positions& r, Positions& x, ThreadPool& threads);
+
+  Index vertex_count() const { return vertex_count_; }
+  const LocalGroups& order() const { return groups_; }
+  std::span<ConstraintGroup* const> groups() const { return groups_.in_use(); }
+  /// Those that set_groups() was given.
+  std::span<ConstraintGroup* const> groups_of_simulation() const { return simulation_groups_; }
+  const Components& components() const { return components_; }
+  /// Those that nothing holds.
+  const Components& free_components() const { return free_components_; }
+  std::span<const char> is_pinned() const { return is_pinned_; }
+  /// M/η² [N/m], 0 at pinned vertices.
+  std::span<const Real> inertia_weights() const { return inertia_weights_; }
+  std::size_t slot_count() const { return local_step_.slot_count(); }
+  const GlobalStep& factor() const { return global_step_; }
+  const LocalStep& projections() const { return local_step_; }
+
+  /// Elastic energy of a group of the simulation in the last local step [J]; 0 for one that it did not have.
+  Real elastic_energy(const ConstraintGroup& group) const;
+  SystemInfo describe(std::span<const Real> masses) const;
+
+ private:
+  /// What the layout and the factor have of a group.
+  struct Stamp {
+    std::uint64_t revision;
+    Real stiffness;
+  };
+
+  void choose_order();
+  void find_pinned();
+
+  Index vertex_count_ = 0;
+  std::vector<ConstraintGroup*> simulation_groups_;
+  LocalGroups groups_;
+  std::vector<Stamp> stamps_;  // of the groups
+  std::unordered_map<const ConstraintGroup*, std::size_t> places_;
+  bool is_laid_out_ = false;
+
+  LocalStep local_step_;
+  std::vector<char> is_pinned_;
+  std::vector<char> none_pinned_;
+  Components components_, free_components_;
+  std::vector<Index> component_of_vertex_;
+
+  std::vector<Real> inertia_weights_;
+  std::vector<Real> no_weights_;
+  std::vector<Real> translation_weights_;  // with what forces' groups add: Y as a translation of a component feels it
+  SystemMatrix matrix_;
+  GlobalStep global_step_;
+  Real factor_step_ = 0;  // η of the matrix that was factorized; 0: there is no factor
+  bool is_analyzed_ = false;
+};
+
+}  // namespace pliant
