@@ -149,7 +149,7 @@ TEST_CASE("a constraint that yields no number is named, even when a tolerance is
     advance(simulation, 2);
     const std::string message = error_of([&] { simulation.step(); }, ErrorKind::diverged);
     CAPTURE(message);
-    CHECK(contains(message, "constraint 0 of type broken"));
+    CHECK(contains(message, "the broken constraint of 'broken' on vertex 0 of 'body 0'"));
     CHECK(simulation.state().step == 2);
   }
 }

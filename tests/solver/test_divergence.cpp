@@ -70,10 +70,57 @@ TEST_CASE("a constraint that returns NaN is named, whatever the iterations and t
       CAPTURE(tolerance);
       Simulation simulation = falling_with_culprit(iterations, tolerance, 9);
       const std::string message = refusal(simulation);
-      CHECK(message.find("constraint 0 of type brittle") != message.npos);
+      CHECK(message.find("the brittle constraint of 'brittle' on vertex 9 of 'body 0'") != message.npos);
       CHECK(message.find("vertex 9 ") != message.npos);
     }
   }
+}
+
+namespace {
+
+struct Nowhere {
+  static constexpr std::string_view name = "nowhere";
+  static constexpr int vertices = dynamic_vertices;
+  static constexpr int rows = 1;
+  static constexpr int fields = 0;
+  static constexpr bool translation_invariant = false;
+  static void project(const Real*, const Real*, Real* p) { std::fill_n(p, 3, std::numeric_limits<Real>::quiet_NaN()); }
+};
+
+/// The message of a step in which a constraint on these vertices of the second body has no finite force.
+std::string message_on(Mesh mesh, std::vector<Index> vertices) {
+  Simulation simulation;
+  simulation.add_body(grid({.columns = 2, .rows = 2}), Mass::total(1));
+  const BodyId body = simulation.add_body(std::move(mesh), Mass::total(1), {.name = "sail"});
+  for (Index& vertex : vertices) vertex = simulation.vertex(body, vertex);
+  auto batch = std::make_unique<Batch<Nowhere>>(1, static_cast<int>(vertices.size()));
+  const std::vector<Real> ones(vertices.size(), 1);
+  batch->add(vertices, ones, 1, {});
+  ConstraintSet set;
+  set.count = 1;
+  set.parts.push_back(std::move(batch));
+  simulation.add_set(body, std::move(set), "nowhere", "stretch");
+  return refusal(simulation);
+}
+
+}  // namespace
+
+TEST_CASE("a divergence names body, group and element by the body's own numbers") {
+  const Mesh sheet = grid({.columns = 3, .rows = 3});
+  const auto [a, b, c] = sheet.triangles[5];
+  const auto says = [](const std::string& message, const std::string& words) {
+    CAPTURE(message);
+    CHECK(message.find(words) != std::string::npos);
+  };
+  says(message_on(sheet, {c, a, b}), "the nowhere constraint of 'stretch' on triangle 5 of 'sail' has a force");
+  says(message_on(sheet, {c, a, b}), "vertex " + std::to_string(c) + " of 'sail' would leave");
+  says(message_on(sheet, {4}), "on vertex 4 of 'sail'");
+  says(message_on(sheet, {4, 1}), "on the edge from vertex 4 to vertex 1 of 'sail'");
+  says(message_on(sheet, {8, 0, 1, 2, 3}), "on vertices 8, 0, 1, 2 and others of 'sail'");
+  says(message_on(chain({.links = 3}), {2, 1}), "on edge 1 of 'sail'");
+  const Mesh block = bar({.cells = {1, 1, 1}});
+  const auto [p, q, r, s] = block.tetrahedra[2];
+  says(message_on(block, {s, r, p, q}), "on tetrahedron 2 of 'sail'");
 }
 
 TEST_CASE("a force that grows without bound says itself what helps") {
@@ -86,7 +133,7 @@ TEST_CASE("a force that grows without bound says itself what helps") {
   const BodyId body = simulation.add_body(grid({.columns = 3, .rows = 3}), Mass::per_vertex(1));
   simulation.add(body, EdgeSpring{});
   simulation.add_force(std::make_unique<Endless>());
-  CHECK(refusal(simulation).find("the force `endless` on it has grown without bound; give it an end") !=
+  CHECK(refusal(simulation).find("the force 'endless' on it has grown without bound; give it an end") !=
         std::string::npos);
 }
 

@@ -4,6 +4,7 @@
 
 #include "pliant/core/error.h"
 #include "pliant/mesh/geometry.h"
+#include "pliant/simulation/divergence_message.h"
 #include "pliant/simulation/undo.h"
 #include "pliant/solver/solver.h"
 
@@ -133,7 +134,12 @@ void Simulation::set_stop(std::function<bool()> stop) {
 
 StepReport Simulation::step() {
   update_problem();
-  const StepReport report = solver_->step(state_);
+  StepReport report;
+  try {
+    report = solver_->step(state_);
+  } catch (const Divergence& divergence) {
+    throw Error(ErrorKind::diverged, message_of(divergence.cause(), *this));
+  }
   if (settings_.precision != solver_->precision()) warn_of_precision();
   return report;
 }
