@@ -61,7 +61,7 @@ Simulation simulate(const Workload& workload, Backend backend) {
 LowerMatrix system_matrix(const Simulation& simulation) {
   std::vector<const ConstraintGroup*> groups;
   for (const auto& [id, group] : simulation.groups()) {
-    for (const auto& part : group.set.parts) groups.push_back(part.get());
+    for (const auto& batch : group.set.batches) groups.push_back(batch.get());
   }
   const State& state = simulation.state();
   const std::vector<char> nothing_pinned(state.masses.size(), 0);

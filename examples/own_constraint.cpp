@@ -29,7 +29,7 @@ pliant::ConstraintSet outside_sphere(pliant::Index vertex_count, const std::arra
   for (pliant::Index i = 0; i < vertex_count; ++i) batch->add({&i, 1}, {&one, 1}, 1, sphere);
   pliant::ConstraintSet set;
   set.count = vertex_count;
-  set.parts.push_back(std::move(batch));
+  set.batches.push_back(std::move(batch));
   return set;
 }
 

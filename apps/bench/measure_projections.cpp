@@ -25,7 +25,7 @@ struct Kernel {
     const Positions& positions = simulation.state().positions;
     const Stopwatch watch;
     for (const auto& [id, group] : simulation.groups()) {
-      for (const auto& part : group.set.parts) project(*part, positions);
+      for (const auto& batch : group.set.batches) project(*batch, positions);
     }
     return watch.seconds();
   }
@@ -66,8 +66,8 @@ Kernel make_kernel(std::string type, Mesh mesh, const Constraint& constraint) {
   const BodyId body = kernel.simulation.add_body(std::move(mesh), Mass::per_vertex(1), {.start = std::move(start)});
   kernel.simulation.add(body, constraint);
   std::size_t most = 0;
-  for (const auto& part : kernel.simulation.groups().begin()->second.set.parts) {
-    const GroupShape shape = part->shape();
+  for (const auto& batch : kernel.simulation.groups().begin()->second.set.batches) {
+    const GroupShape shape = batch->shape();
     most = std::max(most, 3 * static_cast<std::size_t>(constraints_at_once) *
                               static_cast<std::size_t>(std::max(shape.rows, shape.vertices)));
   }

@@ -121,7 +121,7 @@ Textbook::Textbook(const Simulation& simulation, GlobalForm form)
   for (const auto& [id, each] : simulation.forces()) each->add_to(force, state.view(), time_step_);
   force_ = force.transpose();
   for (const auto& [id, group] : simulation.groups()) {
-    for (const auto& part : group.set.parts) add_group(*part, simulation.body(group.body).mesh.vertices);
+    for (const auto& batch : group.set.batches) add_group(*batch, simulation.body(group.body).mesh.vertices);
   }
   assemble();
   set_up_seconds_ = watch.seconds();
@@ -148,7 +148,7 @@ void Textbook::add_group(const ConstraintGroup& group, const Positions& rest) {
     } else if (group.type() == "edge_spring") {
       const double length = reduced(stencil, reduction, rest).norm();
       constraints_.push_back(std::make_unique<TextbookSpring>(stencil, first_row, length));
-    } else if (group.type() == "bending") {
+    } else if (group.type() == "bending" || group.type() == "hinge") {
       const double length = reduced(stencil, reduction, rest).norm();
       constraints_.push_back(std::make_unique<TextbookBending>(stencil, reduction, first_row, length));
     } else {

@@ -28,7 +28,7 @@ std::int64_t bytes_of(ConstraintGroup& group) {
 Traffic traffic_of(const Simulation& simulation, const SystemInfo& info) {
   std::int64_t constraints = 0;
   for (const auto& [id, group] : simulation.groups()) {
-    for (const auto& part : group.set.parts) constraints += bytes_of(*part);
+    for (const auto& batch : group.set.batches) constraints += bytes_of(*batch);
   }
   const std::int64_t m = simulation.state().vertex_count();
   Traffic traffic;

@@ -88,9 +88,9 @@ std::vector<std::uint32_t> pinned_vertices(const pliant::Simulation& simulation)
   std::vector<std::uint32_t> pinned;
   for (const auto& [id, group] : simulation.groups()) {
     if (group.type != "position") continue;
-    for (const auto& part : group.set.parts) {
-      append(pinned, part->pinned_vertices());
-      append(pinned, part->stencil());
+    for (const auto& batch : group.set.batches) {
+      append(pinned, batch->pinned_vertices());
+      append(pinned, batch->stencil());
     }
   }
   sort_and_trim(pinned);

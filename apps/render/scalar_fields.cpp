@@ -51,13 +51,13 @@ std::vector<float> vertex_energy(const pliant::Simulation& simulation) {
   std::vector<float> energies(static_cast<std::size_t>(q.rows()), 0);
   std::vector<Real> slots;
   for (const auto& [id, group] : simulation.groups()) {
-    for (const auto& part : group.set.parts) {
-      const pliant::GroupShape shape = part->shape();
+    for (const auto& batch : group.set.batches) {
+      const pliant::GroupShape shape = batch->shape();
       const auto n = static_cast<std::size_t>(shape.vertices);
       slots.resize(3 * static_cast<std::size_t>(shape.rows));
       for (Index i = 0; i < shape.count; ++i) {
-        const Real energy = part->project(q, slots, i, i + 1);
-        for (const Index vertex : part->stencil().subspan(static_cast<std::size_t>(i) * n, n)) {
+        const Real energy = batch->project(q, slots, i, i + 1);
+        for (const Index vertex : batch->stencil().subspan(static_cast<std::size_t>(i) * n, n)) {
           energies[static_cast<std::size_t>(vertex)] += static_cast<float>(energy / static_cast<Real>(n));
         }
       }

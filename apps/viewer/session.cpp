@@ -137,8 +137,8 @@ std::optional<Session::Pin> Session::find_pin(Index vertex) const {
   for (const auto& [id, group] : scene_.simulation.groups()) {
     if (group.type != pliant::Position::info.name) continue;
     Index first = 0;
-    for (const auto& part : group.set.parts) {
-      for (const std::span<const Index> vertices : {part->pinned_vertices(), part->stencil()}) {
+    for (const auto& batch : group.set.batches) {
+      for (const std::span<const Index> vertices : {batch->pinned_vertices(), batch->stencil()}) {
         const auto found = std::ranges::find(vertices, vertex);
         if (found != vertices.end()) return Pin{id, first + static_cast<Index>(found - vertices.begin())};
         first += static_cast<Index>(vertices.size());

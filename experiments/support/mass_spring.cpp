@@ -54,11 +54,11 @@ MassSpring mass_spring(const Simulation& simulation) {
   model.is_pinned.assign(model.masses.size(), 0);
   const Positions rest = rest_positions(simulation);
   for (const auto& [id, group] : simulation.groups()) {
-    for (const auto& part : group.set.parts) {
+    for (const auto& batch : group.set.batches) {
       if (group.type == "edge_spring") {
-        add_springs(*part, rest, model.springs);
+        add_springs(*batch, rest, model.springs);
       } else if (group.type == "position") {
-        add_pins(*part, model);
+        add_pins(*batch, model);
       } else {
         fail_input("a mass-spring system has no constraint '" + group.type + "'; leave it out");
       }

@@ -14,7 +14,7 @@ class Elastic {
       : set_(build(pliant::BodyView{mesh, mesh.vertices, 0, "body"}, options)),
         no_inertia_(static_cast<std::size_t>(mesh.vertex_count()), 0),
         none_held_(static_cast<std::size_t>(mesh.vertex_count()), 0) {
-    for (const auto& part : set_.parts) groups_.push_back(part.get());
+    for (const auto& batch : set_.batches) groups_.push_back(batch.get());
     local_step_.set_groups(mesh.vertex_count(), groups_);
   }
 

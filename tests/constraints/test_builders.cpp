@@ -1,4 +1,7 @@
 // What the builders make of meshes and options.
+#include <cmath>
+#include <numeric>
+
 #include <doctest/doctest.h>
 
 #include "../core/random.h"
@@ -113,9 +116,9 @@ TEST_CASE("bending given by arrays is the bending of the mesh") {
 TEST_CASE("stencils of a second body carry on where those of the first end") {
   const Mesh sheet = grid({.columns = 3, .rows = 3});
   const ConstraintSet set = build(BodyView{sheet, sheet.vertices, 100, "second"}, TriangleStrain{});
-  for (const Index vertex : set.parts[0]->stencil()) CHECK((vertex >= 100 && vertex < 109));
+  for (const Index vertex : set.batches[0]->stencil()) CHECK((vertex >= 100 && vertex < 109));
   const ConstraintSet pins = build(BodyView{sheet, sheet.vertices, 100, "second"}, Position{.on = {4}});
-  CHECK(pins.parts[0]->pinned_vertices()[0] == 104);
+  CHECK(pins.batches[0]->pinned_vertices()[0] == 104);
 }
 
 TEST_CASE("a flat mesh is flat to bending, however it lies in space") {
@@ -127,7 +130,28 @@ TEST_CASE("a flat mesh is flat to bending, however it lies in space") {
       const Elastic bending(sheet, Bending{.orientation = orientation});
       const Elastic hinges(sheet, HingeBending{.orientation = orientation});
       for (const ConstraintSet* set : {&bending.set(), &hinges.set()}) {
-        for (const auto& part : set->parts) CHECK(dynamic_cast<Batch<FlatCurvature>*>(part.get()) != nullptr);
+        for (const auto& batch : set->batches) CHECK(dynamic_cast<Batch<FlatCurvature>*>(batch.get()) != nullptr);
+      }
+    }
+  }
+}
+
+TEST_CASE("groups call themselves by the type that they were asked for, flat and curved, and in another order") {
+  const Mesh flat = grid({.columns = 4, .rows = 4});
+  Mesh curved = flat;
+  for (Index v = 0; v < curved.vertex_count(); ++v) curved.vertices(v, 1) = std::pow(curved.vertices(v, 0), 2);
+  for (const Mesh* mesh : std::initializer_list<const Mesh*>{&flat, &curved}) {
+    for (const Orientation orientation : {Orientation::absolute, Orientation::signed_}) {
+      const Elastic bending(*mesh, Bending{.orientation = orientation});
+      const Elastic hinges(*mesh, HingeBending{.orientation = orientation});
+      for (const auto& batch : bending.set().batches) CHECK(batch->type() == "bending");
+      for (const auto& batch : hinges.set().batches) {
+        CHECK(batch->type() == "hinge");
+        std::vector<Index> order(static_cast<std::size_t>(batch->shape().count));
+        std::iota(order.begin(), order.end(), 0);
+        std::vector<Index> numbers(static_cast<std::size_t>(mesh->vertex_count()));
+        std::iota(numbers.begin(), numbers.end(), 0);
+        CHECK(batch->reordered(order, numbers)->type() == "hinge");
       }
     }
   }

@@ -57,7 +57,7 @@ Simulation sheet(Index side) {
 
 void add(Simulation& simulation, std::unique_ptr<ConstraintGroup> group) {
   ConstraintSet set;
-  set.parts.push_back(std::move(group));
+  set.batches.push_back(std::move(group));
   set.count = 1;
   simulation.add_set(BodyId{0}, std::move(set), "pull_all");
 }

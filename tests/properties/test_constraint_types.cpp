@@ -190,7 +190,7 @@ TEST_CASE_TEMPLATE_DEFINE("the energy grows in proportion to the stiffness", Typ
     Elastic other(mesh, stiffer);
     other.begin_step(q);
     CHECK(other.energy(q) == doctest::Approx(7 * energy).epsilon(1e-13));
-    for (const auto& part : elastic.set().parts) part->set_stiffness(stiffer.stiffness[0]);
+    for (const auto& batch : elastic.set().batches) batch->set_stiffness(stiffer.stiffness[0]);
     CHECK(elastic.energy(q) == doctest::Approx(7 * energy).epsilon(1e-13));
     CHECK((elastic.forces(q) - 7 * f).norm() <= 1e-13 * f.norm() * 7);
   });

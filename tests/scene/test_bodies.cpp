@@ -97,7 +97,7 @@ TEST_CASE("a group selects the vertices of a part, also of one without faces") {
                                             {"type": "position", "on": {"group": ")" +
                                         name + R"("}}]}]})",
                                     {}, "s.json");
-    const std::span<const Index> vertices = scene.simulation.groups().begin()->second.set.parts[0]->pinned_vertices();
+    const std::span<const Index> vertices = scene.simulation.groups().begin()->second.set.batches[0]->pinned_vertices();
     return std::vector<Index>(vertices.begin(), vertices.end());
   };
   CHECK(held("rope") == std::vector<Index>{0, 1, 2});

@@ -287,14 +287,14 @@ TEST_CASE("what is wrong with an event is said with its place") {
                 "events[0].add.type: unknown constraint 'hing'; did you mean 'hinge'?", "did you mean 'hinge'");
   check_refused(R"({"step": 1, "add": {"body": "rope", "type": "hinge"}})", "events[0].add: makes no constraint");
   check_refused(R"({"step": 1, "add": {"body": "sheet", "type": "position", "on": [6]}})",
-                "events[0]: ", "is already held by 'pins'");
+                "events[0]: ", "is already pinned by 'pins'");
   check_refused(R"({"step": 1, "add": {"type": "wind", "body": "rope"}})", "events[0]: wind: there are no triangles");
   check_refused(R"({"step": 1, "add": {"type": "wind", "name": "gravity"}})", "events[0].add.name: the name 'gravity'");
   check_refused(R"({"step": 1, "remove": "wnd"})", "events[0].remove: no group and no force is called 'wnd' then",
                 "did you mean 'wind'");
   check_refused(R"({"step": 1, "release": "skin", "vertices": [0]})",
                 "events[0].release: 'skin' is a group of type triangle_strain");
-  check_refused(R"({"step": 1, "release": "pins", "vertices": [0]})", "events[0]: vertex 0 is not held here");
+  check_refused(R"({"step": 1, "release": "pins", "vertices": [0]})", "events[0]: vertex 0 is not pinned here");
   check_refused(R"({"step": 1, "release": "pins", "vertices": {"nearest": [0, 0, 0]}})",
                 "events[0].vertices: the group holds none");
   check_refused(R"({"step": 1, "release": "pins", "index": 3})", "events[0].index: the group has no constraint 3");

@@ -56,8 +56,8 @@ struct Files {
   }
   std::vector<Index> selected(const std::string& mesh, const std::string& on) const {
     const Scene scene = load(mesh, R"(, "constraints": [{"type": "position", "on": )" + on + "}]");
-    const auto& part = *scene.simulation.groups().begin()->second.set.parts[0];
-    return {part.pinned_vertices().begin(), part.pinned_vertices().end()};
+    const auto& batch = *scene.simulation.groups().begin()->second.set.batches[0];
+    return {batch.pinned_vertices().begin(), batch.pinned_vertices().end()};
   }
   std::string message_of(const std::string& mesh, const std::string& more,
                          const std::string& mass = R"({"per_vertex": 1})") const {
@@ -120,9 +120,9 @@ TEST_CASE("a constraint has the mean of its vertices' values") {
   const Files files;
   const auto measures = [&](const std::string& constraint) {
     const Scene scene = files.load("strip.ply", R"(, "constraints": [)" + constraint + "]");
-    const auto& part = *scene.simulation.groups().begin()->second.set.parts[0];
-    CHECK(part.stiffness() == 1);
-    return std::vector<Real>(part.rest_measure().begin(), part.rest_measure().end());
+    const auto& batch = *scene.simulation.groups().begin()->second.set.batches[0];
+    CHECK(batch.stiffness() == 1);
+    return std::vector<Real>(batch.rest_measure().begin(), batch.rest_measure().end());
   };
   const std::string map = R"({"map": {"name": "weight"}, "from": 10, "to": 30})";
   CHECK(measures(R"({"type": "edge_spring", "stencils": [[0, 3], [0, 1], [1, 2], [2, 5], [0, 2]], "stiffness": )" +

@@ -42,7 +42,7 @@ std::string message_of(const std::string& set) {
 
 Real stiffness(const Scene& scene, const std::string& name) {
   for (const auto& [id, group] : scene.simulation.groups()) {
-    if (group.name == name) return group.set.parts[0]->stiffness();
+    if (group.name == name) return group.set.batches[0]->stiffness();
   }
   return 0;
 }

@@ -54,13 +54,13 @@ void resume(Show& show, const Show& from) {
   REQUIRE(show.simulation.groups().size() == from.simulation.groups().size());
   for (const auto& [id, group] : from.simulation.groups()) {
     const Group& copy = show.simulation.groups().at(id);
-    REQUIRE(copy.set.parts.size() == group.set.parts.size());
+    REQUIRE(copy.set.batches.size() == group.set.batches.size());
     CHECK(copy.points == group.points);
-    for (std::size_t i = 0; i < group.set.parts.size(); ++i) {
-      const std::span<const Real> numbers = group.set.parts[i]->parameters();
-      REQUIRE(copy.set.parts[i]->parameters().size() == numbers.size());
-      std::ranges::copy(numbers, copy.set.parts[i]->parameters().begin());
-      copy.set.parts[i]->set_stiffness(group.set.parts[i]->stiffness());
+    for (std::size_t i = 0; i < group.set.batches.size(); ++i) {
+      const std::span<const Real> numbers = group.set.batches[i]->parameters();
+      REQUIRE(copy.set.batches[i]->parameters().size() == numbers.size());
+      std::ranges::copy(numbers, copy.set.batches[i]->parameters().begin());
+      copy.set.batches[i]->set_stiffness(group.set.batches[i]->stiffness());
     }
   }
   CHECK(show.simulation.settings() == from.simulation.settings());

@@ -26,7 +26,7 @@ std::vector<Index> selected(const std::string& on) {
   const Scene scene = body_scene(grid + mass + R"(, "transform": {"translate": [10, 0, 0]},
     "constraints": [{"type": "position", "on": )" +
                                  on + "}]");
-  const std::span<const Index> held = scene.simulation.groups().begin()->second.set.parts[0]->pinned_vertices();
+  const std::span<const Index> held = scene.simulation.groups().begin()->second.set.batches[0]->pinned_vertices();
   return {held.begin(), held.end()};
 }
 
@@ -49,7 +49,7 @@ TEST_CASE("one line of the boundary, by its number or the nearest") {
     const Scene scene = body_scene("\"mesh\": " + mesh + ", " + mass + R"(, "transform": {"translate": [0, 0, 5]},
       "constraints": [{"type": "position", "on": {"boundary_loop": )" +
                                    loop + "}}]");
-    const std::span<const Index> held = scene.simulation.groups().begin()->second.set.parts[0]->pinned_vertices();
+    const std::span<const Index> held = scene.simulation.groups().begin()->second.set.batches[0]->pinned_vertices();
     return std::vector<Index>(held.begin(), held.end());
   };
   // Three triangles by themselves: the loops go by their first vertex.
@@ -141,10 +141,10 @@ TEST_CASE("options of constraints: explicit arrays, one value each, names") {
     ids.push_back(id);
   }
   CHECK(names == std::vector<std::string>{"body 0.edge_spring", "body 0.edge_spring 2", "pins", "body 0.drag"});
-  const auto& springs = *scene.simulation.groups().at(ids[0]).set.parts[0];
+  const auto& springs = *scene.simulation.groups().at(ids[0]).set.batches[0];
   CHECK(std::vector<Index>(springs.stencil().begin(), springs.stencil().end()) == std::vector<Index>{0, 1, 8, 0});
   CHECK(std::vector<Real>(springs.rest_measure().begin(), springs.rest_measure().end()) == std::vector<Real>{2, 4});
-  const auto& pins = *scene.simulation.groups().at(ids[2]).set.parts[0];
+  const auto& pins = *scene.simulation.groups().at(ids[2]).set.batches[0];
   CHECK(pins.type() == "position");
   CHECK(std::vector<Index>(pins.stencil().begin(), pins.stencil().end()) == std::vector<Index>{3, 1});
 }

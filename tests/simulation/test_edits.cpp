@@ -4,7 +4,7 @@
 #include "../mesh/meshes.h"
 #include "everything.h"
 #include "pliant/forces/builtin.h"
-#include "pliant/simulation/undo.h"
+#include "pliant/simulation/transaction.h"
 #include "run.h"
 
 namespace test_edits {
@@ -108,7 +108,7 @@ TEST_CASE("a replaced drag keeps its targets by vertices and weights, a line its
 
   const GroupId line = simulation.add(sheet.body, Line{.on = {5}, .direction = Vec3(0, 0, 1)});
   const auto origin = [&] {
-    const std::span<const Real> numbers = simulation.groups().at(line).set.parts[0]->anchor(0);
+    const std::span<const Real> numbers = simulation.groups().at(line).set.batches[0]->anchor(0);
     return Vec3(numbers[0], numbers[1], numbers[2]);
   };
   const Vec3 before = origin();
@@ -134,10 +134,10 @@ TEST_CASE("released vertices go, the others stay") {
   CHECK(targets(simulation, sheet.pins) == std::vector<Vec3>{row(simulation.state().positions, 13), {3, 3, 3}});
   CHECK(simulation.groups().at(sheet.pins).points == std::vector<Index>{1, 2});
   CHECK(simulation.groups().at(sheet.pins).set.count == 2);
-  const auto& part = simulation.groups().at(sheet.pins).set.parts[0];
-  if (part->shape().count > 0)
-    CHECK(std::vector<Real>(part->rest_measure().begin(), part->rest_measure().end()) == std::vector<Real>{2, 3});
-  CHECK(contains(error_of([&] { simulation.release(sheet.pins, released); }), "vertex 12 is not held here"));
+  const auto& batch = simulation.groups().at(sheet.pins).set.batches[0];
+  if (batch->shape().count > 0)
+    CHECK(std::vector<Real>(batch->rest_measure().begin(), batch->rest_measure().end()) == std::vector<Real>{2, 3});
+  CHECK(contains(error_of([&] { simulation.release(sheet.pins, released); }), "vertex 12 is not pinned here"));
   CHECK(simulation.target_count(sheet.pins) == 2);
   const std::array<Index, 2> others = {15, 13};
   simulation.release(sheet.pins, others);
@@ -158,7 +158,7 @@ TEST_CASE("a replacement that is refused changes nothing") {
   CHECK(contains(error_of([&] {
                    simulation.replace(sheet.pins, Position{.on = {0, 12}});
                  }),
-                 "already held by 'corner'"));
+                 "already pinned by 'corner'"));
   CHECK(contains(error_of([&] { simulation.replace(sheet.pins, Position{.on = {16}}); }), "out of range"));
   CHECK(contains(error_of([&] { simulation.replace(sheet.springs, EdgeSpring{.stiffness = -1}); }), "stiffness"));
   CHECK(contains(error_of([&] { simulation.replace(GroupId{9}, EdgeSpring{}); }), "group 9 does not exist"));
@@ -201,10 +201,10 @@ TEST_CASE("with its numbers and stiffness, a group made anew has the bits of the
   Simulation second = everything({.iterations = 4, .threads = 1}, 6);
   second.add(BodyId{0}, Position{.on = {8}});
   for (const auto& [id, group] : first.groups()) {
-    for (std::size_t p = 0; p < group.set.parts.size(); ++p) {
-      ConstraintGroup& copy = *second.groups().at(id).set.parts[p];
-      std::ranges::copy(group.set.parts[p]->parameters(), copy.parameters().begin());
-      if (copy.shape().count > 0) copy.set_stiffness(group.set.parts[p]->stiffness());
+    for (std::size_t p = 0; p < group.set.batches.size(); ++p) {
+      ConstraintGroup& copy = *second.groups().at(id).set.batches[p];
+      std::ranges::copy(group.set.batches[p]->parameters(), copy.parameters().begin());
+      if (copy.shape().count > 0) copy.set_stiffness(group.set.batches[p]->stiffness());
     }
   }
   second.restore(first.state());
@@ -214,7 +214,7 @@ TEST_CASE("with its numbers and stiffness, a group made anew has the bits of the
 
 namespace {
 
-/// Does all that an Undo takes back.
+/// Does all that an Transaction takes back.
 void change_everything(Simulation& simulation) {
   simulation.set_target(GroupId{5}, 0, {5, 5, 5});
   simulation.set_stiffness(GroupId{0}, 7);
@@ -244,39 +244,39 @@ TEST_CASE("changes are taken back, all of them") {
   advance(untouched, 3);
   const std::size_t warnings = changed.warnings().size();
   SUBCASE("at the end") {
-    const Undo undo(changed);
+    const Transaction transaction(changed);
     change_everything(changed);
   }
   SUBCASE("by an error") {
     const auto fail = [&] {
-      Undo undo(changed);
+      Transaction transaction(changed);
       change_everything(changed);
       changed.set_stiffness(GroupId{0}, -1);
-      undo.keep();
+      transaction.commit();
     };
     CHECK(contains(error_of(fail), "stiffness"));
   }
   SUBCASE("those that an inner one kept, with those before and after it") {
-    const Undo undo(changed);
+    const Transaction transaction(changed);
     changed.set_stiffness(GroupId{2}, 3);
     changed.set_target(GroupId{5}, 1, {2, 2, 2});
     {
-      Undo inner(changed);
+      Transaction inner(changed);
       change_everything(changed);
-      inner.keep();
+      inner.commit();
     }
     changed.remove(GroupId{0});
   }
   SUBCASE("of an inner one alone") {
-    Undo undo(changed);
+    Transaction transaction(changed);
     changed.set_stiffness(GroupId{0}, 3);
     {
-      const Undo inner(changed);
+      const Transaction inner(changed);
       change_everything(changed);
     }
     CHECK(changed.stiffness(GroupId{0}) == 3);
     changed.set_stiffness(GroupId{0}, 400);
-    undo.keep();
+    transaction.commit();
   }
   CHECK(changed.bodies().size() == 3);
   CHECK(changed.warnings().size() == warnings);
@@ -292,9 +292,9 @@ TEST_CASE("changes are taken back, all of them") {
 TEST_CASE("changes that are kept stay") {
   Simulation changed = everything({.iterations = 4, .threads = 1}, 6);
   {
-    Undo undo(changed);
+    Transaction transaction(changed);
     changed.remove(GroupId{1});
-    undo.keep();
+    transaction.commit();
   }
   CHECK(!changed.groups().contains(GroupId{1}));
   changed.remove(GroupId{2});

@@ -143,7 +143,7 @@ TEST_CASE("a constraint that yields no number is named, even when a tolerance is
     Simulation simulation({.tolerance = tolerance});
     const BodyId body = simulation.add_body(mesh_of({{0, 0, 0}}), Mass::total(1));
     ConstraintSet set;
-    set.parts.push_back(std::make_unique<Broken>());
+    set.batches.push_back(std::make_unique<Broken>());
     set.count = 1;
     simulation.add_set(body, std::move(set), "broken");
     advance(simulation, 2);

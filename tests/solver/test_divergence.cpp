@@ -37,7 +37,7 @@ Simulation falling_with_culprit(Index iterations, Real tolerance, Index culprit)
   batch->add({&culprit, 1}, {&one, 1}, 1, {&height, 1});
   ConstraintSet set;
   set.count = 1;
-  set.parts.push_back(std::move(batch));
+  set.batches.push_back(std::move(batch));
   simulation.add_set(body, std::move(set), "brittle");
   simulation.add(Gravity{});
   return simulation;
@@ -98,7 +98,7 @@ std::string message_on(Mesh mesh, std::vector<Index> vertices) {
   batch->add(vertices, ones, 1, {});
   ConstraintSet set;
   set.count = 1;
-  set.parts.push_back(std::move(batch));
+  set.batches.push_back(std::move(batch));
   simulation.add_set(body, std::move(set), "nowhere", "stretch");
   return refusal(simulation);
 }
@@ -160,7 +160,7 @@ TEST_CASE("groups that do not keep to their shape are refused by name") {
     batch->add(stencil, difference, measure, {&length, 1});
     ConstraintSet set;
     set.count = 1;
-    set.parts.push_back(std::move(batch));
+    set.batches.push_back(std::move(batch));
     simulation.add_set(body, std::move(set), "mine");
   };
   CHECK_NOTHROW(add({0, 1}, 1));
@@ -180,7 +180,7 @@ TEST_CASE("a vertex is held at one place only") {
   const BodyId body = simulation.add_body(grid({.columns = 3, .rows = 3}), Mass::per_vertex(1));
   simulation.add(body, Position{.on = {0, 1}}, "pins");
   CHECK_THROWS_WITH_AS(simulation.add(body, Position{.on = {1, 2}}, "more"),
-                       "more on body 'body 0': vertex 1 is already held by 'pins'; leave it out of one of the two",
+                       "more on body 'body 0': vertex 1 is already pinned by 'pins'; leave it out of one of the two",
                        Error);
   CHECK_THROWS_AS(simulation.add(body, Position{.stencils = {{3}, {3}}}), Error);
   CHECK_NOTHROW(simulation.add(body, Position{.on = {1, 2}, .hold = Hold::soft}));

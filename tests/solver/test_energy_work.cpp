@@ -53,7 +53,7 @@ TEST_CASE("what an external group does is work, and its energy none of the body'
       batch->add(std::array<Index, 2>{0, 1}, std::array<Real, 2>{-1, 1}, 1, std::array<Real, 1>{1});
       ConstraintSet set;
       set.count = 1;
-      set.parts.push_back(std::make_unique<External>(std::move(batch)));
+      set.batches.push_back(std::make_unique<External>(std::move(batch)));
       simulation.add_set(BodyId{0}, std::move(set), "edge_spring");
     }
     Positions velocities = Positions::Zero(2, 3);

@@ -11,7 +11,7 @@
 #include "pliant/core/error.h"
 #include "pliant/forces/builtin.h"
 #include "pliant/mesh/shapes.h"
-#include "pliant/simulation/undo.h"
+#include "pliant/simulation/transaction.h"
 #include "pliant/solver/integration/integrator.h"
 
 namespace test_integrators {
@@ -338,7 +338,7 @@ TEST_CASE("what is undone comes back with its history") {
   advance(simulation, 4);
   const State before = simulation.state();
   {
-    const Undo undo(simulation);
+    const Transaction transaction(simulation);
     simulation.set_state(before.positions, Positions::Zero(2, 3));
     CHECK(simulation.state().previous_time_step == 0);
   }

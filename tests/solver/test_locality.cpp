@@ -110,12 +110,12 @@ void check_same(Rig& a, Rig& b) {
   }
 }
 
-std::vector<ConstraintGroup*> parts_of(const Simulation& simulation) {
-  std::vector<ConstraintGroup*> parts;
+std::vector<ConstraintGroup*> batches_of(const Simulation& simulation) {
+  std::vector<ConstraintGroup*> batches;
   for (const auto& [id, group] : simulation.groups()) {
-    for (const auto& part : group.set.parts) parts.push_back(part.get());
+    for (const auto& batch : group.set.batches) batches.push_back(batch.get());
   }
-  return parts;
+  return batches;
 }
 
 /// One that has no copy in another order.
@@ -142,12 +142,12 @@ class Stubborn final : public ConstraintGroup {
 TEST_CASE("a mesh in random order counts as scattered, in an order of our own it does not") {
   LocalStep step;
   const Rig ordered(in_rows());
-  step.set_groups(side * side, parts_of(ordered.simulation));
+  step.set_groups(side * side, batches_of(ordered.simulation));
   CHECK(step.chunks_of_vertex() < 1.5);
 
   const Rig shuffled(at_random());
   LocalGroups groups;
-  groups.set(parts_of(shuffled.simulation));
+  groups.set(batches_of(shuffled.simulation));
   step.set_groups(side * side, groups.in_use());
   CHECK(step.chunks_of_vertex() > 2.5);
   CHECK(groups.reorder(side * side));
@@ -158,8 +158,8 @@ TEST_CASE("a mesh in random order counts as scattered, in an order of our own it
 
 TEST_CASE("an order of our own has every vertex and every constraint once") {
   const Rig shuffled(at_random());
-  const std::vector<ConstraintGroup*> parts = parts_of(shuffled.simulation);
-  const LocalOrder order = find_local_order(side * side, parts);
+  const std::vector<ConstraintGroup*> batches = batches_of(shuffled.simulation);
+  const LocalOrder order = find_local_order(side * side, batches);
   const auto check_permutation = [](std::vector<Index> list, Index count) {
     REQUIRE(list.size() == static_cast<std::size_t>(count));
     std::ranges::sort(list);
@@ -169,16 +169,16 @@ TEST_CASE("an order of our own has every vertex and every constraint once") {
   for (std::size_t i = 0; i < order.vertices.size(); ++i) {
     CHECK(order.numbers[static_cast<std::size_t>(order.vertices[i])] == static_cast<Index>(i));
   }
-  REQUIRE(order.constraints.size() == parts.size());
-  for (std::size_t g = 0; g < parts.size(); ++g) check_permutation(order.constraints[g], parts[g]->shape().count);
+  REQUIRE(order.constraints.size() == batches.size());
+  for (std::size_t g = 0; g < batches.size(); ++g) check_permutation(order.constraints[g], batches[g]->shape().count);
 }
 
 TEST_CASE("constraints in another order project to the same bits, after changes as well") {
   Simulation simulation = everything({}, 9);
-  const std::vector<ConstraintGroup*> parts = parts_of(simulation);
+  const std::vector<ConstraintGroup*> batches = batches_of(simulation);
   const auto count = simulation.state().vertex_count();
   LocalGroups groups;
-  groups.set(parts);
+  groups.set(batches);
   REQUIRE(groups.reorder(count));
   Random random;
   const Positions q = simulation.state().positions + random.positions(count, 0.05);
@@ -187,22 +187,22 @@ TEST_CASE("constraints in another order project to the same bits, after changes 
   groups.scatter(local_q, back);
   CHECK(back == q);
   for (const bool changed : {false, true}) {
-    for (ConstraintGroup* part : parts) {
+    for (ConstraintGroup* batch : batches) {
       if (!changed) continue;
-      part->set_stiffness(7);
-      for (Real& number : part->targets()) number += 0.1;
-      part->begin_step(simulation.state().view(), 0.1);
+      batch->set_stiffness(7);
+      for (Real& number : batch->targets()) number += 0.1;
+      batch->begin_step(simulation.state().view(), 0.1);
     }
     if (changed) groups.sync_parameters();
-    for (std::size_t g = 0; g < parts.size(); ++g) {
-      CAPTURE(parts[g]->type());
+    for (std::size_t g = 0; g < batches.size(); ++g) {
+      CAPTURE(batches[g]->type());
       const ConstraintGroup& copy = *groups.in_use()[g];
-      CHECK(copy.pinned_vertices().size() == parts[g]->pinned_vertices().size());
-      const auto rows = static_cast<std::size_t>(parts[g]->shape().rows);
+      CHECK(copy.pinned_vertices().size() == batches[g]->pinned_vertices().size());
+      const auto rows = static_cast<std::size_t>(batches[g]->shape().rows);
       std::vector<Real> expected(3 * rows), found(3 * rows);
       for (Index i = 0; i < copy.shape().count; ++i) {
         const Index from = groups.constraint(g, i);
-        const Real energy = parts[g]->project(q, expected, from, from + 1);
+        const Real energy = batches[g]->project(q, expected, from, from + 1);
         CHECK(copy.project(local_q, found, i, i + 1) == energy);
         CHECK(found == expected);
       }
@@ -248,12 +248,12 @@ TEST_CASE("a group that cannot be put in another order leaves all as they are") 
   Rig shuffled(at_random());
   for (Rig* rig : {&ordered, &shuffled}) {
     ConstraintSet set;
-    set.parts.push_back(std::make_unique<Stubborn>(rig->at(2500)));
+    set.batches.push_back(std::make_unique<Stubborn>(rig->at(2500)));
     set.count = 1;
     rig->simulation.add_set(rig->body, std::move(set), "stubborn");
   }
   LocalGroups groups;
-  groups.set(parts_of(shuffled.simulation));
+  groups.set(batches_of(shuffled.simulation));
   CHECK(!groups.reorder(side * side));
   CHECK(!groups.is_reordered());
   for (Rig* rig : {&ordered, &shuffled}) advance(rig->simulation, 4);

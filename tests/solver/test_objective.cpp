@@ -98,21 +98,21 @@ TEST_CASE("the residual is the largest gradient of the objective on a vertex tha
     const Real residual = simulation.evaluate().residual;
 
     const Real h = simulation.settings().time_step;
-    std::vector<ConstraintGroup*> parts;
+    std::vector<ConstraintGroup*> batches;
     for (const auto& [id, group] : simulation.groups()) {
-      for (const auto& part : group.set.parts) parts.push_back(part.get());
+      for (const auto& batch : group.set.batches) batches.push_back(batch.get());
     }
     for (const auto& [id, force] : simulation.forces()) {
-      for (ConstraintGroup* group : force->groups()) parts.push_back(group);
+      for (ConstraintGroup* group : force->groups()) batches.push_back(group);
     }
     std::vector<char> is_pinned(simulation.state().masses.size(), 0);
-    for (const ConstraintGroup* part : parts) {
-      for (const Index vertex : part->pinned_vertices()) is_pinned[static_cast<std::size_t>(vertex)] = 1;
+    for (const ConstraintGroup* batch : batches) {
+      for (const Index vertex : batch->pinned_vertices()) is_pinned[static_cast<std::size_t>(vertex)] = 1;
     }
     std::vector<Real> weights;
     for (const Real mass : simulation.state().masses) weights.push_back(mass / (h * h));
     LocalStep local;
-    local.set_groups(simulation.state().vertex_count(), parts);
+    local.set_groups(simulation.state().vertex_count(), batches);
     ThreadPool threads(1);
     Positions q = simulation.state().positions;
     Positions unused = q;

@@ -85,7 +85,7 @@ TEST_CASE("a state comes back from the solver's order as it was") {
   const Index count = simulation.state().vertex_count();
   std::vector<ConstraintGroup*> groups;
   for (const auto& [id, group] : simulation.groups()) {
-    for (const auto& batch : group.set.parts) groups.push_back(batch.get());
+    for (const auto& batch : group.set.batches) groups.push_back(batch.get());
   }
   LocalGroups order;
   order.set(groups);

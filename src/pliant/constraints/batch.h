@@ -39,9 +39,11 @@ void check_numbers(std::string_view type, const GroupShape& shape, std::size_t f
 template <class Type>
 class Batch final : public ConstraintGroup {
  public:
-  explicit Batch(Real stiffness, int vertices = Type::vertices) : ConstraintGroup(stiffness), vertices_(vertices) {
+  /// `type` names it to people where several types of constraint project alike; it must outlive the batch.
+  explicit Batch(Real stiffness, int vertices = Type::vertices, std::string_view type = Type::name)
+      : ConstraintGroup(stiffness), vertices_(vertices), type_(type) {
     if (vertices < 1 || vertices > max_stencil) {
-      fail_input(std::string(Type::name) + ": a constraint over " + std::to_string(vertices) + " vertices, which all " +
+      fail_input(std::string(type) + ": a constraint over " + std::to_string(vertices) + " vertices, which all " +
                  "meet in the system matrix; give 1 to " + std::to_string(max_stencil) + ", or leave it out");
     }
   }
@@ -59,7 +61,7 @@ class Batch final : public ConstraintGroup {
     changed();
   }
 
-  std::string_view type() const override { return Type::name; }
+  std::string_view type() const override { return type_; }
   GroupShape shape() const override { return {static_cast<Index>(rest_measure_.size()), vertices(), Type::rows}; }
   std::span<const Index> stencil() const override { return stencil_; }
   std::span<const Real> reduction() const override { return reduction_; }
@@ -88,7 +90,7 @@ class Batch final : public ConstraintGroup {
   std::unique_ptr<ConstraintGroup> reordered(std::span<const Index> order,
                                              std::span<const Index> numbers) const override {
     const auto n = static_cast<std::size_t>(vertices());
-    auto batch = std::make_unique<Batch>(stiffness(), vertices_);
+    auto batch = std::make_unique<Batch>(stiffness(), vertices_, type_);
     batch->stencil_ = in_order(stencil(), order, n);
     for (Index& vertex : batch->stencil_) vertex = numbers[static_cast<std::size_t>(vertex)];
     batch->reduction_ = in_order(reduction(), order, n * Type::rows);
@@ -173,12 +175,12 @@ class Batch final : public ConstraintGroup {
 
   void check(std::size_t stencil_size, std::span<const Real> reduction, std::size_t field_count) const {
     const auto n = static_cast<std::size_t>(vertices());
-    check_numbers(Type::name, shape(), Type::fields, stencil_size, reduction.size(), field_count);
+    check_numbers(type_, shape(), Type::fields, stencil_size, reduction.size(), field_count);
     if constexpr (requires { Type::is_difference; }) {
-      if (reduction[0] != -1 || reduction[1] != 1) fail_input(std::string(Type::name) + ": its coefficients are -1, 1");
+      if (reduction[0] != -1 || reduction[1] != 1) fail_input(std::string(type_) + ": its coefficients are -1, 1");
     }
     if (!Type::translation_invariant) return;
-    for (std::size_t row = 0; row < Type::rows; ++row) check_sum_of_row(Type::name, reduction.subspan(row * n, n));
+    for (std::size_t row = 0; row < Type::rows; ++row) check_sum_of_row(type_, reduction.subspan(row * n, n));
   }
 
   int vertices() const { return Type::vertices == dynamic_vertices ? vertices_ : Type::vertices; }
@@ -186,6 +188,7 @@ class Batch final : public ConstraintGroup {
   const Real* field(std::size_t i) const { return fields_.data() + i * Type::fields; }
 
   int vertices_;
+  std::string_view type_;
   std::vector<Index> stencil_;
   std::vector<Real> reduction_;
   std::vector<Real> rest_measure_;

@@ -60,7 +60,7 @@ ConstraintSet from_arrays(const BodyView& body, const Bending& options) {
   }
   const Values areas = of_stencils(type, body, "areas", options.areas, options.stencils);
   const StiffnessSplit stiffness(type, body, options.stiffness, options.stencils);
-  CurvatureBatches<SignedFanCurvature> batches(body, options.orientation, stiffness.common());
+  CurvatureBatches<SignedFanCurvature> batches(type, body, options.orientation, stiffness.common());
   for (Index i = 0; i < count; ++i) {
     const std::span<const Index> stencil = options.stencils[i];
     if (stencil.size() < 2 || options.cotangents[i].size() + 1 != stencil.size()) {
@@ -98,7 +98,7 @@ ConstraintSet build(const BodyView& body, const Bending& options) {
   const Stencils chosen = choose_stencils(
       type, body, options.on, {}, [&] { return candidates; }, 0);
   const StiffnessSplit stiffness(type, body, options.stiffness, chosen);
-  CurvatureBatches<SignedFanCurvature> batches(body, options.orientation, stiffness.common());
+  CurvatureBatches<SignedFanCurvature> batches(type, body, options.orientation, stiffness.common());
   for (Index i = 0; i < chosen.size(); ++i) {
     const Fan fan = fan_of(body.rest.vertices, chosen[i][0], chosen[i].subspan(1));
     add_fan(batches, chosen[i], fan.cotangents, fan.area, stiffness.of(i));

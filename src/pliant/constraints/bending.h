@@ -50,7 +50,7 @@ struct Bending {
   }
 };
 
-/// One part for each valence, flat and curved. Throws Error(input) on stencils without cotangents and areas, lists of
+/// One batch for each valence, flat and curved. Throws Error(input) on stencils without cotangents and areas, lists of
 /// the wrong length, an index out of range, an area that is not positive.
 ConstraintSet build(const BodyView& body, const Bending& options);
 

@@ -153,10 +153,10 @@ std::vector<Index> global_stencil(const BodyView& body, std::span<const Index> s
   return moved;
 }
 
-ConstraintSet one_part(std::unique_ptr<ConstraintGroup> group) {
+ConstraintSet one_batch(std::unique_ptr<ConstraintGroup> group) {
   ConstraintSet set;
   set.count = group->shape().count;
-  if (set.count > 0) set.parts.push_back(std::move(group));
+  if (set.count > 0) set.batches.push_back(std::move(group));
   return set;
 }
 

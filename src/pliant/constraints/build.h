@@ -60,8 +60,8 @@ class StretchLimits {
 /// The stencil moved from the body's own indices to those of the simulation.
 std::vector<Index> global_stencil(const BodyView& body, std::span<const Index> stencil);
 
-/// A set of one part.
-ConstraintSet one_part(std::unique_ptr<ConstraintGroup> group);
+/// A set of one batch.
+ConstraintSet one_batch(std::unique_ptr<ConstraintGroup> group);
 
 template <class Element>
 Stencils to_stencils(const std::vector<Element>& elements) {

@@ -28,9 +28,9 @@ struct BodyView {
   std::string_view name;
 };
 
-/// What a builder returns: one group for people, in parts for the solver (one for each valence, say).
+/// What a builder returns: one group for people, in batches for the solver (one for each valence, say).
 struct ConstraintSet {
-  std::vector<std::unique_ptr<ConstraintGroup>> parts;
+  std::vector<std::unique_ptr<ConstraintGroup>> batches;
   Index count = 0;             ///< constraints
   Index skipped = 0;           ///< places where the constraint is not defined
   std::string skipped_reason;  ///< which places, and how many of each

@@ -80,35 +80,35 @@ void CurvatureBatches<Signed>::add(std::span<const Index> stencil, std::span<con
   }
   const Real rest = length(z.data());
   const std::vector<Index> global = global_stencil(body_, stencil);
-  Parts& parts = parts_[stencil.size()];
+  BatchesOfSize& same_size = batches_[stencil.size()];
   if (rest <= no_direction * magnitude) {
-    batch(parts.flat, stencil.size()).add(global, coefficients, measure, {});
+    batch(same_size.flat, stencil.size()).add(global, coefficients, measure, {});
     return;
   }
   if (orientation_ == Orientation::absolute) {
     const std::array<Real, 4> field = {rest, z[0], z[1], z[2]};
-    batch(parts.absolute, stencil.size()).add(global, coefficients, measure, field);
+    batch(same_size.absolute, stencil.size()).add(global, coefficients, measure, field);
     return;
   }
   std::array<Real, 8> field = {rest, z[0], z[1], z[2], 1, 0, 0, 0};
   Signed::begin_step(x, stencil, field.data());
   const Real height = z[0] * field[5] + z[1] * field[6] + z[2] * field[7];
   field[4] = std::copysign(Real(1), height);
-  batch(parts.with_sign, stencil.size()).add(global, coefficients, measure, field);
+  batch(same_size.with_sign, stencil.size()).add(global, coefficients, measure, field);
 }
 
 template <class Signed>
 ConstraintSet CurvatureBatches<Signed>::take() {
   ConstraintSet set;
-  const auto take_part = [&set](auto& part) {
-    if (!part) return;
-    set.count += part->shape().count;
-    set.parts.push_back(std::move(part));
+  const auto take_batch = [&set](auto& batch) {
+    if (!batch) return;
+    set.count += batch->shape().count;
+    set.batches.push_back(std::move(batch));
   };
-  for (auto& [size, parts] : parts_) {
-    take_part(parts.flat);
-    take_part(parts.absolute);
-    take_part(parts.with_sign);
+  for (auto& [size, same_size] : batches_) {
+    take_batch(same_size.flat);
+    take_batch(same_size.absolute);
+    take_batch(same_size.with_sign);
   }
   return set;
 }

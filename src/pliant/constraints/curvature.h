@@ -58,29 +58,30 @@ using SignedHingeCurvature = SignedCurvature<hinge_normal>;
 template <class Signed>
 class CurvatureBatches {
  public:
-  CurvatureBatches(const BodyView& body, Orientation orientation, Real stiffness)
-      : body_(body), orientation_(orientation), stiffness_(stiffness) {}
+  CurvatureBatches(std::string_view type, const BodyView& body, Orientation orientation, Real stiffness)
+      : type_(type), body_(body), orientation_(orientation), stiffness_(stiffness) {}
 
   /// `stencil` within the body; the coefficients sum to zero.
   void add(std::span<const Index> stencil, std::span<const Real> coefficients, Real measure);
   ConstraintSet take();
 
  private:
-  struct Parts {
+  struct BatchesOfSize {
     std::unique_ptr<Batch<FlatCurvature>> flat;
     std::unique_ptr<Batch<AbsoluteCurvature>> absolute;
     std::unique_ptr<Batch<Signed>> with_sign;
   };
   template <class Type>
   Batch<Type>& batch(std::unique_ptr<Batch<Type>>& slot, std::size_t vertices) {
-    if (!slot) slot = std::make_unique<Batch<Type>>(stiffness_, static_cast<int>(vertices));
+    if (!slot) slot = std::make_unique<Batch<Type>>(stiffness_, static_cast<int>(vertices), type_);
     return *slot;
   }
 
+  std::string_view type_;  // of the constraints, for people
   const BodyView& body_;
   Orientation orientation_;
   Real stiffness_;
-  std::map<std::size_t, Parts> parts_;
+  std::map<std::size_t, BatchesOfSize> batches_;
 };
 
 }  // namespace pliant

@@ -49,10 +49,10 @@ ConstraintSet build(const BodyView& body, const Drag& options) {
     for (std::size_t j = 0; j < stencil.size(); ++j) target += weights[j] * row(body.start, stencil[j]);
     if (!options.targets.empty()) target = options.targets[i];
     const auto size = static_cast<int>(stencil.size());
-    if (batch == nullptr || batch->shape().vertices != size) {  // a part for each run of one size keeps the order
-      auto part = std::make_unique<Batch<DragProjection>>(stiffness.common(), size);
-      batch = part.get();
-      set.parts.push_back(std::move(part));
+    if (batch == nullptr || batch->shape().vertices != size) {  // a batch for each run of one size keeps the order
+      auto added = std::make_unique<Batch<DragProjection>>(stiffness.common(), size);
+      batch = added.get();
+      set.batches.push_back(std::move(added));
     }
     batch->add(global_stencil(body, stencil), weights, stiffness.of(i), {target.data(), 3});
   }

@@ -18,7 +18,7 @@ ConstraintSet build(const BodyView& body, const EdgeSpring& options) {
     const Real length = rest_length[static_cast<std::size_t>(i)];
     batch->add(global_stencil(body, chosen[i]), difference, stiffness.of(i), {&length, 1});
   }
-  return one_part(std::move(batch));
+  return one_batch(std::move(batch));
 }
 
 }  // namespace pliant

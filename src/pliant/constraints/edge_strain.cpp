@@ -51,7 +51,7 @@ ConstraintSet build(const BodyView& body, const EdgeStrain& options) {
     const std::array<Real, 2> difference = {-inverse, inverse};
     batch->add(global_stencil(body, chosen[i]), difference, stiffness.of(i) * measure[c], limits[i]);
   }
-  return one_part(std::move(batch));
+  return one_batch(std::move(batch));
 }
 
 }  // namespace pliant

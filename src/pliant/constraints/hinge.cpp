@@ -33,7 +33,7 @@ ConstraintSet build(const BodyView& body, const HingeBending& options) {
   const Stencils chosen = choose_stencils(
       type, body, options.on, options.stencils, [&] { return to_stencils(all.stencils); }, 4);
   const StiffnessSplit stiffness(type, body, options.stiffness, chosen);
-  CurvatureBatches<SignedHingeCurvature> batches(body, options.orientation, stiffness.common());
+  CurvatureBatches<SignedHingeCurvature> batches(type, body, options.orientation, stiffness.common());
   for (Index i = 0; i < chosen.size(); ++i) {
     const auto corner = [&](std::size_t j) { return row(body.rest.vertices, chosen[i][j]); };
     const RestHinge rest = rest_hinge(corner(0), corner(1), corner(2), corner(3));

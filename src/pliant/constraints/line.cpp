@@ -25,7 +25,7 @@ ConstraintSet build(const BodyView& body, const Line& options) {
     const std::array<Real, 6> field = {origin[0], origin[1], origin[2], direction[0], direction[1], direction[2]};
     batch->add(global_stencil(body, chosen[i]), {&one, 1}, stiffness.of(i), field);
   }
-  return one_part(std::move(batch));
+  return one_batch(std::move(batch));
 }
 
 }  // namespace pliant

@@ -38,7 +38,7 @@ ConstraintSet build(const BodyView& body, const Position& options) {
     for (Index i = 0; i < chosen.size(); ++i) pins->add(body.first_vertex + chosen[i][0], target(i));
     ConstraintSet set;
     set.count = chosen.size();
-    if (set.count > 0) set.parts.push_back(std::move(pins));
+    if (set.count > 0) set.batches.push_back(std::move(pins));
     return set;
   }
   const StiffnessSplit stiffness(type, body, options.stiffness, chosen);
@@ -48,12 +48,12 @@ ConstraintSet build(const BodyView& body, const Position& options) {
     const Vec3 point = target(i);
     batch->add(global_stencil(body, chosen[i]), {&one, 1}, stiffness.of(i), {point.data(), 3});
   }
-  return one_part(std::move(batch));
+  return one_batch(std::move(batch));
 }
 
 namespace {
 
-/// Which constraints of a part stay, given the vertex of each.
+/// Which constraints of a batch stay, given the vertex of each.
 std::vector<std::size_t> kept_places(std::span<const Index> vertices, std::span<const Index> released) {
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
@@ -86,25 +86,25 @@ ConstraintSet release(const ConstraintSet& positions, std::span<const Index> ver
   std::ranges::sort(released);
   ConstraintSet rest;
   std::vector<Index> all;
-  for (const auto& part : positions.parts) {
+  for (const auto& batch : positions.batches) {
     std::unique_ptr<ConstraintGroup> kept;
-    if (auto* pins = dynamic_cast<HardPins*>(part.get())) {
+    if (auto* pins = dynamic_cast<HardPins*>(batch.get())) {
       kept = release(*pins, released);
       all.insert(all.end(), pins->pinned_vertices().begin(), pins->pinned_vertices().end());
-    } else if (const auto* soft = dynamic_cast<const Batch<PositionProjection>*>(part.get())) {
+    } else if (const auto* soft = dynamic_cast<const Batch<PositionProjection>*>(batch.get())) {
       kept = release(*soft, released);
       all.insert(all.end(), soft->stencil().begin(), soft->stencil().end());
     } else {
-      fail_input(std::string(part->type()) + ": only positions can be released; remove the group, or replace it");
+      fail_input(std::string(batch->type()) + ": only positions can be released; remove the group, or replace it");
     }
     const auto count = static_cast<Index>(kept->targets().size() / 3);
     rest.count += count;
-    if (count > 0) rest.parts.push_back(std::move(kept));
+    if (count > 0) rest.batches.push_back(std::move(kept));
   }
   std::ranges::sort(all);
   for (const Index vertex : released) {
     if (std::ranges::binary_search(all, vertex)) continue;
-    fail_input("vertex " + std::to_string(vertex) + " is not held here, so it cannot be released; leave it out");
+    fail_input("vertex " + std::to_string(vertex) + " is not pinned here, so it cannot be released; leave it out");
   }
   return rest;
 }

@@ -28,7 +28,7 @@ ConstraintSet build(const BodyView& body, const TetrahedronStrain& options) {
     check_rest_measure(type, body, i, rest.measure, "volume; swap two of its vertices if it is inverted");
     batch->add(global_stencil(body, chosen[i]), rest.reduction, stiffness.of(i) * rest.measure, limits[i]);
   }
-  return one_part(std::move(batch));
+  return one_batch(std::move(batch));
 }
 
 }  // namespace pliant

@@ -29,7 +29,7 @@ ConstraintSet build(const BodyView& body, const TriangleStrain& options) {
     check_rest_measure(type, body, i, rest.measure, "area; leave it out, or fix its vertices");
     batch->add(global_stencil(body, chosen[i]), rest.reduction, stiffness.of(i) * rest.measure, limits[i]);
   }
-  return one_part(std::move(batch));
+  return one_batch(std::move(batch));
 }
 
 }  // namespace pliant

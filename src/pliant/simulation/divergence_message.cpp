@@ -54,7 +54,7 @@ std::string constraint_words(const Simulation& simulation, const DivergenceCause
   const std::span<const Index> stencil = stencil_of(*cause.group, at(cause.constraint));
   for (const auto& [id, group] : simulation.groups()) {
     const auto is_it = [&](const auto& batch) { return batch.get() == cause.group; };
-    if (std::ranges::none_of(group.set.parts, is_it)) continue;
+    if (std::ranges::none_of(group.set.batches, is_it)) continue;
     const Body& body = body_of(simulation, stencil.front());
     return fmt::format("the {} constraint of '{}' on {} of '{}'", group.type, group.name, element_words(body, stencil),
                        body.name);

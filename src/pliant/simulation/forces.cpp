@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "pliant/core/error.h"
-#include "pliant/simulation/undo.h"
+#include "pliant/simulation/transaction.h"
 #include "pliant/solver/solver.h"
 
 namespace pliant {
@@ -56,7 +56,7 @@ ForceId Simulation::add_force(ForceRecord record, std::unique_ptr<Force> force) 
     for (int i = 2; find_force(record.name); ++i) record.name = std::string(force->type()) + " " + std::to_string(i);
   }
   const ForceId id{next_force_++};
-  if (undo_ != nullptr) undo_->save(id, std::nullopt);
+  if (transaction_ != nullptr) transaction_->save(id, std::nullopt);
   forces_have_changed(*force);
   forces_.emplace(id, std::move(force));
   force_records_.emplace(id, std::move(record));
@@ -77,7 +77,7 @@ void Simulation::exchange_force(ForceId id, ForceRecord record, std::unique_ptr<
     forces_have_changed(*place);
   }
   std::swap(force_records_.at(id), record);
-  if (undo_ != nullptr) undo_->save(id, Undo::SavedForce{std::move(force), std::move(record)});
+  if (transaction_ != nullptr) transaction_->save(id, Transaction::SavedForce{std::move(force), std::move(record)});
   warned_forces_.erase(id);
   forces_changed_ = true;
 }
@@ -86,7 +86,8 @@ void Simulation::remove(ForceId id) {
   const auto found = forces_.find(id);
   if (found == forces_.end()) fail_missing(id);
   forces_have_changed(*found->second);
-  if (undo_ != nullptr) undo_->save(id, Undo::SavedForce{std::move(found->second), force_records_.at(id)});
+  if (transaction_ != nullptr)
+    transaction_->save(id, Transaction::SavedForce{std::move(found->second), force_records_.at(id)});
   forces_.erase(found);
   force_records_.erase(id);
   warned_forces_.erase(id);

@@ -6,15 +6,15 @@ namespace pliant {
 
 void GroupIndex::add(GroupId id, const Group& group) {
   names_.emplace(group.name, id);
-  for (const auto& part : group.set.parts) {
-    for (const Index vertex : part->pinned_vertices()) holders_.insert_or_assign(vertex, id);
+  for (const auto& batch : group.set.batches) {
+    for (const Index vertex : batch->pinned_vertices()) holders_.insert_or_assign(vertex, id);
   }
 }
 
 void GroupIndex::remove(GroupId id, const Group& group) {
   names_.erase({group.name, id});
-  for (const auto& part : group.set.parts) {
-    for (const Index vertex : part->pinned_vertices()) {
+  for (const auto& batch : group.set.batches) {
+    for (const Index vertex : batch->pinned_vertices()) {
       const auto found = holders_.find(vertex);
       if (found != holders_.end() && found->second == id) holders_.erase(found);
     }

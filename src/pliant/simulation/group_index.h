@@ -6,7 +6,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "pliant/simulation/parts.h"
+#include "pliant/simulation/records.h"
 
 namespace pliant {
 

@@ -3,26 +3,26 @@
 
 #include "pliant/constraints/position.h"
 #include "pliant/core/error.h"
-#include "pliant/simulation/undo.h"
+#include "pliant/simulation/transaction.h"
 
 namespace pliant {
 namespace {
 
-/// Constraints that the set has in a part, hard pins included.
-std::size_t count_of(const ConstraintGroup& part) {
-  const std::size_t held = part.pinned_vertices().size();
-  return held > 0 ? held : part.rest_measure().size();
+/// Constraints that the set has in a batch, hard pins included.
+std::size_t count_of(const ConstraintGroup& batch) {
+  const std::size_t held = batch.pinned_vertices().size();
+  return held > 0 ? held : batch.rest_measure().size();
 }
 
 /// What makes a constraint the same one in another set: its vertices and their coefficients.
 using Identity = std::pair<std::vector<Index>, std::vector<Real>>;
 
-Identity identity(const ConstraintGroup& part, std::size_t i) {
-  if (!part.pinned_vertices().empty()) return {{part.pinned_vertices()[i]}, {1}};
-  const auto n = static_cast<std::size_t>(part.shape().vertices);
-  const std::size_t size = n * static_cast<std::size_t>(part.shape().rows);
-  const std::span<const Index> stencil = part.stencil().subspan(i * n, n);
-  const std::span<const Real> reduction = part.reduction().subspan(i * size, size);
+Identity identity(const ConstraintGroup& batch, std::size_t i) {
+  if (!batch.pinned_vertices().empty()) return {{batch.pinned_vertices()[i]}, {1}};
+  const auto n = static_cast<std::size_t>(batch.shape().vertices);
+  const std::size_t size = n * static_cast<std::size_t>(batch.shape().rows);
+  const std::span<const Index> stencil = batch.stencil().subspan(i * n, n);
+  const std::span<const Real> reduction = batch.reduction().subspan(i * size, size);
   return {{stencil.begin(), stencil.end()}, {reduction.begin(), reduction.end()}};
 }
 
@@ -35,14 +35,14 @@ struct Anchored {
 std::multimap<Identity, Anchored> anchors_of(const Group& group) {
   std::multimap<Identity, Anchored> anchors;
   std::size_t first_target = 0;
-  for (const auto& part : group.set.parts) {
-    const std::size_t targets = part->targets().size() / 3;
-    for (std::size_t i = 0; i < count_of(*part); ++i) {
-      const std::span<const Real> anchor = part->anchor(static_cast<Index>(i));
+  for (const auto& batch : group.set.batches) {
+    const std::size_t targets = batch->targets().size() / 3;
+    for (std::size_t i = 0; i < count_of(*batch); ++i) {
+      const std::span<const Real> anchor = batch->anchor(static_cast<Index>(i));
       if (anchor.empty()) break;  // a type without
       std::optional<Index> number;
       if (i < targets) number = group.points[first_target + i];
-      anchors.emplace(identity(*part, i), Anchored{Eigen::Map<const Vec3>(anchor.data()), number});
+      anchors.emplace(identity(*batch, i), Anchored{Eigen::Map<const Vec3>(anchor.data()), number});
     }
     first_target += targets;
   }
@@ -51,7 +51,7 @@ std::multimap<Identity, Anchored> anchors_of(const Group& group) {
 
 std::size_t count_targets(const ConstraintSet& set) {
   std::size_t numbers = 0;
-  for (const auto& part : set.parts) numbers += part->targets().size();
+  for (const auto& batch : set.batches) numbers += batch->targets().size();
   return numbers / 3;
 }
 
@@ -70,7 +70,7 @@ GroupId Simulation::add_set(BodyId id, ConstraintSet set, std::string type, std:
   check_set(set, place, std::nullopt);
   warn_of(set, place);
   const GroupId group{next_group_++};
-  if (undo_ != nullptr) undo_->save(group, std::nullopt);
+  if (transaction_ != nullptr) transaction_->save(group, std::nullopt);
   std::vector<Index> points = new_points(set);
   const auto next_point = static_cast<Index>(points.size());
   const auto placed = groups_.emplace(
@@ -81,10 +81,10 @@ GroupId Simulation::add_set(BodyId id, ConstraintSet set, std::string type, std:
 }
 
 void Simulation::check_set(const ConstraintSet& set, const std::string& place, std::optional<GroupId> replaced) const {
-  for (const auto& part : set.parts) {
-    if (!part) fail_input(place + ": a part of its constraints is null; leave it out");
-    check_group(*part, state_.vertex_count(), place);
-    check_held(*part, place, replaced);
+  for (const auto& batch : set.batches) {
+    if (!batch) fail_input(place + ": a batch of its constraints is null; leave it out");
+    check_group(*batch, state_.vertex_count(), place);
+    check_pins(*batch, place, replaced);
   }
 }
 
@@ -97,17 +97,18 @@ void Simulation::warn_of(const ConstraintSet& set, const std::string& place) {
   }
 }
 
-/// A vertex can be held at one place only.
-void Simulation::check_held(const ConstraintGroup& added, const std::string& place,
+/// A vertex can be pinned at one place only.
+void Simulation::check_pins(const ConstraintGroup& added, const std::string& place,
                             std::optional<GroupId> replaced) const {
-  std::vector<Index> held(added.pinned_vertices().begin(), added.pinned_vertices().end());
-  std::ranges::sort(held);
-  const auto twice = std::ranges::adjacent_find(held);
-  if (twice != held.end()) fail_input(place + ": vertex " + std::to_string(*twice) + " is held twice; leave one out");
-  for (const Index vertex : held) {
+  std::vector<Index> pinned(added.pinned_vertices().begin(), added.pinned_vertices().end());
+  std::ranges::sort(pinned);
+  const auto twice = std::ranges::adjacent_find(pinned);
+  if (twice != pinned.end())
+    fail_input(place + ": vertex " + std::to_string(*twice) + " is pinned twice; leave one out");
+  for (const Index vertex : pinned) {
     const std::optional<GroupId> holder = group_index_.holder(vertex);
     if (!holder || holder == replaced) continue;
-    fail_input(place + ": vertex " + std::to_string(vertex) + " is already held by '" + group(*holder).name +
+    fail_input(place + ": vertex " + std::to_string(vertex) + " is already pinned by '" + group(*holder).name +
                "'; leave it out of one of the two");
   }
 }
@@ -124,7 +125,7 @@ void Simulation::remove(GroupId id) {
     fail_input("group " + std::to_string(static_cast<Index>(id)) +
                " does not exist; give one that was added and not removed");
   group_index_.remove(id, found->second);
-  if (undo_ != nullptr) undo_->save(id, std::move(found->second));
+  if (transaction_ != nullptr) transaction_->save(id, std::move(found->second));
   groups_.erase(found);
   groups_changed_ = true;
 }
@@ -148,18 +149,18 @@ void Simulation::replace_set(GroupId id, ConstraintSet set, std::string type, An
   std::multimap<Identity, Anchored> olds = anchors_of(old);
   Index next_point = old.next_point;
   std::vector<Index> points;
-  for (const auto& part : set.parts) {
-    const std::size_t end_of_part = points.size() + part->targets().size() / 3;
-    for (std::size_t i = 0; i < count_of(*part); ++i) {
-      const std::span<Real> anchor = part->anchor(static_cast<Index>(i));
+  for (const auto& batch : set.batches) {
+    const std::size_t end_of_batch = points.size() + batch->targets().size() / 3;
+    for (std::size_t i = 0; i < count_of(*batch); ++i) {
+      const std::span<Real> anchor = batch->anchor(static_cast<Index>(i));
       if (anchor.empty()) break;
-      const auto same = olds.find(identity(*part, i));
+      const auto same = olds.find(identity(*batch, i));
       if (same != olds.end() && anchors == Anchors::kept) std::ranges::copy(same->second.anchor, anchor.begin());
       const bool has_number = same != olds.end() && same->second.number.has_value();
-      if (points.size() < end_of_part) points.push_back(has_number ? *same->second.number : next_point++);
+      if (points.size() < end_of_batch) points.push_back(has_number ? *same->second.number : next_point++);
       if (same != olds.end()) olds.erase(same);
     }
-    while (points.size() < end_of_part) points.push_back(next_point++);
+    while (points.size() < end_of_batch) points.push_back(next_point++);
   }
   warn_of(set, place);
   exchange_set(id, std::move(set), std::move(type), std::move(points), next_point);
@@ -173,9 +174,9 @@ void Simulation::release(GroupId id, std::span<const Index> vertices) {
   std::ranges::sort(released);
   std::vector<Index> points;
   std::size_t target = 0;
-  for (const auto& part : old.set.parts) {
-    for (std::size_t i = 0; i < count_of(*part); ++i, ++target) {
-      if (!std::ranges::binary_search(released, identity(*part, i).first[0])) points.push_back(old.points[target]);
+  for (const auto& batch : old.set.batches) {
+    for (std::size_t i = 0; i < count_of(*batch); ++i, ++target) {
+      if (!std::ranges::binary_search(released, identity(*batch, i).first[0])) points.push_back(old.points[target]);
     }
   }
   exchange_set(id, std::move(rest), old.type, std::move(points), old.next_point);
@@ -186,7 +187,7 @@ void Simulation::exchange_set(GroupId id, ConstraintSet set, std::string type, s
   Group& group = groups_.at(id);
   Group renewed{group.name, std::move(type), group.body, std::move(set), std::move(points), next_point};
   group_index_.remove(id, group);
-  if (undo_ != nullptr) undo_->save(id, std::move(group));
+  if (transaction_ != nullptr) transaction_->save(id, std::move(group));
   group = std::move(renewed);
   group_index_.add(id, group);
   groups_changed_ = true;
@@ -195,15 +196,15 @@ void Simulation::exchange_set(GroupId id, ConstraintSet set, std::string type, s
 void Simulation::set_stiffness(GroupId id, Real stiffness) {
   const Group& owner = group(id);
   if (!this->stiffness(id)) fail_input("group '" + owner.name + "' has no stiffness; hard pins have none");
-  if (undo_ != nullptr) undo_->save_numbers(id, owner);
-  for (const auto& part : owner.set.parts) {
-    if (part->shape().count > 0) part->set_stiffness(stiffness);
+  if (transaction_ != nullptr) transaction_->save_numbers(id, owner);
+  for (const auto& batch : owner.set.batches) {
+    if (batch->shape().count > 0) batch->set_stiffness(stiffness);
   }
 }
 
 std::optional<Real> Simulation::stiffness(GroupId id) const {
-  for (const auto& part : group(id).set.parts) {
-    if (part->shape().count > 0) return part->stiffness();
+  for (const auto& batch : group(id).set.batches) {
+    if (batch->shape().count > 0) return batch->stiffness();
   }
   return std::nullopt;
 }
@@ -211,8 +212,8 @@ std::optional<Real> Simulation::stiffness(GroupId id) const {
 std::span<Real> Simulation::target_numbers(GroupId id, Index i) const {
   const Group& owner = group(id);
   auto place = static_cast<std::size_t>(i);
-  for (const auto& part : owner.set.parts) {
-    const std::span<Real> targets = part->targets();
+  for (const auto& batch : owner.set.batches) {
+    const std::span<Real> targets = batch->targets();
     if (i >= 0 && 3 * place < targets.size()) return targets.subspan(3 * place, 3);
     place -= targets.size() / 3;
   }
@@ -232,7 +233,7 @@ void Simulation::set_target(GroupId id, Index i, const Vec3& target) {
   if (!target.allFinite())
     fail_input("group '" + group(id).name + "': the target is not finite; give three finite numbers");
   const std::span<Real> numbers = target_numbers(id, i);
-  if (undo_ != nullptr) undo_->save_numbers(id, group(id));
+  if (transaction_ != nullptr) transaction_->save_numbers(id, group(id));
   std::ranges::copy(target, numbers.begin());
 }
 

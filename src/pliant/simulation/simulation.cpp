@@ -5,7 +5,7 @@
 #include "pliant/core/error.h"
 #include "pliant/mesh/geometry.h"
 #include "pliant/simulation/divergence_message.h"
-#include "pliant/simulation/undo.h"
+#include "pliant/simulation/transaction.h"
 #include "pliant/solver/solver.h"
 
 namespace pliant {
@@ -67,7 +67,7 @@ BodyId Simulation::add_body(Mesh mesh, const Mass& mass, BodyOptions options) {
   const Positions still = Positions::Zero(mesh.vertex_count(), 3);
   const Positions velocities = given_or(std::move(options.velocities), still, "velocities", options.name);
 
-  if (undo_ != nullptr) undo_->save_state();
+  if (transaction_ != nullptr) transaction_->save_state();
   const Index first_vertex = state_.vertex_count();
   append(state_.positions, start);
   append(state_.velocities, velocities);
@@ -111,7 +111,7 @@ void Simulation::update_problem() {
   if (groups_changed_) {
     std::vector<ConstraintGroup*> groups;
     for (const auto& [id, owner] : groups_) {
-      for (const auto& part : owner.set.parts) groups.push_back(part.get());
+      for (const auto& batch : owner.set.batches) groups.push_back(batch.get());
     }
     for (const auto& [id, force] : forces_) {
       for (ConstraintGroup* group : force->groups()) groups.push_back(group);
@@ -170,7 +170,7 @@ Real Simulation::elastic_energy(GroupId id) const {
   Real energy = 0;
   const Group& owner = group(id);
   if (groups_changed_) return 0;  // the solver has not seen these
-  for (const auto& part : owner.set.parts) energy += solver_->elastic_energy(*part);
+  for (const auto& batch : owner.set.batches) energy += solver_->elastic_energy(*batch);
   return energy;
 }
 
@@ -181,7 +181,7 @@ std::span<const Real> Simulation::objective_history() const {
 void Simulation::set_state(const Positions& positions, const Positions& velocities) {
   check_rows(positions, state_.vertex_count(), "set_state: positions");
   check_rows(velocities, state_.vertex_count(), "set_state: velocities");
-  if (undo_ != nullptr) undo_->save_state();
+  if (transaction_ != nullptr) transaction_->save_state();
   state_.positions = positions;
   state_.velocities = velocities;
   state_.previous_time_step = 0;
@@ -206,7 +206,7 @@ void Simulation::restore(const State& state) {
     check_rows(state.previous_velocities, state_.vertex_count(), "restore: previous velocities");
   }
   check_surplus(state);
-  if (undo_ != nullptr) undo_->save_state();
+  if (transaction_ != nullptr) transaction_->save_state();
   state_ = state;
   if (state_.previous_time_step == 0) {
     for (Positions* rows : {&state_.previous_positions, &state_.previous_velocities}) rows->resize(0, 3);

@@ -25,7 +25,7 @@
 namespace pliant {
 
 class Solver;
-class Undo;
+class Transaction;
 
 class Simulation {
  public:
@@ -160,14 +160,14 @@ class Simulation {
   const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
-  friend class Undo;
+  friend class Transaction;
 
   BodyView view(BodyId id) const;
   const Group& group(GroupId id) const;
   std::span<Real> target_numbers(GroupId id, Index i) const;
   void warn_of_precision();
   void check_set(const ConstraintSet& set, const std::string& place, std::optional<GroupId> replaced) const;
-  void check_held(const ConstraintGroup& added, const std::string& place, std::optional<GroupId> replaced) const;
+  void check_pins(const ConstraintGroup& added, const std::string& place, std::optional<GroupId> replaced) const;
   void warn_of(const ConstraintSet& set, const std::string& place);
   void exchange_set(GroupId id, ConstraintSet set, std::string type, std::vector<Index> points, Index next_point);
   const ForceRecord& record(ForceId id) const;
@@ -193,7 +193,7 @@ class Simulation {
   Index next_force_ = 0;
   bool groups_changed_ = true;
   bool forces_changed_ = true;
-  Undo* undo_ = nullptr;  // the innermost one under way
+  Transaction* transaction_ = nullptr;  // the innermost one under way
 };
 
 }  // namespace pliant

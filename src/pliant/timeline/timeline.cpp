@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "pliant/simulation/undo.h"
+#include "pliant/simulation/transaction.h"
 
 namespace pliant {
 namespace {
@@ -84,7 +84,7 @@ void check_ramp(const Simulation& simulation, const StiffnessRamp& ramp) {
 
 template <class F>
 void Timeline::all_or_nothing(Simulation& simulation, F&& f) {
-  Undo undo(simulation);
+  Transaction transaction(simulation);
   const std::vector<Motion> motions = motions_;
   const std::map<GroupId, Ramp> ramps = ramps_;
   const std::size_t event_count = events_.size();
@@ -101,7 +101,7 @@ void Timeline::all_or_nothing(Simulation& simulation, F&& f) {
     running_ = -1;
     throw;
   }
-  undo.keep();
+  transaction.commit();
 }
 
 Index Timeline::add(When when, Edit edit, std::string name) {

@@ -190,13 +190,13 @@ void restore_groups(const Node& list, const Simulation& simulation) {
     if (read_bytes(node.require("name")) != group.name) {
       node.fail(fmt::format("the scene has the group '{}' here; take another checkpoint", printable(group.name)));
     }
-    const Node parts = node.require("batches");
-    parts.require_list(group.set.parts.size(), "(one a batch)");
-    for (std::size_t p = 0; p < group.set.parts.size(); ++p) {
-      ConstraintGroup& part = *group.set.parts[p];
-      read_numbers(parts[p].require("parameters"), part.parameters());
-      const Node stiffness = parts[p].require("stiffness");
-      stiffness.locate([&] { part.set_stiffness(read_real(stiffness)); });
+    const Node batches = node.require("batches");
+    batches.require_list(group.set.batches.size(), "(one a batch)");
+    for (std::size_t p = 0; p < group.set.batches.size(); ++p) {
+      ConstraintGroup& batch = *group.set.batches[p];
+      read_numbers(batches[p].require("parameters"), batch.parameters());
+      const Node stiffness = batches[p].require("stiffness");
+      stiffness.locate([&] { batch.set_stiffness(read_real(stiffness)); });
     }
   }
 }

@@ -92,11 +92,11 @@ Json write_state(const State& state) {
 Json write_groups(const Simulation& simulation) {
   Json groups = Json::array();
   for (const auto& [id, group] : simulation.groups()) {
-    Json parts = Json::array();
-    for (const auto& part : group.set.parts) {
-      parts.push_back({{"stiffness", part->stiffness()}, {"parameters", bytes_of(part->parameters())}});
+    Json batches = Json::array();
+    for (const auto& batch : group.set.batches) {
+      batches.push_back({{"stiffness", batch->stiffness()}, {"parameters", bytes_of(batch->parameters())}});
     }
-    groups.push_back({{"name", bytes_of(group.name)}, {"batches", std::move(parts)}});
+    groups.push_back({{"name", bytes_of(group.name)}, {"batches", std::move(batches)}});
   }
   return groups;
 }

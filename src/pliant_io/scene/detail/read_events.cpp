@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pliant/simulation/undo.h"
+#include "pliant/simulation/transaction.h"
 #include "pliant_io/scene/detail/option_reader.h"
 #include "pliant_io/scene/detail/read_motion.h"
 #include "pliant_io/scene/detail/scene_reader.h"
@@ -245,8 +245,8 @@ Timeline::Edit EventReader::read_remove(const Node& node) {
 /// The vertices that a group of positions holds, with the indices of its body, in the order of its targets.
 std::vector<Index> pinned_vertices(const Simulation& simulation, const Group& group) {
   std::vector<Index> vertices;
-  for (const auto& part : group.set.parts) {
-    const std::span<const Index> held = part->pinned_vertices().empty() ? part->stencil() : part->pinned_vertices();
+  for (const auto& batch : group.set.batches) {
+    const std::span<const Index> held = batch->pinned_vertices().empty() ? batch->stencil() : batch->pinned_vertices();
     vertices.insert(vertices.end(), held.begin(), held.end());
   }
   for (Index& vertex : vertices) vertex -= simulation.body(group.body).first_vertex;
@@ -445,7 +445,7 @@ void SceneReader::read_events(const Node& root, Timeline& timeline) {
   }
   std::vector<Timeline::Edit> edits(entries.size());
   {
-    const Undo undo(simulation);
+    const Transaction transaction(simulation);
     Timeline rehearsal;
     for (std::vector<Index> due; !(due = order.next(simulation.settings().time_step)).empty();) {
       for (const Index event : due) {

@@ -1,4 +1,4 @@
-#include "pliant/simulation/undo.h"
+#include "pliant/simulation/transaction.h"
 
 #include <algorithm>
 
@@ -6,50 +6,50 @@
 
 namespace pliant {
 
-Undo::Undo(Simulation& simulation)
+Transaction::Transaction(Simulation& simulation)
     : simulation_(simulation),
-      outer_(simulation.undo_),
+      outer_(simulation.transaction_),
       settings_(simulation.settings_),
       body_count_(simulation.bodies_.size()),
       warning_count_(simulation.warnings_.size()),
       warned_forces_(simulation.warned_forces_),
       next_group_(simulation.next_group_),
       next_force_(simulation.next_force_) {
-  simulation_.undo_ = this;
+  simulation_.transaction_ = this;
 }
 
-Undo::~Undo() {
-  simulation_.undo_ = outer_;
-  if (!is_kept_) {
-    take_back();
+Transaction::~Transaction() {
+  simulation_.transaction_ = outer_;
+  if (!is_committed_) {
+    roll_back();
   } else if (outer_ != nullptr) {
-    hand_on(*outer_);
+    merge_into(*outer_);
   }
 }
 
-void Undo::save_numbers(GroupId id, const Group& group) {
+void Transaction::save_numbers(GroupId id, const Group& group) {
   if (groups_.contains(id) || numbers_.contains(id)) return;
   Numbers numbers;
-  for (const auto& part : group.set.parts) {
-    numbers.stiffnesses.push_back(part->stiffness());
-    numbers.points.emplace_back(part->targets().begin(), part->targets().end());
+  for (const auto& batch : group.set.batches) {
+    numbers.stiffnesses.push_back(batch->stiffness());
+    numbers.points.emplace_back(batch->targets().begin(), batch->targets().end());
   }
   numbers_.emplace(id, std::move(numbers));
 }
 
-void Undo::save(GroupId id, std::optional<Group> group) {
+void Transaction::save(GroupId id, std::optional<Group> group) {
   groups_.emplace(id, std::move(group));  // the first one counts
 }
 
-void Undo::save(ForceId id, std::optional<SavedForce> force) {
+void Transaction::save(ForceId id, std::optional<SavedForce> force) {
   forces_.emplace(id, std::move(force));
 }
 
-void Undo::save_state() {
+void Transaction::save_state() {
   if (!state_) state_ = simulation_.state_;
 }
 
-void Undo::take_back() {
+void Transaction::roll_back() {
   Simulation& s = simulation_;
   for (auto& [id, group] : groups_) {
     if (const auto now = s.groups_.find(id); now != s.groups_.end()) {
@@ -61,10 +61,10 @@ void Undo::take_back() {
     s.group_index_.add(id, placed.first->second);
   }
   for (const auto& [id, numbers] : numbers_) {
-    const auto& parts = s.groups_.at(id).set.parts;
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-      parts[i]->set_stiffness(numbers.stiffnesses[i]);
-      std::ranges::copy(numbers.points[i], parts[i]->targets().begin());
+    const auto& batches = s.groups_.at(id).set.batches;
+    for (std::size_t i = 0; i < batches.size(); ++i) {
+      batches[i]->set_stiffness(numbers.stiffnesses[i]);
+      std::ranges::copy(numbers.points[i], batches[i]->targets().begin());
     }
   }
   for (auto& [id, saved] : forces_) {
@@ -91,7 +91,7 @@ void Undo::take_back() {
   s.next_force_ = next_force_;
 }
 
-void Undo::hand_on(Undo& outer) {
+void Transaction::merge_into(Transaction& outer) {
   if (state_ && !outer.state_) outer.state_ = std::move(state_);
   for (auto& [id, numbers] : numbers_) {
     if (!outer.groups_.contains(id)) outer.numbers_.emplace(id, std::move(numbers));

@@ -10,31 +10,31 @@
 
 namespace pliant {
 
-/// Takes back, when it ends, whatever was changed of a simulation since it began, unless keep() was called: bodies,
+/// Takes back, when it ends, whatever was changed of a simulation since it began, unless commit() was called: bodies,
 /// groups, forces, stiffnesses, targets, settings, a replaced state. Groups and forces that come back keep their ids.
 /// It does not take back steps, nor what a program changed inside a group or a force by itself. The simulation must
-/// stay where it is while this lives; one Undo may live inside another.
+/// stay where it is while this lives; one Transaction may live inside another.
 ///
-///     Undo undo(simulation);
+///     Transaction transaction(simulation);
 ///     simulation.remove(pins);
 ///     simulation.step();  // throws: the pins are there again
-///     undo.keep();
-class Undo {
+///     transaction.commit();
+class Transaction {
  public:
-  explicit Undo(Simulation& simulation);
-  ~Undo();
-  Undo(const Undo&) = delete;
-  Undo& operator=(const Undo&) = delete;
+  explicit Transaction(Simulation& simulation);
+  ~Transaction();
+  Transaction(const Transaction&) = delete;
+  Transaction& operator=(const Transaction&) = delete;
 
-  void keep() { is_kept_ = true; }
+  void commit() { is_committed_ = true; }
 
  private:
   friend class Simulation;
 
   /// What changes without a group being another one.
   struct Numbers {
-    std::vector<Real> stiffnesses;          // of each part
-    std::vector<std::vector<Real>> points;  // of each part
+    std::vector<Real> stiffnesses;          // of each batch
+    std::vector<std::vector<Real>> points;  // of each batch
   };
   struct SavedForce {
     std::unique_ptr<Force> force;
@@ -47,12 +47,12 @@ class Undo {
   void save(ForceId id, std::optional<SavedForce> force);
   void save_state();
 
-  void take_back();
-  void hand_on(Undo& outer);
+  void roll_back();
+  void merge_into(Transaction& outer);
 
   Simulation& simulation_;
-  Undo* outer_;
-  bool is_kept_ = false;
+  Transaction* outer_;
+  bool is_committed_ = false;
   // As they were when it began.
   SolverSettings settings_;
   std::size_t body_count_;
