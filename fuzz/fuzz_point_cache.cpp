@@ -5,7 +5,7 @@
 #include <string>
 
 #include "fuzz.h"
-#include "pliant_io/mesh/point_cache.h"
+#include "pliant_io/mesh/point_cache_format.h"
 
 namespace {
 
@@ -37,8 +37,8 @@ void check(const pliant::PointCache& cache) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
-  constexpr std::size_t format_count = choice_names(pliant::PointCacheFormat{}).size();
-  const auto format = static_cast<pliant::PointCacheFormat>(data[0] % format_count);
+  const auto formats = pliant::point_cache_formats();
+  const pliant::PointCacheFormat& format = formats[data[0] % formats.size()];
   pliant_fuzz::expect_errors_only([&] {
     // The slowest rate that a user may give brings the times near the largest doubles.
     for (const pliant::Real rate : {24.0, 1e-270}) {

@@ -278,7 +278,7 @@ void add_check_command(CLI::App& program) {
   const auto options = std::make_shared<CheckOptions>();
   add_scene_arguments(*command, *options);
   add_setting_options(*command, *options);
-  add_import_options(*command, options->import);
+  add_simulated_import_options(*command, options->import);
   command->add_flag("--json", options->as_json, "As JSON, for programs");
   command->add_flag("--scene", options->as_scene,
                     "Print the scene file alone: of a built-in scene, or the one made for a mesh");

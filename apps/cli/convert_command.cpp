@@ -12,8 +12,9 @@
 #include "number_option.h"
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
-#include "pliant_io/export/export.h"
+#include "pliant_io/export/animation_format.h"
 #include "pliant_io/mesh/mesh_file.h"
+#include "pliant_io/mesh/point_cache_format.h"
 #include "pliant_io/recorder/run_files.h"
 #include "terminal.h"
 
@@ -98,7 +99,7 @@ void refuse_to_replace(const ConvertOptions& options) {
 
 std::string writable_formats() {
   return fmt::format("meshes: {}; animations: {}", fmt::join(pliant::writable_mesh_extensions(), ", "),
-                     fmt::join(choice_names(pliant::AnimationFormat{}), ", "));
+                     pliant::animation_extensions());
 }
 
 /// The folder of a run, a point cache with or without its mesh, or a mesh that stands still.
@@ -121,13 +122,13 @@ Animation read_animation(const ConvertOptions& options) {
     return pliant::animate(pliant::read_mesh(*options.mesh, options.import), name, std::move(cache));
   }
   if (options.mesh) {
-    pliant::fail_input(
-        fmt::format("{}: not a point cache; --mesh is for those: .pc2, .mdd or .npy", options.in.string()));
+    pliant::fail_input(fmt::format("{}: not a point cache; --mesh is for those: {}", options.in.string(),
+                                   pliant::point_cache_extensions()));
   }
   if (!pliant::mesh_format(options.in)) {
-    pliant::fail_input(fmt::format("{}: neither the folder of a run nor a point cache ({}) nor a mesh ({})",
-                                   options.in.string(), fmt::join(choice_names(pliant::PointCacheFormat{}), ", "),
-                                   fmt::join(pliant::readable_mesh_extensions(), ", ")));
+    pliant::fail_input(fmt::format("{}: neither the folder of a run nor a point cache ({}) nor a mesh (.{})",
+                                   options.in.string(), pliant::point_cache_extensions(),
+                                   fmt::join(pliant::readable_mesh_extensions(), ", .")));
   }
   return pliant::still(pliant::read_mesh(options.in, options.import), name);
 }

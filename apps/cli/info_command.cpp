@@ -1,8 +1,10 @@
 // pliant info: what a mesh is, what is wrong with it, and what that means for a simulation.
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <fmt/format.h>
@@ -40,7 +42,50 @@ struct Info {
   Index texture_coordinate_count = 0;
   std::vector<std::string> maps;
   Diagnosis diagnosis;
+  pliant::Real scale = 1;  ///< that it was read with
 };
+
+/// A unit that the file may be in, by its size.
+struct SuspectedUnit {
+  std::string_view name;
+  pliant::Real scale;  ///< to be given by --scale
+  std::string text;
+};
+
+std::string size_text(const pliant::Vec3& size) {
+  struct LengthUnit {
+    std::string_view name;
+    pliant::Real meters;
+  };
+  constexpr std::array units = {LengthUnit{"km", 1e3}, LengthUnit{"m", 1}, LengthUnit{"mm", 1e-3}};
+  const pliant::Real longest = size.maxCoeff();
+  const LengthUnit& unit = longest >= 1e3 ? units[0] : longest >= 0.1 ? units[1] : units[2];
+  const pliant::Vec3 x = size / unit.meters;
+  return fmt::format("{:.3g} by {:.3g} by {:.3g} {}", x[0], x[1], x[2], unit.name);
+}
+
+/// Of a mesh that is unlikely large or small, and would be of a likely size, 5 mm to 50 m, in another unit.
+std::optional<SuspectedUnit> suspect_unit(const Diagnosis& d, pliant::Real scale) {
+  struct LikelyUnit {
+    std::string_view name;
+    pliant::Real shortest, longest;  // of the mesh, as it was read [m]
+    pliant::Real factor;
+  };
+  constexpr std::array likely_units = {LikelyUnit{"centimeters", 50, 500, 0.01},
+                                       LikelyUnit{"millimeters", 500, 5e4, 0.001},
+                                       LikelyUnit{"kilometers", 5e-6, 5e-3, 1000}};
+  if (!d.is_measured) return {};
+  const pliant::Vec3 size = d.box.max - d.box.min;
+  const pliant::Real longest = size.maxCoeff();
+  for (const LikelyUnit& unit : likely_units) {
+    if (!(longest > unit.shortest && longest <= unit.longest)) continue;
+    const pliant::Real likely_scale = scale * unit.factor;
+    return SuspectedUnit{
+        unit.name, likely_scale,
+        fmt::format("{}: is the file in {}? then --scale {:.6g}", size_text(size), unit.name, likely_scale)};
+  }
+  return {};
+}
 
 Info examine(const InfoOptions& options) {
   pliant::Mesh mesh = pliant::read_mesh(options.file, options.import);
@@ -54,6 +99,7 @@ Info examine(const InfoOptions& options) {
   for (const pliant::VertexMap& map : mesh.maps) info.maps.push_back(pliant::printable(map.name, 40));
   mesh.maps = {};
   info.diagnosis = pliant::diagnose(std::move(mesh));
+  info.scale = options.import.scale;
   return info;
 }
 
@@ -162,6 +208,7 @@ void print_text(const Info& info) {
   fmt::print("{}: {}, {} bytes\n", pliant::printable(info.file, 4096), info.format, info.file_size);
   print_counts(info);
   print_measures(info.diagnosis);
+  if (const auto unit = suspect_unit(info.diagnosis, info.scale)) print_row("unit", unit->text);
   print_boundary(info.diagnosis);
   print_defects(info.diagnosis);
 }
@@ -189,6 +236,13 @@ Json defects_json(const Diagnosis& d) {
                        {"remedy", kind.remedy}});
   }
   return defects;
+}
+
+/// null where nothing is suspected.
+Json unit_json(const Info& info) {
+  const auto unit = suspect_unit(info.diagnosis, info.scale);
+  if (!unit) return nullptr;
+  return {{"unit", unit->name}, {"scale", unit->scale}, {"text", unit->text}};
 }
 
 Json boundary_json(const Diagnosis& d) {
@@ -224,6 +278,7 @@ void print_json(const Info& info) {
       {"maps", info.maps},
       {"measured", d.is_measured},
       {"box", {{"min", point(d.box.min)}, {"max", point(d.box.max)}}},
+      {"suspected_unit", unit_json(info)},
       {"edge_length", spread_json(d.edge_length)},
       {"triangle_area", spread_json(d.triangle_area)},
       {"area", d.area},

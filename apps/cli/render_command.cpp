@@ -240,7 +240,7 @@ void add_render_command(CLI::App& program, int& exit_code) {
   command->add_flag("--sheet", arguments->sheet, "All frames in one picture; default: 12 of them");
   command->add_flag("--quiet", arguments->quiet, "No progress");
   add_setting_options(*command, *arguments);
-  add_import_options(*command, arguments->import);
+  add_simulated_import_options(*command, arguments->import);
   command->footer(
       "Examples:\n"
       "  pliant render curtain_wind --out curtain.mp4\n"

@@ -59,8 +59,8 @@ void add_resume_command(CLI::App& program, int& exit_code) {
              "Number of threads at most, 0: one for each processor; results do not depend on it");
   add_recording_options(*command, arguments->recording);
   command->footer(
-      "Frames and measurements after the checkpoint are taken again; all have the bits of a run without a\n"
-      "stop.\nExample:\n  pliant resume out/curtain --steps 900");
+      "Frames and measurements after the checkpoint are computed anew; all have the bits of a run that never\n"
+      "stopped.\nExample:\n  pliant resume out/curtain --steps 900");
   command->callback([arguments, &exit_code] { exit_code = resume_scene(*arguments); });
 }
 

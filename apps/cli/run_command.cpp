@@ -79,7 +79,7 @@ void add_run_command(CLI::App& program, int& exit_code) {
                    "Folder for the files, default out/SCENE; files of an earlier run there are replaced")
       ->type_name("FOLDER");
   add_setting_options(*command, *options);
-  add_import_options(*command, options->import);
+  add_simulated_import_options(*command, options->import);
   add_choice(*command, "--format", overrides.format, "Format of the frames: npy, pc2, obj, ply or none");
   add_number(*command, "--every", overrides.every, "Record the start and every n-th step");
   add_recording_options(*command, options->recording);

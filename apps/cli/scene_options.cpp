@@ -76,10 +76,12 @@ bool is_mesh(const SceneArguments& arguments) {
 
 void check_import(const SceneArguments& arguments) {
   const pliant::ImportOptions plain;
-  const bool is_placed = arguments.import.scale != plain.scale || arguments.import.up != plain.up;
+  const bool is_placed =
+      arguments.import.scale != plain.scale || arguments.import.up != plain.up || arguments.import.drop_loose;
   if (!is_placed || has_mesh_name(arguments)) return;
   pliant::fail_input(
-      "--scale, --up: these are for a mesh by itself; a scene has \"scale\" and \"up\" with its meshes, see "
+      "--scale, --up, --drop-loose: these are for a mesh by itself; a scene has \"scale\", \"up\" and "
+      "\"drop_loose\" with its meshes, see "
       "docs/scenes.md");
 }
 

@@ -28,7 +28,7 @@ void add_scene_arguments(CLI::App& command, SceneArguments& arguments, const std
 /// Adds the options that take the place of the scene's settings.
 void add_setting_options(CLI::App& command, SceneArguments& arguments);
 
-/// Refuses --scale and --up without a mesh, whatever else the scene is.
+/// Refuses --scale, --up and --drop-loose without a mesh, whatever else the scene is.
 void check_import(const SceneArguments& arguments);
 
 /// Whether the scene is a mesh file, to be simulated by itself.
@@ -41,7 +41,7 @@ pliant::Scene open_scene(const SceneArguments& arguments);
 /// What was assumed about the mesh of such a scene, one line each; "" where the scene is none.
 std::string assumptions_text(const SceneArguments& arguments, const pliant::Scene& scene);
 
-/// Prints a line for each key of the scene that has an old name.
+/// Prints a line for each of the scene's warnings: keys that have an old name, loose vertices.
 void print_warnings(const pliant::Scene& scene);
 
 }  // namespace pliant_cli

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "commands.h"
+#include "import_options.h"
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
 #include "progress.h"
@@ -89,8 +90,9 @@ SweepSetup check(const SweepArguments& arguments) {
   options.overrides = arguments.overrides;
   options.overrides.format = arguments.overrides.format.value_or(pliant::FrameFormat::none);
   for (const std::string& text : arguments.vary) options.variations.push_back(read_variation(text));
+  options.import = import_arguments(arguments.import);
   const auto open = [&](const pliant::SceneOverrides& overrides) {
-    return open_scene(SceneArguments{arguments.scene, overrides});
+    return open_scene(SceneArguments{arguments.scene, overrides, arguments.import});
   };
   return check_sweep(options, open, [] { return !was_interrupted(); });
 }
@@ -186,6 +188,7 @@ void add_sweep_command(CLI::App& program, int& exit_code) {
       ->type_name("FOLDER")
       ->required();
   add_setting_options(*command, *arguments);
+  add_simulated_import_options(*command, arguments->import);
   add_choice(*command, "--format", overrides.format, "Format of the frames: npy, pc2, obj, ply or none; default: none");
   add_number(*command, "--every", overrides.every, "Record the start and every n-th step");
   add_number(*command, "--jobs", arguments->jobs, {1, 256},

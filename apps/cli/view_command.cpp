@@ -110,7 +110,7 @@ void add_view_command(CLI::App& program, int& exit_code) {
   add_number(*command, "--samples", arguments->samples, {1, 16},
              "Samples per pixel; default: 4 on a graphics card, 1 where the processor draws");
   command->add_flag("--paused", arguments->is_paused, "Start paused; the space bar continues");
-  add_import_options(*command, arguments->import);
+  add_simulated_import_options(*command, arguments->import);
   add_setting_options(*command, *arguments);
   command->footer(
       "A file that ends in .obj, .ply, .off, .stl, .msh, .mesh, .node or .ele is a mesh, simulated as cloth, a skin "

@@ -34,6 +34,7 @@ constexpr std::array quantities = {
     Quantity{"kinetic", "kinetic energy", " [J]", Of::state},
     Quantity{"elastic", "elastic energy", " [J]", Of::state},
     Quantity{"gravitational", "gravitational energy", " [J]", Of::state},
+    Quantity{"other_potential", "potential energy of other forces", " [J]", Of::state},
     Quantity{"total", "total energy", " [J]", Of::state},
     Quantity{"speed_sum", "total speed", " [m/s]", Of::state},
     Quantity{"momentum", "momentum", " [N·s]", Of::state},

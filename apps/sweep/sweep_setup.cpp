@@ -181,6 +181,7 @@ SweepSetup check_sweep(const SweepOptions& options, const OpenScene& open_scene,
   setup.scene = options.scene;
   setup.set = options.overrides.set;
   setup.variations = options.variations;
+  setup.options = options.import;
   for (const RunOption& option : options_of(options.overrides)) {
     if (option.value) setup.options.emplace_back(option.name, *option.value);
   }

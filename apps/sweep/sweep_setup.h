@@ -17,6 +17,7 @@ struct SweepOptions {
   std::string scene;  ///< as `pliant run` takes it
   std::vector<Variation> variations;
   pliant::SceneOverrides overrides;  ///< of all runs, but for `threads`, which no result depends on
+  std::vector<std::pair<std::string, std::string>> import = {};  ///< of a mesh: {"--scale", "0.001"}
 };
 
 /// Reads the scene of a sweep with these values over its own.

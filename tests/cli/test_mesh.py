@@ -77,7 +77,7 @@ class MeshAlone(unittest.TestCase):
         self.assertIn("1 x 0 x 1 m", assumed)
         self.assertIn("2 x 2 x 0 m", self.pliant("check", "big.obj", "--scale", "0.1", "--up", "y").stdout)
         error = self.pliant("check", "chain", "--scale", "0.1", expect=2).stderr
-        self.assertIn("--scale, --up: these are for a mesh by itself", error)
+        self.assertIn("--scale, --up, --drop-loose: these are for a mesh by itself", error)
         self.assertIn("no such file", self.pliant("run", "nothing.obj", expect=2).stderr)
 
     def test_its_scene_file_gives_the_same_run(self):
@@ -96,8 +96,30 @@ class MeshAlone(unittest.TestCase):
 
     def test_vertices_of_no_element_have_a_little_mass(self):
         info = self.check(self.write("loose.obj", QUAD + "v 0.5 0 0.5\n"))
-        self.assertAlmostEqual(info["bodies"][0]["mass"], 0.3, delta=0.001)
+        self.assertAlmostEqual(info["bodies"][0]["mass"], 0.3 * (1 + 1e-3 / 4), delta=1e-12)
         self.assertEqual(info["bodies"][0]["vertices"], 5)
+
+    def test_loose_vertices_are_named_and_dropped(self):
+        self.write("loose.obj", "v 0.5 0 0.5\n" + QUAD.replace("f 1 2 3 4", "f 2 3 4 5"))
+        warning = self.pliant("check", "loose.obj").stderr
+        self.assertIn("bodies[0].mass: 1 vertex in no element (0): each gets a thousandth of the mean mass", warning)
+        for command in [["run", "--steps", 2, "--out", "out"], ["check"]]:
+            done = self.pliant(*command, "loose.obj", "--drop-loose")
+            self.assertIn("left out 1 vertex that no element has; the other 4 are numbered anew", done.stderr)
+        self.write("quad.obj", QUAD)
+        self.pliant("run", "quad.obj", "--steps", 2, "--out", "plain")
+        self.assertEqual((self.folder / "plain/frames.npy").read_bytes(), (self.folder / "out/frames.npy").read_bytes())
+
+    def test_a_sweep_of_a_mesh_takes_its_import(self):
+        self.write("loose.obj", QUAD + "v 0.5 0 0.5\n")
+        self.pliant("sweep", "loose.obj", "--drop-loose", "--scale", 2, "--steps", 2, "--out", "sweep", "--format", "npy",
+                    "--vary", "settings.iterations=2,5")
+        runs = sorted((self.folder / "sweep").glob("runs/*/run.json"))
+        self.assertEqual([json.loads(run.read_text())["bodies"][0]["vertices"] for run in runs], [4, 4])
+
+    def test_ropes_beside_cloth_have_a_little_of_its_mass(self):
+        info = self.check(self.write("both.obj", QUAD + "v 0.5 0 -1\nl 1 5\n"))
+        self.assertAlmostEqual(info["bodies"][0]["mass"], 0.3 * 1.001, delta=1e-12)
 
 
 if __name__ == "__main__":

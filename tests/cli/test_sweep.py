@@ -96,6 +96,8 @@ class Sweep(unittest.TestCase):
         elastic = [line["elastic_hook"] + line["elastic_links"] for line in alone]
         self.assertEqual(len(alone), 11)
         self.assertEqual(row["total_end"], alone[-1]["total"])
+        self.assertEqual(row["other_potential_end"], alone[-1]["other_potential"])
+        self.assertEqual(row["other_potential_max"], max(line["other_potential"] for line in alone))
         self.assertEqual(row["speed_sum_max"], max(line["speed_sum"] for line in alone))
         self.assertAlmostEqual(row["kinetic_mean"], sum(line["kinetic"] for line in alone) / 11, places=12)
         self.assertAlmostEqual(row["elastic_mean"], sum(elastic) / 11, places=12)

@@ -153,6 +153,30 @@ def test_defects(folder):
         check(text in result.stdout, f"not in the text: {text!r}")
 
 
+def test_units(folder):
+    path = os.path.join(folder, "size.obj")
+
+    def suspected(length, *arguments):
+        with open(path, "w") as file:
+            file.write(f"v 0 0 0\nv {length} 0 0\nv 0 0 {length / 4}\nf 1 2 3\n")
+        return description(path, *arguments)["suspected_unit"]
+
+    for length, unit, scale in [(1700, "millimeters", 0.001), (170, "centimeters", 0.01), (0.0017, "kilometers", 1000)]:
+        found = suspected(length)
+        check(found is not None and found["unit"] == unit and found["scale"] == scale, f"{length}: {found}")
+    found = suspected(1700)
+    text = "1.7 by 0 by 0.425 km: is the file in millimeters? then --scale 0.001"
+    check(found["text"] == text, f"text: {found}")
+    suspected(1700)
+    check(f"  unit             {text}\n" in info(path).stdout, "the unit is not in the text")
+    for length in (1.7, 0.02, 50, 1e6, 1e-7):
+        check(suspected(length) is None, f"{length} is suspected")
+        check("  unit " not in info(path).stdout, f"{length}: a unit in the text")
+    check(suspected(1700, "--scale", "0.001") is None, "suspected once scaled")
+    found = suspected(1.7, "--scale", "0.001")
+    check(found is not None and found["scale"] == 1, f"a wrong scale: {found}")
+
+
 def test_refusals(folder):
     def refused(arguments, text):
         result = info(*arguments)
@@ -178,6 +202,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         test_formats(folder)
         test_defects(folder)
+        test_units(folder)
         test_refusals(folder)
     for failure in failures:
         print(failure)

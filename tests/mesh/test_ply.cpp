@@ -248,7 +248,7 @@ TEST_CASE("a malformed PLY file is refused with its place") {
     check(ascii("element vertex x\n", ""), "a:3: \"x\" is not an index;");
     check(ascii("element vertex 1\nelement vertex 1\n", ""), "a:4: element \"vertex\" twice;");
     check(ascii("property float x\n", ""), "a:3: a property before the first element;");
-    check(ascii("element vertex 1\nproperty real x\n", ""), "a:4: \"real\" is no type");
+    check(ascii("element vertex 1\nproperty real x\n", ""), "a:4: unknown type \"real\"");
     check(ascii("element vertex 1\nproperty float\n", ""), "a:4: a property without a name;");
     check(ascii("element vertex 1\nproperty float x\nproperty int x\n", ""), "a:5: property \"x\" twice");
     check(ascii("element vertex 1\nproperty list float int x\n", ""), "a:4: a list that counts in fractions;");

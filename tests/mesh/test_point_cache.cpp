@@ -7,7 +7,7 @@
 #include <doctest/doctest.h>
 
 #include "pliant/core/error.h"
-#include "pliant_io/mesh/point_cache.h"
+#include "pliant_io/mesh/point_cache_format.h"
 #include "tests/support/temporary_folder.h"
 
 namespace test_point_cache {
@@ -63,6 +63,10 @@ std::string npy(int vertices, int frames, const std::string& dictionary) {
   return bytes;
 }
 
+PointCacheFormat format(const std::string& name) {
+  return point_cache_format("a." + name).value();
+}
+
 void check_positions(const PointCache& cache, int vertices, int frames) {
   REQUIRE(cache.vertex_count() == vertices);
   REQUIRE(cache.frame_count() == frames);
@@ -81,15 +85,14 @@ void check_positions(const PointCache& cache, int vertices, int frames) {
 }
 
 TEST_CASE("PC2: positions, and times from start, rate and frames per second") {
-  const PointCache cache =
-      PointCache::parse(pc2(3, 4, 5, 0.5F), "a.pc2", PointCacheFormat::pc2, {.frames_per_second = 10});
+  const PointCache cache = PointCache::parse(pc2(3, 4, 5, 0.5F), "a.pc2", format("pc2"), {.frames_per_second = 10});
   check_positions(cache, 3, 4);
   for (int f = 0; f < 4; ++f) CHECK(cache.time(f) == (5 + 0.5 * f) / 10);
-  CHECK(PointCache::parse(pc2(1, 2), "a", PointCacheFormat::pc2).time(1) == 1.0 / 24);
+  CHECK(PointCache::parse(pc2(1, 2), "a", format("pc2")).time(1) == 1.0 / 24);
 }
 
 TEST_CASE("MDD: positions and its own times") {
-  const PointCache cache = PointCache::parse(mdd(2, {0.5F, 0.75F, 2}), "a.mdd", PointCacheFormat::mdd);
+  const PointCache cache = PointCache::parse(mdd(2, {0.5F, 0.75F, 2}), "a.mdd", format("mdd"));
   check_positions(cache, 2, 3);
   CHECK(cache.time(0) == 0.5);
   CHECK(cache.time(1) == 0.75);
@@ -98,10 +101,10 @@ TEST_CASE("MDD: positions and its own times") {
 
 TEST_CASE("NPY: single and double precision") {
   const std::string both = "'fortran_order': False, 'shape': (3, 2, 3), }\n";
-  check_positions(PointCache::parse(npy<double>(2, 3, "{'descr': '<f8', " + both), "a", PointCacheFormat::npy), 2, 3);
-  check_positions(PointCache::parse(npy<float>(2, 3, "{'descr': '<f4', " + both), "a", PointCacheFormat::npy), 2, 3);
+  check_positions(PointCache::parse(npy<double>(2, 3, "{'descr': '<f8', " + both), "a", format("npy")), 2, 3);
+  check_positions(PointCache::parse(npy<float>(2, 3, "{'descr': '<f4', " + both), "a", format("npy")), 2, 3);
   const PointCache cache = PointCache::parse(npy<float>(2, 3, "{'shape':(3,2,3),'fortran_order':False,'descr':'<f4'}"),
-                                             "a", PointCacheFormat::npy, {.frames_per_second = 2});
+                                             "a", format("npy"), {.frames_per_second = 2});
   check_positions(cache, 2, 3);
   CHECK(cache.time(2) == 1);
   Positions between;
@@ -117,14 +120,14 @@ TEST_CASE("files are read by their extension") {
   const TemporaryFolder folder;
   check_positions(PointCache::read(folder.write("a.PC2", pc2(2, 2))), 2, 2);
   check_positions(PointCache::read(folder.write("a.mdd", mdd(2, {0, 1}))), 2, 2);
-  CHECK_THROWS_WITH_AS(PointCache::read(folder.write("a.abc", pc2(2, 2))), doctest::Contains(".pc2, .mdd or .npy"),
+  CHECK_THROWS_WITH_AS(PointCache::read(folder.write("a.abc", pc2(2, 2))), doctest::Contains("known: .pc2, .mdd, .npy"),
                        Error);
   CHECK_THROWS_WITH_AS(PointCache::read(folder.path() / "none.pc2"), doctest::Contains("no such file"), Error);
 }
 
 TEST_CASE("what a run was writing when it was cut off is passed over, but not in an MDD file") {
-  check_positions(PointCache::parse(pc2(2, 3) + std::string(17, 'x'), "a", PointCacheFormat::pc2), 2, 3);
-  CHECK_THROWS_AS(PointCache::parse(mdd(2, {0, 1}) + "x", "a", PointCacheFormat::mdd), Error);
+  check_positions(PointCache::parse(pc2(2, 3) + std::string(17, 'x'), "a", format("pc2")), 2, 3);
+  CHECK_THROWS_AS(PointCache::parse(mdd(2, {0, 1}) + "x", "a", format("mdd")), Error);
 }
 
 TEST_CASE("a file cut anywhere is refused") {
@@ -133,14 +136,13 @@ TEST_CASE("a file cut anywhere is refused") {
   for (std::size_t format = 0; format < files.size(); ++format) {
     for (std::size_t size = 0; size < files[format].size(); ++size) {
       CAPTURE(size);
-      CHECK_THROWS_AS(PointCache::parse(files[format].substr(0, size), "a", static_cast<PointCacheFormat>(format)),
-                      Error);
+      CHECK_THROWS_AS(PointCache::parse(files[format].substr(0, size), "a", point_cache_formats()[format]), Error);
     }
   }
 }
 
 TEST_CASE("counts that do not fit, values that are not finite, times that do not rise") {
-  const auto refuse = [](std::string bytes, PointCacheFormat format, const char* message) {
+  const auto refuse = [](std::string bytes, const PointCacheFormat& format, const char* message) {
     CHECK_THROWS_WITH_AS(PointCache::parse(std::move(bytes), "a.bin", format), doctest::Contains(message), Error);
   };
   const auto with = [](std::string bytes, std::size_t place, const std::string& replacement) {
@@ -149,21 +151,21 @@ TEST_CASE("counts that do not fit, values that are not finite, times that do not
   constexpr auto largest = std::numeric_limits<std::int32_t>::max();
   constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
   for (const std::int32_t count : {-1, 0, largest, std::numeric_limits<std::int32_t>::min()}) {
-    refuse(with(pc2(2, 2), 16, little(count)), PointCacheFormat::pc2, "a.bin: header");
-    refuse(with(pc2(2, 2), 28, little(count)), PointCacheFormat::pc2, "a.bin: header");
-    refuse(with(mdd(2, {0, 1}), 0, big(count)), PointCacheFormat::mdd, "a.bin: header");
-    refuse(with(mdd(2, {0, 1}), 4, big(count)), PointCacheFormat::mdd, "a.bin: header");
+    refuse(with(pc2(2, 2), 16, little(count)), format("pc2"), "a.bin: header");
+    refuse(with(pc2(2, 2), 28, little(count)), format("pc2"), "a.bin: header");
+    refuse(with(mdd(2, {0, 1}), 0, big(count)), format("mdd"), "a.bin: header");
+    refuse(with(mdd(2, {0, 1}), 4, big(count)), format("mdd"), "a.bin: header");
   }
-  refuse(with(pc2(2, 2), 12, little(std::int32_t{2})), PointCacheFormat::pc2, "version 2");
-  refuse(with(pc2(2, 2), 32 + 24 + 12, little(not_a_number)), PointCacheFormat::pc2, "frame 1, vertex 1");
-  refuse(pc2(2, 2, 0, 0), PointCacheFormat::pc2, "frame 1: its time");
-  refuse(pc2(2, 2, not_a_number), PointCacheFormat::pc2, "frame 0: its time is not finite");
-  refuse(mdd(2, {1, 1}), PointCacheFormat::mdd, "not after");
-  refuse(mdd(2, {0, std::numeric_limits<float>::infinity()}), PointCacheFormat::mdd, "not finite");
+  refuse(with(pc2(2, 2), 12, little(std::int32_t{2})), format("pc2"), "version 2");
+  refuse(with(pc2(2, 2), 32 + 24 + 12, little(not_a_number)), format("pc2"), "frame 1, vertex 1");
+  refuse(pc2(2, 2, 0, 0), format("pc2"), "frame 1: its time");
+  refuse(pc2(2, 2, not_a_number), format("pc2"), "frame 0: its time is not finite");
+  refuse(mdd(2, {1, 1}), format("mdd"), "not after");
+  refuse(mdd(2, {0, std::numeric_limits<float>::infinity()}), format("mdd"), "not finite");
   // So slow that there is no number for the time between the two frames.
-  CHECK_THROWS_WITH_AS(PointCache::parse(pc2(2, 2, -1e38f, 2e38f), "a", PointCacheFormat::pc2, {1e-270}),
+  CHECK_THROWS_WITH_AS(PointCache::parse(pc2(2, 2, -1e38f, 2e38f), "a", format("pc2"), {1e-270}),
                        doctest::Contains("than numbers go; give"), Error);
-  refuse("POINTCACHE", PointCacheFormat::pc2, "POINTCACHE2");
+  refuse("POINTCACHE", format("pc2"), "POINTCACHE2");
   for (const char* dictionary :
        {"{'descr': '>f8', 'fortran_order': False, 'shape': (2, 2, 3)}", "{'descr': '|O', 'fortran_order': False}",
         "{'descr': '<f8', 'fortran_order': True, 'shape': (2, 2, 3)}",
@@ -175,10 +177,10 @@ TEST_CASE("counts that do not fit, values that are not finite, times that do not
         "{'descr': '<f8', 'fortran_order': False, 'shape': (4611686018427387904, 2, 3)}",
         "{'descr': '<f8', 'fortran_order': False, 'shape': (", "{'descr'", ""}) {
     CAPTURE(dictionary);
-    refuse(npy<double>(2, 2, dictionary), PointCacheFormat::npy, "a.bin: header");
+    refuse(npy<double>(2, 2, dictionary), format("npy"), "a.bin: header");
   }
-  CHECK_THROWS_AS(PointCache::parse(pc2(1, 1), "a", PointCacheFormat::pc2, {.frames_per_second = 0}), Error);
-  CHECK_THROWS_AS(PointCache::parse(pc2(1, 1), "a", PointCacheFormat::pc2, {.frames_per_second = not_a_number}), Error);
+  CHECK_THROWS_AS(PointCache::parse(pc2(1, 1), "a", format("pc2"), {.frames_per_second = 0}), Error);
+  CHECK_THROWS_AS(PointCache::parse(pc2(1, 1), "a", format("pc2"), {.frames_per_second = not_a_number}), Error);
 }
 
 TEST_CASE("frames that are there already, and other times") {

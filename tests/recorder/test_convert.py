@@ -50,7 +50,7 @@ class Convert(ExportCase):
             with self.subTest(arguments=arguments):
                 self.assertIn("meshes: obj, ply, off, stl, msh, mesh; animations: gltf, glb, usda, pc2, mdd, npy",
                               self.error(*arguments))
-        self.assertIn("a point cache (pc2, mdd, npy) nor a mesh (obj, ply, off, stl, msh, mesh, node, ele)",
+        self.assertIn("a point cache (.pc2, .mdd, .npy) nor a mesh (.obj, .ply, .off, .stl, .msh, .mesh, .node, .ele)",
                       self.error("scene.json", "a.glb"))
         self.assertIn("no such file", self.error("none.obj", "a.glb"))
         self.assertIn("no run.json", self.error(self.folder, "a.glb"))

@@ -65,6 +65,30 @@ TEST_CASE("parts make one body: placed, copied, welded, named") {
   CHECK(std::ranges::max(components(mesh)) == 1);
 }
 
+TEST_CASE("a loose vertex gets a thousandth of the mean mass, with a warning, or is left out") {
+  const std::string inner = R"({"vertices": [[0, 0, 0], [9, 9, 9], [1, 0, 0], [0, 0, 1]], "triangles": [[0, 2, 3]]})";
+  const Scene shared = scene_of(inner, R"({"total": 3})");
+  CHECK(shared.simulation.state().masses == std::vector<Real>{1, 1e-3, 1, 1});
+  REQUIRE(shared.warnings.size() == 1);
+  CHECK(shared.warnings[0].starts_with("s.json: bodies[0].mass: 1 vertex in no element (1): each gets a thousandth"));
+  CHECK(scene_of(inner, R"({"area_density": 6})").simulation.state().masses == std::vector<Real>{1, 1e-3, 1, 1});
+  CHECK(scene_of(inner, R"({"per_vertex": 1})").warnings.empty());
+  CHECK(scene_of(inner, R"({"each": [1, 2, 3, 4]})").warnings.empty());
+  starts(refusal(inner, R"({"density": 1})"), "s.json: bodies[0].mass: mass: the mass is given as a density, but");
+  const Scene points = scene_of(R"({"vertices": [[0, 0, 0], [1, 0, 0]]})", R"({"total": 3})");
+  CHECK(points.simulation.state().masses == std::vector<Real>{1.5, 1.5});
+  CHECK(points.warnings.empty());
+
+  const pliant_tests::TemporaryFolder folder;
+  const std::string file = folder.write("a.obj", "v 0 0 0\nv 9 9 9\nv 1 0 0\nv 0 0 1\nf 1 3 4\n").string();
+  const Scene dropped = scene_of(R"({"file": ")" + file + R"(", "drop_loose": true})", R"({"total": 3})");
+  CHECK(mesh_of(dropped).vertex_count() == 3);
+  CHECK(dropped.simulation.state().masses == std::vector<Real>{1, 1, 1});
+  REQUIRE(dropped.warnings.size() == 1);
+  CHECK(dropped.warnings[0] ==
+        "s.json: bodies[0].mesh.file: left out 1 vertex that no element has; the other 3 are numbered anew");
+}
+
 TEST_CASE("what parts refuse") {
   starts(refusal(R"({"parts": []})"), "s.json: bodies[0].mesh.parts: there is no part; add one");
   starts(refusal(R"({"parts": {}})"), "s.json: bodies[0].mesh.parts: found an object; give a list [...]");

@@ -46,6 +46,8 @@ TEST_CASE("suggestions name what is near, and nothing else") {
   CHECK(suggestion_text("size", {"rows", "columns"}) == "known: rows, columns");
   CHECK(suggestion_text("size", {}) == "there is none");
   CHECK(suggestion_text("x", Names(30, "name")).ends_with("name, ..."));
+  CHECK(suggestion_text("d", {"a", "b", "c", "d", "e", "f", "g", "h", "i"}) ==
+        "did you mean 'd'? (known: a, b, c, d, e, f, g, h, ...)");
 }
 
 }  // namespace

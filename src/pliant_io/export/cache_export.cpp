@@ -18,21 +18,14 @@ void append_big_endian(std::string& bytes, Number number) {
   bytes.append(reinterpret_cast<const char*>(&bits), sizeof bits);
 }
 
-}  // namespace
-
-void write_array(const std::filesystem::path& path, const Animation& animation, const ArrayFormat& format) {
-  if (&format == &pc2_format && frame_rate(animation.times) == 0) {
-    fail_input(
-        fmt::format("{}: the frames are not evenly spaced in time, as those of a PC2 file are; give frames per "
-                    "second by --fps, or write MDD",
-                    path.string()));
-  }
+void write_array(const std::filesystem::path& path, const Animation& animation, const std::vector<std::size_t>& frames,
+                 const ArrayFormat& format) {
   AtomicFile file(path);
-  file.write(format.header(std::ssize(animation.times), animation.cache.vertex_count()));
+  file.write(format.header(std::ssize(frames), animation.cache.vertex_count()));
   Positions positions;
   std::string bytes;
-  for (const Real time : animation.times) {
-    animation.cache.sample(time, positions);
+  for (const std::size_t frame : frames) {
+    animation.cache.sample(animation.times[frame], positions);
     bytes.clear();
     format.append(bytes, positions);
     file.write(bytes);
@@ -40,20 +33,37 @@ void write_array(const std::filesystem::path& path, const Animation& animation, 
   file.commit();
 }
 
-void write_mdd(const std::filesystem::path& path, const Animation& animation) {
-  if (animation.times.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
+}  // namespace
+
+void write_npy(const std::filesystem::path& path, const Animation& animation, const std::vector<std::size_t>& frames,
+               const ExportOptions& /*options*/) {
+  write_array(path, animation, frames, npy_format);
+}
+
+void write_pc2(const std::filesystem::path& path, const Animation& animation, const std::vector<std::size_t>& frames,
+               const ExportOptions& /*options*/) {
+  if (frame_rate(animation.times) == 0) {
+    fail_input(
+        fmt::format("{}: the frames are not evenly spaced in time, as those of a PC2 file are; give frames per "
+                    "second by --fps, or write MDD",
+                    path.string()));
+  }
+  write_array(path, animation, frames, pc2_format);
+}
+
+void write_mdd(const std::filesystem::path& path, const Animation& animation, const std::vector<std::size_t>& frames,
+               const ExportOptions& /*options*/) {
+  if (frames.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
     fail_input(fmt::format("{}: too many frames for an MDD file; take fewer by --frames", path.string()));
   }
-  std::vector<std::size_t> frames;
-  for (std::size_t frame = 0; frame < animation.times.size(); ++frame) frames.push_back(frame);
   AtomicFile file(path);
   std::string bytes;
   append_big_endian(bytes, static_cast<std::int32_t>(frames.size()));
   append_big_endian(bytes, std::int32_t{animation.cache.vertex_count()});
   for (const float time : single_precision_times(animation, frames)) append_big_endian(bytes, time);
   Positions positions;
-  for (const Real time : animation.times) {
-    animation.cache.sample(time, positions);
+  for (const std::size_t frame : frames) {
+    animation.cache.sample(animation.times[frame], positions);
     for (Index v = 0; v < positions.rows(); ++v) {
       for (const float coordinate : single_precision(positions, v)) append_big_endian(bytes, coordinate);
     }

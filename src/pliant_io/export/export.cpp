@@ -1,16 +1,14 @@
 #include "pliant_io/export/export.h"
 
-#include <algorithm>
-#include <cctype>
+#include <limits>
 #include <numeric>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "pliant/core/error.h"
-#include "pliant_io/export/detail/export_formats.h"
+#include "pliant_io/export/animation_format.h"
+#include "pliant_io/export/keyframes.h"
 #include "pliant_io/mesh/mesh_file.h"
-#include "pliant_io/recorder/detail/array_format.h"
 #include "pliant_io/recorder/detail/one_mesh.h"
 
 namespace pliant {
@@ -19,10 +17,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool is_gltf(AnimationFormat format) {
-  return format == AnimationFormat::gltf || format == AnimationFormat::glb;
-}
-
 std::vector<std::size_t> all_frames(const Animation& animation) {
   std::vector<std::size_t> frames(animation.times.size());
   std::iota(frames.begin(), frames.end(), std::size_t{0});
@@ -30,14 +24,14 @@ std::vector<std::size_t> all_frames(const Animation& animation) {
 }
 
 /// All frames, unless the format interpolates between fewer.
-Keyframes keyframes_for(AnimationFormat format, const Animation& animation, const ExportOptions& options) {
-  if (is_gltf(format)) {
+Keyframes keyframes_for(const AnimationFormat& format, const Animation& animation, const ExportOptions& options) {
+  if (format.thins == AnimationFormat::Thins::always) {
     return choose_keyframes(animation, options.tolerance.value_or(default_gltf_tolerance), options.max_keyframes);
   }
   if (!options.tolerance) return {all_frames(animation), 0};
-  if (format != AnimationFormat::usda) {
+  if (format.thins == AnimationFormat::Thins::never) {
     fail_input(fmt::format("a tolerance of {}, but {} files hold all frames; leave it out, or take glb, gltf or usda",
-                           *options.tolerance, choice_names(format)[static_cast<std::size_t>(format)]));
+                           *options.tolerance, format.name));
   }
   return choose_keyframes(animation, *options.tolerance, std::numeric_limits<std::int64_t>::max());
 }
@@ -65,52 +59,19 @@ Digits digits_of(const std::string& name) {
   return {first, last - first + 1};
 }
 
-void write(const fs::path& path, AnimationFormat format, const Animation& animation,
-           const std::vector<std::size_t>& keyframes, const ExportOptions& options) {
-  switch (format) {
-    case AnimationFormat::gltf:
-    case AnimationFormat::glb:
-      check_bodies(path, animation);
-      write_gltf(path, animation, keyframes,
-                 format == AnimationFormat::glb ? GltfContainer::binary : GltfContainer::text, options.normals);
-      break;
-    case AnimationFormat::usda:
-      check_bodies(path, animation);
-      write_usda(path, animation, keyframes);
-      break;
-    case AnimationFormat::pc2:
-      write_array(path, animation, pc2_format);
-      break;
-    case AnimationFormat::npy:
-      write_array(path, animation, npy_format);
-      break;
-    case AnimationFormat::mdd:
-      write_mdd(path, animation);
-      break;
-  }
-}
-
 }  // namespace
-
-std::optional<AnimationFormat> animation_format(const fs::path& path) {
-  std::string extension = path.extension().string();
-  if (extension.empty()) return {};
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  constexpr auto names = choice_names(AnimationFormat{});
-  const auto found = std::ranges::find(names, std::string_view(extension).substr(1));
-  if (found == names.end()) return {};
-  return static_cast<AnimationFormat>(found - names.begin());
-}
 
 ExportReport export_animation(const fs::path& path, const Animation& animation, const ExportOptions& options) {
   const std::optional<AnimationFormat> format = animation_format(path);
   if (!format) {
-    fail_input(fmt::format("{}: its extension is of no animation; give one of {}", path.string(),
-                           fmt::join(choice_names(AnimationFormat{}), ", ")));
+    fail_input(
+        fmt::format("{}: unknown format of an animation; give one of {}", path.string(), animation_extensions()));
   }
   const Keyframes keyframes = keyframes_for(*format, animation, options);
-  at_place(path.string(), [&] { write(path, *format, animation, keyframes.frames, options); });
+  at_place(path.string(), [&] {
+    if (format->needs == AnimationFormat::Needs::faces) check_bodies(path, animation);
+    format->write(path, animation, keyframes.frames, options);
+  });
   return {std::ssize(animation.times), std::ssize(keyframes.frames), keyframes.largest_error};
 }
 

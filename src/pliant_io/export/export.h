@@ -10,15 +10,6 @@
 
 namespace pliant {
 
-/// glTF as text or binary: triangles with morph targets; USD as text; point caches; NumPy's array.
-enum class AnimationFormat { gltf, glb, usda, pc2, mdd, npy };
-constexpr std::array<std::string_view, 6> choice_names(AnimationFormat) {
-  return {"gltf", "glb", "usda", "pc2", "mdd", "npy"};
-}
-
-/// The format that the extension stands for, in capitals or not; none when it stands for no known one.
-std::optional<AnimationFormat> animation_format(const std::filesystem::path& path);
-
 /// What surfaces of a glTF file are shaded by: normals of their own, the mean of the triangles around a vertex, or
 /// none, which shows every triangle flat.
 enum class Normals { smooth, flat };

@@ -299,20 +299,23 @@ void write_binary(AtomicFile& file, const std::string& json, const std::string& 
 }  // namespace
 
 void write_gltf(const std::filesystem::path& path, const Animation& animation, const std::vector<std::size_t>& frames,
-                GltfContainer container, Normals normals) {
-  GltfExport result(animation, frames, normals);
+                const ExportOptions& options) {
+  GltfExport result(animation, frames, options.normals);
   GltfDocument& document = result.document();
-  OrderedJson buffer = {{"byteLength", document.buffer().size()}};
-  if (container == GltfContainer::text) {
-    buffer["uri"] = "data:application/octet-stream;base64," + base64(document.buffer());
-  }
-  document.add("buffers", std::move(buffer));
+  document.add("buffers", {{"byteLength", document.buffer().size()},
+                           {"uri", "data:application/octet-stream;base64," + base64(document.buffer())}});
   AtomicFile file(path);
-  if (container == GltfContainer::text) {
-    file.write(dump(document.json()) + '\n');
-  } else {
-    write_binary(file, dump(document.json()), document.buffer(), path);
-  }
+  file.write(dump(document.json()) + '\n');
+  file.commit();
+}
+
+void write_glb(const std::filesystem::path& path, const Animation& animation, const std::vector<std::size_t>& frames,
+               const ExportOptions& options) {
+  GltfExport result(animation, frames, options.normals);
+  GltfDocument& document = result.document();
+  document.add("buffers", {{"byteLength", document.buffer().size()}});
+  AtomicFile file(path);
+  write_binary(file, dump(document.json()), document.buffer(), path);
   file.commit();
 }
 

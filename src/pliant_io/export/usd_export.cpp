@@ -267,7 +267,8 @@ class UsdExport {
 
 }  // namespace
 
-void write_usda(const std::filesystem::path& path, const Animation& animation, const std::vector<std::size_t>& frames) {
+void write_usda(const std::filesystem::path& path, const Animation& animation, const std::vector<std::size_t>& frames,
+                const ExportOptions& /*options*/) {
   AtomicFile file(path);
   UsdText text(file);
   UsdExport(text, animation, frames).write();

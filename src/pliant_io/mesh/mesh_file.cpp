@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "pliant/core/error.h"
+#include "pliant/mesh/loose.h"
 #include "pliant_io/files/detail/byte_source.h"
 
 namespace pliant {
@@ -62,6 +63,7 @@ Mesh parse_mesh(std::string_view bytes, std::string_view name, const MeshFormat&
   check_options(name, options);
   Mesh mesh = format.read(ByteSource(bytes, name));
   place(mesh, options, name);
+  if (options.drop_loose) drop_loose_vertices(mesh);
   return mesh;
 }
 
@@ -70,6 +72,7 @@ Mesh read_mesh(const std::filesystem::path& path, const ImportOptions& options) 
   check_options(name, options);
   Mesh mesh = read_files(mesh_files(path), require_mesh_format(path));
   place(mesh, options, name);
+  if (options.drop_loose) drop_loose_vertices(mesh);
   return mesh;
 }
 

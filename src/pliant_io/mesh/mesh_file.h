@@ -19,20 +19,24 @@ constexpr std::array<std::string_view, 3> choice_names(UpAxis) {
 
 /// How the coordinates of a file become meters with +z up.
 struct ImportOptions {
-  Real scale = 1;         ///< meters per unit of the file [m], > 0: 0.001 where it counts in millimeters
-  UpAxis up = UpAxis::z;  ///< the file's axis that becomes +z
+  Real scale = 1;           ///< meters per unit of the file [m], > 0: 0.001 where it counts in millimeters
+  UpAxis up = UpAxis::z;    ///< the file's axis that becomes +z
+  bool drop_loose = false;  ///< leaves out vertices that no element has; the others are numbered anew
 
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& field) {
     field(OptionInfo{"scale", "m", "meters per unit of the file: 0.001 where it counts in millimeters", positive},
           self.scale);
     field(OptionInfo{"up", "", "the file's axis that points up, turned to +z: `z` (as it is), `y` or `x`"}, self.up);
+    field(OptionInfo{"drop_loose", "", "leaves out vertices that no element has; the others are numbered anew"},
+          self.drop_loose);
   }
 };
 
 /// Reads the mesh of a file: its vertices in their order and number, polygons, edges, groups, texture coordinates and
 /// per-vertex numbers, as far as the format holds them; of TetGen's pair of files either may be named. Then it is
-/// scaled and turned: `y` up takes (x, y, z) to (x, −z, y), `x` up to (−z, y, x), both without mirroring.
+/// scaled and turned: `y` up takes (x, y, z) to (x, −z, y), `x` up to (−z, y, x), both without mirroring. Loose
+/// vertices are kept unless `drop_loose` is set.
 ///
 /// What comes out is sound as data (indices in range, coordinates finite, no vertex twice in an element), but may have
 /// elements without extent, which check_mesh in geometry.h refuses and diagnose in diagnosis.h lists.

@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "pliant/core/error.h"
+#include "pliant_io/files/extension.h"
 #include "pliant_io/mesh/gmsh.h"
 #include "pliant_io/mesh/medit.h"
 #include "pliant_io/mesh/obj.h"
@@ -51,13 +52,10 @@ std::span<const MeshFormat> mesh_formats() {
 }
 
 std::optional<MeshFormat> mesh_format(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  if (extension.size() < 2) return {};
-  for (char& c : extension) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
+  const std::string extension = small_extension(path);
+  if (extension.empty()) return {};
   for (const MeshFormat& format : formats) {
-    if (std::ranges::find(format.extensions, extension.substr(1)) != format.extensions.end()) return format;
+    if (std::ranges::find(format.extensions, extension) != format.extensions.end()) return format;
   }
   return {};
 }

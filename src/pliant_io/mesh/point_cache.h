@@ -1,9 +1,7 @@
 #pragma once
 // Point caches: the positions of a mesh's vertices at many times, as animation programs exchange them.
-#include <array>
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -13,15 +11,7 @@
 
 namespace pliant {
 
-/// PC2: of 3ds Max, Blender and Houdini; float32, evenly spaced, times in frames. MDD: of LightWave; float32, a time
-/// [s] for each frame. NPY: NumPy's array, frames × m × 3 of float32 or float64, as `pliant run` writes it; no times.
-enum class PointCacheFormat { pc2, mdd, npy };
-constexpr std::array<std::string_view, 3> choice_names(PointCacheFormat) {
-  return {"pc2", "mdd", "npy"};
-}
-
-/// The format that a file's extension tells, in any case; none for another extension.
-std::optional<PointCacheFormat> point_cache_format(const std::filesystem::path& path);
+struct PointCacheFormat;  // point_cache_format.h
 
 struct PointCacheOptions {
   Real frames_per_second = 24;  ///< what a frame of a PC2 or NPY file lasts, > 0; an MDD file has its own times
@@ -30,19 +20,32 @@ struct PointCacheOptions {
 /// The frames of a file; it is kept as it was read, so that it takes the file's size in memory.
 class PointCache {
  public:
+  /// How a number is stored.
+  enum class Scalar { float32, float32_big_endian, float64 };
+
+  /// Where the numbers of a file are: frames × m × 3 from a byte on.
+  struct Layout {
+    std::size_t first_byte;
+    Scalar scalar;
+    Index vertex_count;
+  };
+
+  /// For the readers of formats: bytes that hold all frames so, with their times [s]. parse() checks the numbers.
+  PointCache(std::string bytes, const Layout& layout, std::vector<Real> times);
+
   /// Reads a file, its format told by its extension (.pc2, .mdd or .npy).
   /// @throws Error (input) `file: place: what; remedy`: not a regular readable file, another extension, counts that do
   ///   not fit the size, no frames or no vertices, a position or a time that is not finite, times that do not rise.
   static PointCache read(const std::filesystem::path& path, const PointCacheOptions& options = {});
 
   /// The same for bytes. `name` is what messages call them.
-  static PointCache parse(std::string bytes, std::string_view name, PointCacheFormat format,
+  static PointCache parse(std::string bytes, std::string_view name, const PointCacheFormat& format,
                           const PointCacheOptions& options = {});
 
   /// Frames that are there already, m × 3 each, with their times [s].
   static PointCache from_frames(std::span<const Positions> frames, std::vector<Real> times);
 
-  Index vertex_count() const { return vertex_count_; }
+  Index vertex_count() const { return layout_.vertex_count; }
   std::int64_t frame_count() const { return static_cast<std::int64_t>(times_.size()); }
 
   /// When a frame is [s]. PC2: (start frame + frame · sample rate) / frames per second; NPY: frame / frames per
@@ -64,21 +67,11 @@ class PointCache {
   void sample(Real time, Positions& positions) const;
 
  private:
-  /// How a number is stored.
-  enum class Scalar { float32, float32_big_endian, float64 };
-
-  static PointCache parse_pc2(std::string bytes, std::string_view name, Real frames_per_second);
-  static PointCache parse_mdd(std::string bytes, std::string_view name);
-  static PointCache parse_npy(std::string bytes, std::string_view name, Real frames_per_second);
-
-  PointCache(std::string bytes, std::size_t first_byte, Scalar scalar, Index vertex_count, std::vector<Real> times);
   Real number(std::size_t i) const;
   void check_numbers(std::string_view name) const;
 
   std::string bytes_;
-  std::size_t first_byte_;  ///< of the numbers: frames × m × 3
-  Scalar scalar_;
-  Index vertex_count_;
+  Layout layout_;
   std::vector<Real> times_;
 };
 

@@ -10,7 +10,7 @@
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
 #include "pliant/mesh/geometry.h"
-#include "pliant/mesh/mass.h"
+#include "pliant/mesh/loose.h"
 #include "pliant/mesh/topology.h"
 #include "pliant_io/scene/detail/scene_files.h"
 
@@ -119,27 +119,36 @@ MeshSceneJson constraints_json(const Mesh& mesh, MeshKind kind, const MeshMateri
   return constraints;
 }
 
-/// The total, and a little for vertices that no element has, where there are some.
-MeshSceneJson mass_json(const Mesh& mesh, const MeshMaterial& material) {
-  std::vector<bool> has_element(static_cast<std::size_t>(mesh.vertex_count()));
-  const auto mark = [&](const auto& elements) {
-    for (const auto& element : elements) {
-      for (const Index vertex : element) has_element[static_cast<std::size_t>(vertex)] = true;
-    }
+/// Whether some vertices have only elements that a total is not shared by: those of lower dimensions.
+bool has_lower_elements_alone(const Mesh& mesh) {
+  Mesh highest = mesh;
+  if (!mesh.tetrahedra.empty()) highest.triangles.clear();
+  if (!mesh.tetrahedra.empty() || !mesh.triangles.empty()) highest.edges.clear();
+  highest.faces = {};
+  return loose_vertices(highest).size() > loose_vertices(mesh).size();
+}
+
+/// The total; where vertices would go without, densities that give the elements of lower dimensions a thousandth of it
+/// each. `scale`: meters per unit of the mesh.
+MeshSceneJson mass_json(const Mesh& mesh, const MeshMaterial& material, Real scale) {
+  if (!has_lower_elements_alone(mesh)) return MeshSceneJson::object({{"total", material.mass}});
+  const auto sum = [](const std::vector<Real>& measures) {
+    return std::accumulate(measures.begin(), measures.end(), Real{0});
   };
-  // A total is shared out by the elements of the highest dimension.
-  if (!mesh.tetrahedra.empty()) {
-    mark(mesh.tetrahedra);
-  } else if (!mesh.triangles.empty()) {
-    mark(mesh.triangles);
-  } else {
-    mark(mesh.edges);
-  }
-  if (std::ranges::count(has_element, true) == std::ranges::ssize(has_element))
-    return MeshSceneJson::object({{"total", material.mass}});
-  const Real little = 1e-3 * material.mass / static_cast<Real>(std::max<Index>(mesh.vertex_count(), 1));
-  const Mass mass = Mass::total(material.mass) + Mass::per_vertex(little);
-  return MeshSceneJson::object({{"each", vertex_masses(mesh, mass, "mesh")}});
+  const Real length = sum(edge_lengths(mesh.vertices, mesh.edges)) * scale;
+  const Real area = sum(triangle_areas(mesh.vertices, mesh.triangles)) * scale * scale;
+  const Real volume = sum(tetrahedron_volumes(mesh.vertices, mesh.tetrahedra)) * scale * scale * scale;
+  MeshSceneJson densities = MeshSceneJson::object();
+  Real mass = material.mass;
+  const auto add = [&](const char* key, Real measure) {
+    if (!(measure > 0)) return;
+    densities[key] = mass / measure;
+    mass = 1e-3 * material.mass;
+  };
+  add("density", volume);
+  add("area_density", area);
+  add("line_density", length);
+  return densities;
 }
 
 /// Meters per unit: as given, or what makes a mesh of an unlikely size a meter long.
@@ -163,9 +172,11 @@ Scene make_mesh_scene(const std::filesystem::path& file, const ImportOptions& im
   const MeshMaterial material = mesh_material(kind);
   const MeshPins pins = mesh_pins(mesh, kind);
   const std::string up(choice_names(import.up)[static_cast<std::size_t>(import.up)]);
+  MeshSceneJson mesh_json = {{"file", file.filename().string()}, {"scale", scale}, {"up", up}};
+  if (import.drop_loose) mesh_json["drop_loose"] = true;
   const MeshSceneJson body = {{"name", file.stem().string()},
-                              {"mesh", {{"file", file.filename().string()}, {"scale", scale}, {"up", up}}},
-                              {"mass", mass_json(mesh, material)},
+                              {"mesh", std::move(mesh_json)},
+                              {"mass", mass_json(mesh, material, scale / import.scale)},
                               {"constraints", constraints_json(mesh, kind, material, pins)}};
   const std::string description =
       fmt::format("{} of {} vertices, pinned at {}{}", material.text, mesh.vertex_count(), pins.text, remark);

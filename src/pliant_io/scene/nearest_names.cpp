@@ -13,8 +13,9 @@
 namespace pliant {
 namespace {
 
-constexpr std::size_t compared = 64;  // letters: no key is longer, and the cost grows with the lengths
-constexpr std::size_t shown = 24;     // names of a list
+constexpr std::size_t compared = 64;     // letters: no key is longer, and the cost grows with the lengths
+constexpr std::size_t shown = 24;        // names of a list
+constexpr std::size_t shown_beside = 8;  // of one behind a suggestion
 
 std::string in_small_letters(std::string_view text) {
   std::string small(text);
@@ -43,12 +44,12 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return distances.back();
 }
 
-std::string joined_names(std::span<const std::string_view> names) {
+std::string joined_names(std::span<const std::string_view> names, std::size_t most) {
   std::string text;
-  for (const std::string_view name : names.first(std::min(shown, names.size()))) {
+  for (const std::string_view name : names.first(std::min(most, names.size()))) {
     text += (text.empty() ? "" : ", ") + printable(name, 64);
   }
-  return names.size() > shown ? text + ", ..." : text;
+  return names.size() > most ? text + ", ..." : text;
 }
 
 /// "did you mean 'a', 'b' or 'c'?"; "" without names.
@@ -95,9 +96,9 @@ std::string did_you_mean(std::string_view word, std::vector<std::string_view> na
 
 std::string suggestion_text(std::string_view word, const std::vector<std::string_view>& names) {
   if (names.empty()) return "there is none";
-  const std::string known = "known: " + joined_names(names);
   const std::string text = question(near_names(word, names));
-  return text.empty() ? known : fmt::format("{} ({})", text, known);
+  if (text.empty()) return "known: " + joined_names(names, shown);
+  return fmt::format("{} (known: {})", text, joined_names(names, shown_beside));
 }
 
 }  // namespace pliant

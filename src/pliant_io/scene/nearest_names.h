@@ -15,7 +15,8 @@ std::vector<std::string_view> near_names(std::string_view word, std::vector<std:
 std::string did_you_mean(std::string_view word, std::vector<std::string_view> names);
 
 /// What a message says after "unknown key 'colums'; ": "did you mean 'columns'? (known: rows, columns, size)", or
-/// "known: rows, columns, size" when nothing is near. Of many names two dozen are named.
+/// "known: rows, columns, size" when nothing is near. Of many names two dozen are named, or eight
+/// beside a suggestion.
 std::string suggestion_text(std::string_view word, const std::vector<std::string_view>& names);
 
 }  // namespace pliant

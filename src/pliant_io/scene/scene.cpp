@@ -78,6 +78,7 @@ void read_simulation(const Node& root, Scene& scene) {
   reader.read_gravity(root.find("gravity"));
   for_each_entry(root, "forces", [&](const Node& node) { reader.read_force(node); });
   reader.read_events(root, scene.timeline);
+  std::ranges::move(reader.warnings, std::back_inserter(scene.warnings));
   scene.group_names = scene.simulation.group_names();
   std::set<std::string> names(scene.group_names.begin(), scene.group_names.end());
   for (std::string& name : reader.later_groups) {

@@ -41,7 +41,7 @@ struct Scene {
   std::vector<SceneFile> files;          ///< of its meshes and maps, each once
   std::vector<std::string> group_names;  ///< of the groups there are, and behind them those that events add
 
-  std::vector<std::string> warnings;  ///< of its texts: keys whose names are old, with their places
+  std::vector<std::string> warnings;  ///< with their places: keys whose names are old, loose vertices
 
   /// What messages call it: its file.
   std::string place() const;

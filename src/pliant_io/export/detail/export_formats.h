@@ -1,6 +1,5 @@
 #pragma once
-// The writers of animations, one file each. All throw Error (output), and Error (input) for what the format cannot
-// hold.
+// The writers of animations, one file each: AnimationFormat::write.
 #include <filesystem>
 
 #include "pliant_io/export/export.h"
@@ -8,22 +7,23 @@
 
 namespace pliant {
 
-enum class GltfContainer { text, binary };
+using AnimationWriter = void(const std::filesystem::path& path, const Animation& animation,
+                             const std::vector<std::size_t>& frames, const ExportOptions& options);
 
 /// glTF 2.0: a node and a mesh for each body, y up; keyframe 0 is the mesh, each other one a morph target. The buffer
-/// of a text file stands in it.
-void write_gltf(const std::filesystem::path& path, const Animation& animation, const std::vector<std::size_t>& frames,
-                GltfContainer container, Normals normals);
+/// of the text file stands in it.
+AnimationWriter write_gltf;
+/// The same as one binary file.
+AnimationWriter write_glb;
 
 /// USD as text: an Xform for each body with a Mesh of its polygons and BasisCurves of its edges.
-void write_usda(const std::filesystem::path& path, const Animation& animation, const std::vector<std::size_t>& frames);
+AnimationWriter write_usda;
 
-/// PC2 or NPY, all frames.
-struct ArrayFormat;
-void write_array(const std::filesystem::path& path, const Animation& animation, const ArrayFormat& format);
-
-/// MDD, all frames with their times.
-void write_mdd(const std::filesystem::path& path, const Animation& animation);
+// The others hold all points as one.
+AnimationWriter write_pc2;
+AnimationWriter write_npy;
+/// With the times of the frames.
+AnimationWriter write_mdd;
 
 /// When the frame is, counted from the animation's first frame [s].
 inline Real time_from_start(const Animation& animation, std::size_t frame) {

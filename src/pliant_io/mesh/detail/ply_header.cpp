@@ -147,7 +147,7 @@ class HeaderReader {
     const auto* entry = std::ranges::find(type_names, word, &decltype(type_names)::value_type::first);
     if (entry == type_names.end()) {
       lexer_.fail(
-          fmt::format("{} is no type of a property; known: char, uchar, short, ushort, int, uint, float, double",
+          fmt::format("unknown type {} of a property; known: char, uchar, short, ushort, int, uint, float, double",
                       TextLexer::quoted(word)));
     }
     return entry->second;

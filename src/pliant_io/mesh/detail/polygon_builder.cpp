@@ -38,7 +38,7 @@ std::string PolygonBuilder::finish_face() {
   if (face.size() < 3) return fmt::format("a face with {} corners; give it at least 3", face.size());
   if (std::string repeated = repeated_corner(); !repeated.empty()) return repeated;
   if (mesh_.faces.vertices.size() > max_corners_) {
-    return fmt::format("more than {} face corners, which is no mesh for a file of this size; cut the mesh up",
+    return fmt::format("more than {} face corners, which a file of this size cannot hold; cut the mesh up",
                        max_corners_);
   }
   for (std::size_t i = 2; i < face.size(); ++i) mesh_.triangles.push_back({face[0], face[i - 1], face[i]});

@@ -1,29 +1,26 @@
 #include "pliant_io/recorder/detail/array_format.h"
 
+#include <array>
 #include <bit>
 #include <limits>
 
 #include <fmt/format.h>
 
 #include "pliant/core/error.h"
+#include "pliant_io/files/detail/npy.h"
 
 namespace pliant {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "'<f8' and PC2 are written as they lie in memory");
+static_assert(std::endian::native == std::endian::little, "doubles and PC2 are written as they lie in memory");
 
 template <typename Number>
 void append_number(std::string& bytes, Number number) {
   bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
 }
 
-std::string npy_header(std::int64_t frame_count, Index vertex_count) {
-  constexpr std::size_t size = 128;
-  std::string text("\x93NUMPY\x01\x00\x76\x00", 10);  // the dictionary has 0x76 = 118 bytes
-  text += fmt::format("{{'descr': '<f8', 'fortran_order': False, 'shape': ({}, {}, 3), }}", frame_count, vertex_count);
-  text.resize(size - 1, ' ');
-  text += '\n';
-  return text;
+std::string frames_npy_header(std::int64_t frame_count, Index vertex_count) {
+  return npy_header("<f8", std::array<std::int64_t, 3>{frame_count, vertex_count, 3});
 }
 
 void append_doubles(std::string& bytes, const Positions& positions) {
@@ -56,7 +53,7 @@ void append_floats(std::string& bytes, const Positions& positions) {
 
 }  // namespace
 
-const ArrayFormat npy_format = {"npy", npy_header, append_doubles};
+const ArrayFormat npy_format = {"npy", frames_npy_header, append_doubles};
 const ArrayFormat pc2_format = {"pc2", pc2_header, append_floats};
 
 Eigen::Vector3f single_precision(const Positions& positions, Index vertex) {

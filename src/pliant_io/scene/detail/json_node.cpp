@@ -119,6 +119,11 @@ std::string_view Node::require_one_of(const std::vector<std::string_view>& keys)
   return found;
 }
 
+std::string Node::at(std::string_view what) const {
+  const SourcePlace place = this->place();
+  return fmt::format("{}: {}: {}", printable_place(place.origin->name), place.path, what);
+}
+
 void Node::fail(std::string_view what) const {
   const SourcePlace place = this->place();
   fail_at(place.origin->name, place.path, what);

@@ -104,6 +104,8 @@ class Node {
   /// The one key of these that the object has; refuses none and more than one.
   std::string_view require_one_of(const std::vector<std::string_view>& keys) const;
 
+  /// `file: path: what`, for a warning.
+  std::string at(std::string_view what) const;
   /// Throws Error(input) `file: path: what`.
   [[noreturn]] void fail(std::string_view what) const;
   /// Throws "found a string; give a number".

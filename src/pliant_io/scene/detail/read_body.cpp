@@ -36,7 +36,7 @@ void SceneReader::read_body(const Node& node) {
   }
 
   const Node mesh_node = node.require("mesh");
-  Mesh mesh = read_mesh(mesh_node);
+  Mesh mesh = read_mesh(mesh_node, warnings);
   mesh_node.locate([&] { check_mesh(mesh, printable(options.name)); });
   untransformed.emplace_back();
   if (const auto transform = node.find("transform")) {
@@ -45,7 +45,7 @@ void SceneReader::read_body(const Node& node) {
     transform->locate([&] { check_mesh(mesh, printable(options.name)); });
   }
   const Node mass_node = node.require("mass");
-  const Mass mass = read_mass(mass_node, mesh);
+  const Mass mass = with_loose_vertices(read_mass(mass_node, mesh), mass_node, mesh, warnings);
   mass_node.locate([&] { vertex_masses(mesh, mass, printable(options.name)); });
   const Index vertex_count = mesh.vertex_count();
   check_rows(node, "start_positions", vertex_count);

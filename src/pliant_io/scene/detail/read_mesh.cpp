@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <numbers>
+#include <numeric>
 #include <optional>
+#include <span>
+#include <utility>
 
 #include "pliant/mesh/join.h"
+#include "pliant/mesh/loose.h"
 #include "pliant/mesh/shapes/limits.h"
 #include "pliant_io/mesh/mesh_file.h"
 #include "pliant_io/scene/detail/option_reader.h"
@@ -42,7 +46,11 @@ Mesh read_shape(const Node& node, const Keys& more_keys, std::tuple<Options...>*
   return mesh;
 }
 
-Mesh read_mesh_file(const Node& node, const Keys& more_keys) {
+std::string vertices_text(Index count) {
+  return fmt::format("{} {}", count, count == 1 ? "vertex" : "vertices");
+}
+
+Mesh read_mesh_file(const Node& node, const Keys& more_keys, std::vector<std::string>& warnings) {
   ImportOptions import;
   read_options(node, import, joined({"file", "source"}, more_keys));
   const Node file = node.require("file");
@@ -53,10 +61,17 @@ Mesh read_mesh_file(const Node& node, const Keys& more_keys) {
   if (!source.empty() && !std::filesystem::exists(path, ignored)) {
     file.fail(fmt::format("{}: no such file; {}", printable_place(path.string()), printable(source)));
   }
-  return file.locate([&] {
+  const bool drops_loose = std::exchange(import.drop_loose, false);
+  Mesh mesh = file.locate([&] {
     for (const std::filesystem::path& each : mesh_files(path)) note_file(file, each);
     return read_mesh(path, import);
   });
+  const Index dropped = drops_loose ? drop_loose_vertices(mesh) : 0;
+  if (dropped > 0) {
+    warnings.push_back(file.at(fmt::format("left out {} that no element has; the other {} are numbered anew",
+                                           vertices_text(dropped), mesh.vertex_count())));
+  }
+  return mesh;
 }
 
 Mesh read_inline_mesh(const Node& node, const Keys& more_keys) {
@@ -70,7 +85,7 @@ Mesh read_inline_mesh(const Node& node, const Keys& more_keys) {
   return mesh;
 }
 
-Mesh read_mesh(const Node& node, const Keys& more_keys);
+Mesh read_mesh(const Node& node, const Keys& more_keys, std::vector<std::string>& warnings);
 
 /// Where a part is repeated, each time further on by the offset.
 struct Copies {
@@ -85,9 +100,9 @@ struct Copies {
 };
 
 /// Appends a part and its copies.
-void read_part(const Node& node, std::vector<MeshPart>& parts, Real& vertex_count) {
+void read_part(const Node& node, std::vector<MeshPart>& parts, Real& vertex_count, std::vector<std::string>& warnings) {
   MeshPart part;
-  part.mesh = read_mesh(node, {"name", "transform", "copies"});
+  part.mesh = read_mesh(node, {"name", "transform", "copies"}, warnings);
   read_optional(node, "name", part.name);
   if (const auto transform = node.find("transform")) apply_transform(*transform, part.mesh.vertices);
   Copies copies;
@@ -106,25 +121,25 @@ void read_part(const Node& node, std::vector<MeshPart>& parts, Real& vertex_coun
   }
 }
 
-Mesh read_parts(const Node& node, const Keys& more_keys) {
+Mesh read_parts(const Node& node, const Keys& more_keys, std::vector<std::string>& warnings) {
   node.check_keys(joined({"parts", "weld"}, more_keys));
   const Node list = node.require("parts");
   list.require_list();
   std::vector<MeshPart> parts;
   Real vertex_count = 0;
-  for (std::size_t i = 0; i < list.size(); ++i) read_part(list[i], parts, vertex_count);
+  for (std::size_t i = 0; i < list.size(); ++i) read_part(list[i], parts, vertex_count, warnings);
   if (parts.empty()) list.fail("there is no part; add one");
   std::optional<Real> weld;
   if (const auto given = node.find("weld")) read(*given, weld.emplace());
   return node.locate([&] { return join(parts, weld); });
 }
 
-Mesh read_mesh(const Node& node, const Keys& more_keys) {
+Mesh read_mesh(const Node& node, const Keys& more_keys, std::vector<std::string>& warnings) {
   node.require_object();
   const std::string_view kind = node.require_one_of({"shape", "file", "vertices", "parts"});
   if (kind == "shape") return read_shape(node, more_keys, static_cast<Shapes*>(nullptr));
-  if (kind == "file") return read_mesh_file(node, more_keys);
-  return kind == "parts" ? read_parts(node, more_keys) : read_inline_mesh(node, more_keys);
+  if (kind == "file") return read_mesh_file(node, more_keys, warnings);
+  return kind == "parts" ? read_parts(node, more_keys, warnings) : read_inline_mesh(node, more_keys);
 }
 
 Vec3 read_scale(const Node& node) {
@@ -181,8 +196,8 @@ Mass read_mass(const Node& node, std::string_view key, const Mesh& mesh) {
 
 }  // namespace
 
-Mesh read_mesh(const Node& node) {
-  return read_mesh(node, {});
+Mesh read_mesh(const Node& node, std::vector<std::string>& warnings) {
+  return read_mesh(node, {}, warnings);
 }
 
 void apply_transform(const Node& node, Positions& positions) {
@@ -212,6 +227,29 @@ Mass read_mass(const Node& node, const Mesh& mesh) {
     sum = sum ? *std::move(sum) + mass : std::move(mass);
   }
   return *std::move(sum);
+}
+
+Mass with_loose_vertices(Mass mass, const Node& node, const Mesh& mesh, std::vector<std::string>& warnings) {
+  const bool is_of_vertices = std::ranges::any_of(mass.parts(), [](const Mass::Part& part) {
+    return part.kind == Mass::Kind::each || part.kind == Mass::Kind::per_vertex;
+  });
+  const std::vector<Index> loose = loose_vertices(mesh);
+  const Index others = mesh.vertex_count() - static_cast<Index>(loose.size());
+  if (is_of_vertices || loose.empty() || others == 0) return mass;
+  // With a mass for the loose ones, the others' are found, or named when they are wrong.
+  std::vector<Real> masses(static_cast<std::size_t>(mesh.vertex_count()), 0);
+  for (const Index vertex : loose) masses[static_cast<std::size_t>(vertex)] = 1;
+  masses = node.locate([&] { return vertex_masses(mesh, std::move(mass) + Mass::each(std::move(masses)), "mass"); });
+  for (const Index vertex : loose) masses[static_cast<std::size_t>(vertex)] = 0;
+  const Real mean = std::accumulate(masses.begin(), masses.end(), Real{0}) / static_cast<Real>(others);
+  for (const Index vertex : loose) masses[static_cast<std::size_t>(vertex)] = 1e-3 * mean;
+  constexpr std::size_t shown = 5;
+  const std::span first(loose.data(), std::min(loose.size(), shown));
+  warnings.push_back(node.at(fmt::format(
+      "{} in no element ({}{}): each gets a thousandth of the mean mass of the others; \"drop_loose\": true with the "
+      "mesh file, or --drop-loose with a mesh, leaves them out",
+      vertices_text(static_cast<Index>(loose.size())), fmt::join(first, ", "), loose.size() > shown ? ", ..." : "")));
+  return Mass::each(std::move(masses));
 }
 
 }  // namespace pliant

@@ -1,7 +1,7 @@
 #include "pliant_io/scene/detail/read_motion.h"
 
 #include "pliant_io/mesh/follow_cache.h"
-#include "pliant_io/mesh/point_cache.h"
+#include "pliant_io/mesh/point_cache_format.h"
 #include "pliant_io/scene/detail/option_reader.h"
 #include "pliant_io/scene/detail/scene_files.h"
 #include "pliant_io/scene/detail/scene_reader.h"
@@ -70,11 +70,10 @@ EventPath read_follow(const Node& node, std::vector<std::string_view> more_keys,
   }
   const Node file = node.require(kind);
   node.locate([&] { check_options("follow", file_options); });
-  const std::optional<PointCacheFormat> format = point_cache_format(read_path(file));
-  if (!format) file.fail("its extension tells no point cache; give a .pc2, .mdd or .npy file");
+  const PointCacheFormat format = file.locate([&] { return require_point_cache_format(read_path(file)); });
   NamedFile named = read_named_file(file);
   PointCache cache = file.locate([&] {
-    return PointCache::parse(std::move(named.bytes), named.path.string(), *format,
+    return PointCache::parse(std::move(named.bytes), named.path.string(), format,
                              {.frames_per_second = file_options.frames_per_second});
   });
   return {follow_cache(std::move(cache), options.vertices, options.attach), options.index};

@@ -28,6 +28,7 @@ struct SceneReader {
   std::map<std::string, GroupEntry, std::less<>> groups = {};
   std::map<std::string, ForceEntry, std::less<>> forces = {};
   std::vector<std::string> later_groups = {};  ///< names of groups that events add, each time
+  std::vector<std::string> warnings = {};      ///< of what is read otherwise than one might expect, with its place
 
   SceneBody body(BodyId id) const {
     const Mesh& mesh = simulation.body(id).mesh;
