@@ -8,9 +8,9 @@
 #include <Eigen/SparseCholesky>
 #include <fmt/format.h>
 
+#include "bench/baselines.h"
 #include "pliant/core/stopwatch.h"
 #include "pliant/pliant.h"
-#include "pliant/solver/global/system_matrix.h"
 #ifdef PLIANT_HAS_CHOLMOD
 #include <cholmod.h>
 #endif
@@ -55,20 +55,6 @@ Simulation simulate(const Workload& workload, Backend backend) {
     simulation.add(body, Position{.on = end, .hold = Hold::soft, .stiffness = 1e6});
   }
   return simulation;
-}
-
-/// The matrix of a simulation, for the baselines.
-LowerMatrix system_matrix(const Simulation& simulation) {
-  std::vector<const ConstraintGroup*> groups;
-  for (const auto& [id, group] : simulation.groups()) {
-    for (const auto& batch : group.set.batches) groups.push_back(batch.get());
-  }
-  const State& state = simulation.state();
-  const std::vector<char> nothing_pinned(state.masses.size(), 0);
-  SystemMatrix matrix;
-  matrix.set_groups(state.vertex_count(), groups);
-  matrix.assemble(state.masses, simulation.settings().time_step, groups, nothing_pinned);
-  return matrix.matrix();
 }
 
 double median(std::vector<double> seconds) {
@@ -134,7 +120,7 @@ void run(const Workload& workload, Backend backend, std::string_view backend_nam
   Simulation simulation = simulate(workload, backend);
   const double build = watch.seconds();
   const double setup = build + simulation.step().seconds_factor;
-  const LowerMatrix matrix = system_matrix(simulation);
+  const LowerMatrix matrix = pliant_bench::system_matrix(simulation);
   const double own = median({cholmod_seconds(matrix), cholmod_seconds(matrix), cholmod_seconds(matrix)});
   const auto speed = static_cast<double>(std::max<Index>(1, matrix.size() / 1000));
   const Timings t = time_in_turns(simulation, matrix, std::max(5, static_cast<int>(repeats / speed)));

@@ -1,7 +1,6 @@
 // pliant check: reads a scene as a run would, and says what is in it.
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <numeric>
 
@@ -14,6 +13,7 @@
 #include "pliant/core/printable.h"
 #include "pliant/mesh/geometry.h"
 #include "pliant/solver/integration/integrator.h"
+#include "pliant_io/recorder/run_info.h"
 #include "scene_options.h"
 #include "terminal.h"
 
@@ -152,11 +152,8 @@ Json describe_bodies(const Simulation& simulation) {
 Json describe_groups(const Simulation& simulation) {
   Json groups = Json::array();
   for (const auto& [id, group] : simulation.groups()) {
-    groups.push_back({{"name", group.name},
-                      {"type", group.type},
-                      {"body", simulation.body(group.body).name},
-                      {"constraints", group.set.count},
-                      {"skipped", group.set.skipped}});
+    Json& json = groups.emplace_back(Json::object());
+    pliant::describe_group(simulation, group, [&](const char* key, const auto& value) { json[key] = value; });
   }
   return groups;
 }
@@ -166,8 +163,6 @@ Json describe(Scene& scene) {
   const SystemInfo info = pliant::at_place(scene.place(), [&] { return simulation.system_info(); });
   const pliant::SolverSettings& settings = simulation.settings();
   const Real time_step = settings.time_step;
-  std::map<std::string, std::int64_t> counts;
-  for (const auto& [id, group] : simulation.groups()) counts[group.type] += group.set.count;
   Json forces = Json::array();
   for (const auto& [id, force] : simulation.forces()) forces.push_back(force->type());
   Json files = Json::array();
@@ -185,7 +180,7 @@ Json describe(Scene& scene) {
       {"iterations", simulation.settings().iterations},
       {"backend", simulation.backend()},
       {"bodies", describe_bodies(simulation)},
-      {"constraints", counts},
+      {"constraints", pliant::count_constraints(simulation)},
       {"groups", describe_groups(simulation)},
       {"forces", std::move(forces)},
       {"events", scene.timeline.event_count()},

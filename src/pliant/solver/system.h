@@ -32,7 +32,7 @@ class System {
   void begin_step(const State& state, Integrator integrator, Real h);
   /// Whether a group was added, or has another stencil, reduction, measure or pin, since the layout was made.
   bool needs_layout() const;
-  /// Order, slots, pattern and components. Gathered numbers are then in an order of no use.
+  /// Order, slots, pattern and components. What was gathered before is in another order then.
   void lay_out();
   /// Takes up numbers of the groups that may have changed otherwise: targets, normals, stiffness.
   void sync_parameters() { groups_.sync_parameters(); }

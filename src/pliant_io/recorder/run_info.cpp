@@ -50,22 +50,19 @@ OrderedJson describe_bodies(const Simulation& simulation) {
 OrderedJson describe_groups(const Simulation& simulation) {
   OrderedJson groups = OrderedJson::array();
   for (const auto& [id, group] : simulation.groups()) {
-    groups.push_back({{"name", group.name},
-                      {"type", group.type},
-                      {"body", simulation.body(group.body).name},
-                      {"constraints", group.set.count},
-                      {"skipped", group.set.skipped}});
+    OrderedJson& json = groups.emplace_back(OrderedJson::object());
+    describe_group(simulation, group, [&](const char* key, const auto& value) { json[key] = value; });
   }
   return groups;
 }
 
-OrderedJson count_constraints(const Simulation& simulation) {
+}  // namespace
+
+std::map<std::string, std::int64_t> count_constraints(const Simulation& simulation) {
   std::map<std::string, std::int64_t> counts;
   for (const auto& [id, group] : simulation.groups()) counts[group.type] += group.set.count;
   return counts;
 }
-
-}  // namespace
 
 std::uint32_t frame_checksum(const Positions& positions) {
   const Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor> rounded = positions.cast<float>();

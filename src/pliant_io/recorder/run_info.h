@@ -2,6 +2,7 @@
 // run.json: what was run, with what, and how it ended.
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -39,6 +40,19 @@ struct RunInfo {
 
 /// The CRC-32 of positions rounded to float32, which all formats of frames hold alike.
 std::uint32_t frame_checksum(const Positions& positions);
+
+/// Calls field(key, value) with what run.json and `pliant check` tell of a group.
+template <class Field>
+void describe_group(const Simulation& simulation, const Group& group, Field&& field) {
+  field("name", group.name);
+  field("type", group.type);
+  field("body", simulation.body(group.body).name);
+  field("constraints", group.set.count);
+  field("skipped", group.set.skipped);
+}
+
+/// Constraints of each type, whatever their groups.
+std::map<std::string, std::int64_t> count_constraints(const Simulation& simulation);
 
 /// Writes the file, whole or not at all. @throws Error (output)
 void write_run_info(const std::filesystem::path& path, const RunInfo& info, const Simulation& simulation);

@@ -145,23 +145,39 @@ void LocalGroups::sync_parameters() {
 }
 
 void LocalGroups::gather(const Positions& from, Positions& to) const {
+  if (!is_reordered()) {
+    to = from;
+    return;
+  }
   to.resize(from.rows(), 3);
-  for (Index i = 0; i < static_cast<Index>(from.rows()); ++i) to.row(i) = from.row(vertex(i));
+  for (Index i = 0; i < static_cast<Index>(from.rows()); ++i) to.row(i) = from.row(order_.vertices[at(i)]);
 }
 
 void LocalGroups::gather(const std::vector<Real>& from, std::vector<Real>& to) const {
+  if (!is_reordered()) {
+    to = from;
+    return;
+  }
   to.resize(from.size());
-  for (std::size_t i = 0; i < from.size(); ++i) to[i] = from[at(vertex(static_cast<Index>(i)))];
+  for (std::size_t i = 0; i < from.size(); ++i) to[i] = from[at(order_.vertices[i])];
 }
 
 void LocalGroups::scatter(const Positions& from, Positions& to) const {
+  if (!is_reordered()) {
+    to = from;
+    return;
+  }
   to.resize(from.rows(), 3);
-  for (Index i = 0; i < static_cast<Index>(from.rows()); ++i) to.row(vertex(i)) = from.row(i);
+  for (Index i = 0; i < static_cast<Index>(from.rows()); ++i) to.row(order_.vertices[at(i)]) = from.row(i);
 }
 
 void LocalGroups::scatter(const std::vector<Real>& from, std::vector<Real>& to) const {
+  if (!is_reordered()) {
+    to = from;
+    return;
+  }
   to.resize(from.size());
-  for (std::size_t i = 0; i < from.size(); ++i) to[at(vertex(static_cast<Index>(i)))] = from[i];
+  for (std::size_t i = 0; i < from.size(); ++i) to[at(order_.vertices[i])] = from[i];
 }
 
 Index LocalGroups::constraint(std::size_t group, Index local) const {
