@@ -40,17 +40,30 @@ constexpr std::array<std::string_view, 2> choice_names(Precision) {
 }
 
 struct SolverSettings {
+  /// h [s], > 0: a larger one is as stable, with more damping.
   Real time_step = 1.0 / 60;
+  /// Implicit Euler, which damps, or BDF2, of second order, which damps far less.
   Integrator integrator = Integrator::implicit_euler;
+  /// 1 to 1e6: a step is taken in so many parts, each with its iterations; more damp less, at their cost.
   Index substeps = 1;
+  /// 1 to 1e9: local and global steps in each (sub)step; more are stiffer and livelier.
   Index iterations = 10;
+  /// c [1/s], ≥ 0: the amplitude of vibrations decays as e^(−ct); flight and turning of a body are left alone.
   Real damping = 0;
+  /// 0 to 1: share of the energy that a step would lose, by itself, that each connected body is given back.
   Real energy_projection = 0;
+  /// [N], ≥ 0: no further iteration once no vertex has a larger residual force; 0: only at exact rest.
   Real tolerance = 0;
+  /// Where iterations begin: at the prediction s or at the positions of the last step.
   Start start = Start::prediction;
+  /// Which library factorizes; results differ by rounding.
   Backend backend = Backend::automatic;
+  /// Of the elimination: nested dissection takes longer to find and makes the steps of a large mesh faster.
   Ordering ordering = Ordering::automatic;
+  /// Of the factor: `mixed` has it in single precision, where that does; what is converged to is the same.
   Precision precision = Precision::mixed;
+  /// 0 to 1024: at most so many, fewer in small scenes; 0: as many as pay, found while running. Results do not depend
+  /// on it.
   Index threads = 0;
 
   friend bool operator==(const SolverSettings&, const SolverSettings&) = default;
