@@ -34,7 +34,7 @@ inline SolverSettings keeping(const SolverSettings& settings, Real share = 1) {
   return kept;
 }
 
-/// A rope that is let go from the horizontal, held at one end.
+/// A rope that is let go from the horizontal, pinned at one end.
 inline Simulation swinging_rope(const SolverSettings& settings) {
   Simulation simulation(settings);
   const BodyId rope = simulation.add_body(chain({.links = 8, .direction = {1, 0, 0}}), Mass::per_vertex(0.1));

@@ -175,7 +175,7 @@ TEST_CASE("groups that do not keep to their shape are refused by name") {
   CHECK_THROWS_AS(add({0, 1, 2}, 1), Error);
 }
 
-TEST_CASE("a vertex is held at one place only") {
+TEST_CASE("a vertex is pinned at one place only") {
   Simulation simulation;
   const BodyId body = simulation.add_body(grid({.columns = 3, .rows = 3}), Mass::per_vertex(1));
   simulation.add(body, Position{.on = {0, 1}}, "pins");

@@ -209,7 +209,7 @@ TEST_CASE("a couple turns a free box as much as its torques say, and a share of 
   CHECK(turned(0.5) == doctest::Approx((1 + without) / 2).epsilon(0.01));
 }
 
-TEST_CASE("a drag on a vertex that is held does nothing") {
+TEST_CASE("a drag on a pinned vertex does nothing") {
   const auto run = [](bool has_drag) {
     Pulled pulled = mass_on_moved_pin(keeping({.iterations = 20, .threads = 1}));
     if (has_drag) {

@@ -193,13 +193,13 @@ TEST_CASE("the system matrix is M/h² plus the sum of w SᵀAᵀAS") {
   SystemMatrix system;
   system.set_groups(vertex_count, groups);
   SUBCASE("of free vertices") {}
-  SUBCASE("with held vertices, whose rows keep their diagonal alone") {
-    for (const Index held : {2, 5}) {
-      is_pinned[static_cast<std::size_t>(held)] = 1;
-      const Real diagonal = expected(held, held);
-      expected.row(held).setZero();
-      expected.col(held).setZero();
-      expected(held, held) = diagonal;
+  SUBCASE("with pinned vertices, whose rows keep their diagonal alone") {
+    for (const Index pinned : {2, 5}) {
+      is_pinned[static_cast<std::size_t>(pinned)] = 1;
+      const Real diagonal = expected(pinned, pinned);
+      expected.row(pinned).setZero();
+      expected.col(pinned).setZero();
+      expected(pinned, pinned) = diagonal;
     }
   }
   system.assemble(masses, time_step, groups, is_pinned);

@@ -87,7 +87,7 @@ Positions prediction(const Simulation& simulation) {
   return state.positions + h * state.velocities + h * h * masses.cwiseInverse().asDiagonal() * f;
 }
 
-TEST_CASE("the residual is the largest gradient of the objective on a vertex that is not held") {
+TEST_CASE("the residual is the largest gradient of the objective on a vertex that is not pinned") {
   constexpr Real difference = 1e-6;
   for (auto& varied : varied_simulations({.iterations = 3})) {
     Simulation& simulation = varied.simulation;

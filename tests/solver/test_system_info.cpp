@@ -27,7 +27,7 @@ TEST_CASE("one spring between two masses: ω² = k (1/m + 1/m)") {
   CHECK(info.free_components[0].vertex_count == 2);
 }
 
-TEST_CASE("a chain of equal springs, held at one end") {
+TEST_CASE("a chain of equal springs, pinned at one end") {
   // Fixed at one end and free at the other: ω_j = 2 √(k/m) sin((2j − 1) π / (2 (2n + 1))), j = n the fastest.
   constexpr int n = 40;
   Simulation simulation;
@@ -57,9 +57,9 @@ TEST_CASE("the time step does not change it, however short") {
 
 TEST_CASE("components that nothing holds, and those that something does") {
   Simulation simulation;
-  const BodyId held = simulation.add_body(grid({.columns = 3, .rows = 3}), Mass::total(1));
-  simulation.add(held, EdgeSpring{});
-  simulation.add(held, Position{.on = {4}, .hold = Hold::soft});
+  const BodyId pinned = simulation.add_body(grid({.columns = 3, .rows = 3}), Mass::total(1));
+  simulation.add(pinned, EdgeSpring{});
+  simulation.add(pinned, Position{.on = {4}, .hold = Hold::soft});
   const BodyId dragged = simulation.add_body(chain({.links = 2}), Mass::total(1));
   simulation.add(dragged, EdgeSpring{});
   Drag drag;
@@ -75,7 +75,7 @@ TEST_CASE("components that nothing holds, and those that something does") {
   CHECK(info.free_components[1].vertex_count == 1);
 }
 
-TEST_CASE("no constraints, all vertices held, and numbers beyond all bounds") {
+TEST_CASE("no constraints, all vertices pinned, and numbers beyond all bounds") {
   Simulation none;
   const BodyId body = none.add_body(grid({.columns = 3, .rows = 3}), Mass::total(1));
   CHECK(none.system_info().fastest_frequency == 0);
