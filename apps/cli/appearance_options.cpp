@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -39,19 +40,8 @@ std::array<pliant::Index, 2> parse_size(const std::string& text) {
   return size;
 }
 
-/// The frames of a run can be shown whatever has become of its scene.
-pliant::ViewSettings view_of_checkpoint(const fs::path& checkpoint) {
-  try {
-    return pliant::read_checkpoint(checkpoint).view;
-  } catch (const pliant::Error& error) {
-    print_to_stderr("note: the view of the scene is not known, so the default is taken: " +
-                    pliant::printable_place(error.what(), message_limit) + "\n");
-    return {};
-  }
-}
-
-/// Of the scene that the run was made from, as its checkpoint has it.
-pliant::ViewSettings view_of_run(const AppearanceArguments& arguments) {
+/// The scene that the run was made from, at its start; none where no checkpoint has it.
+std::optional<pliant::Scene> scene_of_run(const AppearanceArguments& arguments) {
   check_import(arguments);
   const pliant::SceneOverrides& overrides = arguments.overrides;
   const bool has_others =
@@ -71,10 +61,17 @@ pliant::ViewSettings view_of_run(const AppearanceArguments& arguments) {
     pliant::fail_input(fmt::format("{}: no such file, so the view of its scene is not known; leave --set out",
                                    pliant::printable_place(checkpoint.string())));
   }
-  if (overrides.set.empty()) return view_of_checkpoint(checkpoint);
-  pliant::SceneSource source = pliant::read_checkpoint(checkpoint).source;
-  for (const std::string& set : overrides.set) source.overrides.set.push_back(set);
-  return pliant::parse_scene(std::move(source)).view;
+  try {
+    pliant::SceneSource source = pliant::read_checkpoint(checkpoint).source;
+    for (const std::string& set : overrides.set) source.overrides.set.push_back(set);
+    return pliant::parse_scene(std::move(source));
+  } catch (const pliant::Error& error) {
+    if (!overrides.set.empty()) throw;
+    // The frames can be shown whatever has become of the scene.
+    print_to_stderr("note: the view of the scene is not known, so the default is taken: " +
+                    pliant::printable_place(error.what(), message_limit) + "\n");
+    return {};
+  }
 }
 
 }  // namespace
@@ -94,10 +91,23 @@ void apply_appearance(const AppearanceArguments& arguments, pliant::ViewSettings
   if (arguments.wireframe) appearance.wireframe = true;
 }
 
-pliant::ViewSettings appearance_of_run(const AppearanceArguments& arguments) {
-  pliant::ViewSettings appearance = view_of_run(arguments);
-  apply_appearance(arguments, appearance);
-  return appearance;
+ShownRun shown_run(const AppearanceArguments& arguments) {
+  ShownRun run{{}, scene_of_run(arguments)};
+  if (run.scene) run.appearance = run.scene->view;
+  apply_appearance(arguments, run.appearance);
+  return run;
+}
+
+pliant_render::RunAnnotations annotations_of(ShownRun& run, const pliant::Animation& animation) {
+  if (!run.scene) return {};
+  try {
+    return pliant_render::annotate_run(*std::exchange(run.scene, std::nullopt), animation);
+  } catch (const pliant::Error& error) {
+    if (error.kind() != pliant::ErrorKind::input) throw;
+    print_to_stderr("note: pins and wind are not shown: " + pliant::printable_place(error.what(), message_limit) +
+                    "\n");
+    return {};
+  }
 }
 
 }  // namespace pliant_cli

@@ -1,5 +1,6 @@
 #pragma once
 // How scenes and runs are shown: what the sub-commands that draw have in common.
+#include "render/clip.h"
 #include "scene_options.h"
 
 namespace pliant_cli {
@@ -16,8 +17,15 @@ void add_appearance_options(CLI::App& command, AppearanceArguments& arguments);
 /// Puts what was given in the place of the scene's own. @throws pliant::Error (input): a size that is none
 void apply_appearance(const AppearanceArguments& arguments, pliant::ViewSettings& appearance);
 
-/// Of the scene that a run was made from, as its checkpoint has it, with what was given in its place.
+/// A run that is shown: the scene that it was made from, as it was at the start, where its checkpoint has it.
+struct ShownRun {
+  pliant::ViewSettings appearance;  ///< of the scene, with what was given in its place
+  std::optional<pliant::Scene> scene;
+};
 /// @throws pliant::Error (input): options that a run cannot follow
-pliant::ViewSettings appearance_of_run(const AppearanceArguments& arguments);
+ShownRun shown_run(const AppearanceArguments& arguments);
+
+/// Pins and wind at the times of the run's frames; none, with a note, where the scene does not tell them.
+pliant_render::RunAnnotations annotations_of(ShownRun& run, const pliant::Animation& animation);
 
 }  // namespace pliant_cli

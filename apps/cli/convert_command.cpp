@@ -1,4 +1,6 @@
 // pliant convert: meshes to meshes, runs and point caches to animations.
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <filesystem>
 #include <memory>
@@ -12,6 +14,7 @@
 #include "number_option.h"
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
+#include "pliant_io/checkpoint/checkpoint.h"
 #include "pliant_io/export/animation_format.h"
 #include "pliant_io/mesh/mesh_file.h"
 #include "pliant_io/mesh/point_cache_format.h"
@@ -35,6 +38,8 @@ struct ConvertOptions {
   std::optional<pliant::Real> time;
   std::optional<pliant::Real> frames_per_second;
   pliant::ExportOptions exported;
+  std::optional<std::int64_t> max_keyframes;
+  bool yes = false;
 };
 
 /// FIRST, FIRST:LAST or FIRST:LAST:STEP; what is empty keeps its default.
@@ -155,13 +160,64 @@ void print_animation(const fs::path& out, const Animation& animation, const plia
   fmt::print("\n");
 }
 
-void warn_of_tolerance(const ConvertOptions& options, const pliant::ExportReport& report) {
-  const pliant::Real wanted = options.exported.tolerance.value_or(pliant::default_gltf_tolerance);
+void warn_of_tolerance(const pliant::ExportOptions& options, const pliant::ExportReport& report) {
+  const pliant::Real wanted = options.tolerance.value_or(pliant::default_gltf_tolerance);
   if (report.largest_error <= wanted) return;
   print_to_stderr(
       fmt::format("warning: the error {:.2g} is past the tolerance {:.2g}, since at most {} keyframes are "
                   "kept; raise --max-keyframes to reduce it\n",
-                  report.largest_error, wanted, options.exported.max_keyframes));
+                  report.largest_error, wanted, options.max_keyframes));
+}
+
+pliant::SurfaceColors surface_colors(const pliant::ViewSettings& view) {
+  const auto shares = [](const pliant::Color& color) {
+    return std::array<pliant::Real, 3>{color.red, color.green, color.blue};
+  };
+  return {shares(view.front), shares(view.back)};
+}
+
+/// Those that the scene of a run gives its surfaces; none where it leaves them as they are, or is not known.
+std::optional<pliant::SurfaceColors> colors_of_run(const fs::path& folder) {
+  const fs::path checkpoint = folder / pliant::checkpoint_name;
+  std::error_code ignored;
+  if (!fs::exists(checkpoint, ignored)) return {};
+  try {
+    const pliant::SurfaceColors given = surface_colors(pliant::read_checkpoint(checkpoint).view);
+    const pliant::SurfaceColors plain = surface_colors({});
+    if (given.front == plain.front && given.back == plain.back) return {};
+    return given;
+  } catch (const pliant::Error& error) {
+    print_to_stderr("warning: the colors of the scene are not known, so each body has one of its own: " +
+                    pliant::printable_place(error.what(), message_limit) + "\n");
+    return {};
+  }
+}
+
+/// That frames are left out is for the user to say: by an option, or when asked.
+void agree_to_thin(const fs::path& out, const pliant::ExportReport& report) {
+  const std::string what =
+      fmt::format("{}: {} of {} frames would be kept, the others off by at most {:.2g} of the body's size",
+                  pliant::printable_place(out.string()), report.keyframes, report.frames, report.largest_error);
+  const std::optional<bool> answer = ask(what + "; write it?");
+  if (answer == true) return;
+  pliant::fail_input(
+      fmt::format("{}; agree with --yes, or choose --tolerance or --max-keyframes ('--tolerance 0 --max-keyframes {}' "
+                  "keeps all)",
+                  answer ? "nothing was written" : what, std::max<std::int64_t>(2, report.frames)));
+}
+
+/// What the export needs to know beside its options.
+pliant::ExportOptions complete_options(const ConvertOptions& options) {
+  pliant::ExportOptions exported = options.exported;
+  exported.max_keyframes = options.max_keyframes.value_or(exported.max_keyframes);
+  const auto format = pliant::animation_format(options.out);
+  if (!format || format->thins != pliant::AnimationFormat::Thins::always) return exported;
+  std::error_code ignored;
+  if (fs::is_directory(options.in, ignored)) exported.colors = colors_of_run(options.in);
+  if (!options.yes && !options.exported.tolerance && !options.max_keyframes) {
+    exported.before_thinning = [&options](const pliant::ExportReport& report) { agree_to_thin(options.out, report); };
+  }
+  return exported;
 }
 
 void convert(const ConvertOptions& options) {
@@ -174,9 +230,10 @@ void convert(const ConvertOptions& options) {
   Animation animation = read_animation(options);
   select(animation, options);
   if (!is_mesh) {
-    const pliant::ExportReport report = pliant::export_animation(options.out, animation, options.exported);
+    const pliant::ExportOptions exported = complete_options(options);
+    const pliant::ExportReport report = pliant::export_animation(options.out, animation, exported);
     print_animation(options.out, animation, report);
-    warn_of_tolerance(options, report);
+    warn_of_tolerance(exported, report);
   } else if (is_sequence(options.out)) {
     const std::int64_t count = pliant::export_sequence(options.out, animation);
     fmt::print("{}: {} files, {} vertices each, {}\n", pliant::printable(options.out.string()), count,
@@ -191,7 +248,7 @@ void convert(const ConvertOptions& options) {
 constexpr const char* convert_footer = R"(A name OUT with #### gets one mesh file a frame, with its number there.
 Examples:
   pliant convert out/flag flag.glb                       an animation for browsers and game engines
-  pliant convert out/flag flag.usda                      for Blender, Houdini, Omniverse
+  pliant convert out/flag flag.usda                      for Blender, Houdini, Maya
   pliant convert out/flag flag.pc2 --fps 24              a point cache for the mesh in out/flag/mesh.obj
   pliant convert out/flag frames/flag_####.ply           one file a frame
   pliant convert out/flag flag.obj --time 2.5            a single moment
@@ -220,8 +277,9 @@ void add_convert_command(CLI::App& program) {
   add_number(*command, "--tolerance", options->exported.tolerance,
              "glb, gltf (default 0.001), usda: leave out frames that linear interpolation meets within this, in "
              "sizes of the body");
-  add_number(*command, "--max-keyframes", options->exported.max_keyframes,
-             "glb, gltf: keep at most these, default 256");
+  add_number(*command, "--max-keyframes", options->max_keyframes, "glb, gltf: keep at most these, default 256");
+  command->add_flag("--yes", options->yes,
+                    "glb, gltf: leave out frames without asking; so do --tolerance and --max-keyframes");
   add_choice(*command, "--normals", options->exported.normals, "glb, gltf: smooth (default) or flat");
   command->footer(fmt::format("Formats of OUT, by its extension; {}.\n{}", writable_formats(), convert_footer));
   command->callback([options] { convert(*options); });

@@ -42,11 +42,12 @@ void show(const RenderArguments& arguments, const std::string& what) {
 }
 
 Clip clip_of_run(const RenderArguments& arguments) {
-  const pliant::ViewSettings appearance = appearance_of_run(arguments);
+  ShownRun run = shown_run(arguments);
   pliant::Animation animation = pliant::read_run(arguments.scene);
   const bool is_film = !is_picture(arguments) && animation.times.size() > 1;
   if (is_film) pliant::resample(animation, static_cast<pliant::Real>(arguments.fps));
-  return pliant_render::clip_from_animation(std::move(animation), appearance);
+  pliant_render::RunAnnotations annotations = annotations_of(run, animation);
+  return pliant_render::clip_from_animation(std::move(animation), run.appearance, std::move(annotations));
 }
 
 /// Steps from frame to frame: a film plays as fast as what it shows happens, where the time step allows it.

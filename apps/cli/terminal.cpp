@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <iostream>
 #include <limits>
 #include <string>
 
@@ -173,6 +174,14 @@ bool waits_no_longer() {
 
 bool has_error_terminal() {
   return isatty(STDERR_FILENO) == 1;
+}
+
+std::optional<bool> ask(std::string_view question) {
+  if (!has_error_terminal() || isatty(STDIN_FILENO) != 1) return {};
+  print_to_stderr(std::string(question) + " [y/N] ");
+  std::string answer;
+  std::getline(std::cin, answer);
+  return answer.starts_with('y') || answer.starts_with('Y');
 }
 
 }  // namespace pliant_cli

@@ -1,6 +1,7 @@
 #pragma once
 // What depends on the operating system: signals, terminals and the three standard streams.
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -43,5 +44,8 @@ std::string in_tone(Tone tone, std::string_view text);
 
 /// True when people read the standard error on a terminal.
 bool has_error_terminal();
+
+/// Asks on the terminal; yes is a line that begins with y. Nothing where nobody reads or answers there.
+std::optional<bool> ask(std::string_view question);
 
 }  // namespace pliant_cli

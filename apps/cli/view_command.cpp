@@ -72,11 +72,14 @@ int show(pliant_viewer::Window& window, pliant_viewer::ViewSource& source, const
 }
 
 int view_run(const ViewArguments& arguments) {
-  const pliant::ViewSettings appearance = appearance_of_run(arguments);
+  ShownRun run = shown_run(arguments);
+  const pliant::ViewSettings& appearance = run.appearance;
   if (arguments.color == pliant::ColorBy::energy) {
     pliant::fail_input("--color: a run does not say the energy of its vertices; give its scene, or another color");
   }
-  pliant_viewer::Playback source(pliant_render::RunFrames(pliant::read_run(arguments.scene)), appearance,
+  pliant::Animation animation = pliant::read_run(arguments.scene);
+  pliant_render::RunAnnotations annotations = annotations_of(run, animation);
+  pliant_viewer::Playback source(pliant_render::RunFrames(std::move(animation), std::move(annotations)), appearance,
                                  !arguments.is_paused);
   pliant_viewer::Window window(source.name() + " - Pliant", appearance.size[0], appearance.size[1]);
   return show(window, source, arguments);

@@ -42,12 +42,12 @@ void append(std::vector<std::uint32_t>& list, std::span<const Index> vertices) {
   for (const Index vertex : vertices) list.push_back(static_cast<std::uint32_t>(vertex));
 }
 
-/// Vertices that are pinned or currently under a test force.
-std::vector<std::uint32_t> find_markers(const pliant::Simulation& simulation) {
+/// Vertices that are pinned, or under a test force at that step.
+std::vector<std::uint32_t> find_markers(const pliant::Simulation& simulation, std::int64_t step) {
   std::vector<std::uint32_t> markers = pinned_vertices(simulation);
   for (const auto& [id, force] : simulation.forces()) {
     const auto* test = simulation.options<pliant::TestForce>(id);
-    if (test == nullptr || !test->is_active(simulation.state().step)) continue;
+    if (test == nullptr || !test->is_active(step)) continue;
     append(markers, pliant::selected_vertices(force->type(), simulation.scope(id), test->vertices));
   }
   sort_and_trim(markers);
@@ -65,6 +65,11 @@ std::optional<WindAnnotation> find_wind(const pliant::Simulation& simulation) {
     return WindAnnotation{velocity, fmt::format("wind {:.3g} {}", velocity.norm(), is_relative ? "m/s" : "N/m²")};
   }
   return {};
+}
+
+bool is_same(const RunAnnotations::Entry& a, const RunAnnotations::Entry& b) {
+  if (a.markers != b.markers || a.wind.has_value() != b.wind.has_value()) return false;
+  return !a.wind || (a.wind->velocity == b.wind->velocity && a.wind->text == b.wind->text);
 }
 
 std::vector<float> find_values(const pliant::Simulation& simulation, const RenderMesh& render_mesh,
@@ -102,7 +107,7 @@ ClipFrame capture_frame(const pliant::Simulation& simulation, const RenderMesh& 
   frame.time = simulation.state().time;
   frame.content.positions = to_floats(simulation.state().positions);
   frame.content.values = find_values(simulation, render_mesh, frame.content.positions, color);
-  frame.content.markers = find_markers(simulation);
+  frame.content.markers = find_markers(simulation, simulation.state().step);
   frame.wind = find_wind(simulation);
   return frame;
 }
@@ -119,7 +124,32 @@ Clip clip_from_scene(pliant::Scene& scene, std::int64_t every, const std::functi
   return clip;
 }
 
-RunFrames::RunFrames(pliant::Animation animation) : animation_(std::move(animation)) {
+RunAnnotations annotate_run(pliant::Scene scene, const pliant::Animation& animation) {
+  pliant::Simulation& simulation = scene.simulation;
+  if (simulation.state().vertex_count() != animation.cache.vertex_count()) {
+    pliant::fail_input(fmt::format("the scene has {} vertices, and the run {}", simulation.state().vertex_count(),
+                                   animation.cache.vertex_count()));
+  }
+  RunAnnotations annotations;
+  std::int64_t step = 0;
+  Real time = 0;
+  for (const Real frame_time : animation.times) {
+    // A frame is taken at the end of a step, before what is due at the next one.
+    while (time + (1 - 1e-6) * simulation.settings().time_step <= frame_time) {
+      scene.timeline.act_due(simulation, step++, time);
+      time += simulation.settings().time_step;
+    }
+    RunAnnotations::Entry entry{find_markers(simulation, step), find_wind(simulation)};
+    if (annotations.entries.empty() || !is_same(annotations.entries.back(), entry)) {
+      annotations.entries.push_back(std::move(entry));
+    }
+    annotations.entry_of_frame.push_back(annotations.entries.size() - 1);
+  }
+  return annotations;
+}
+
+RunFrames::RunFrames(pliant::Animation animation, RunAnnotations annotations)
+    : animation_(std::move(animation)), annotations_(std::move(annotations)) {
   if (animation_.bodies.empty()) {
     pliant::fail_input(animation_.name + ": only points are known; a picture needs their mesh");
   }
@@ -140,6 +170,11 @@ ClipFrame RunFrames::frame(std::size_t i, ColorBy color) const {
   pliant::Positions x;
   animation_.cache.sample(time(i), x);
   ClipFrame frame{time(i), {to_floats(x), {}, {}}, {}};
+  if (i < annotations_.entry_of_frame.size()) {
+    const RunAnnotations::Entry& entry = annotations_.entries[annotations_.entry_of_frame[i]];
+    frame.content.markers = entry.markers;
+    frame.wind = entry.wind;
+  }
   if (color == ColorBy::stretch) frame.content.values = vertex_stretch(render_mesh_, frame.content.positions);
   if (color == ColorBy::speed) {
     pliant::Positions velocities = pliant::Positions::Zero(x.rows(), 3);
@@ -153,8 +188,9 @@ ClipFrame RunFrames::frame(std::size_t i, ColorBy color) const {
   return frame;
 }
 
-Clip clip_from_animation(pliant::Animation animation, const pliant::ViewSettings& appearance) {
-  const RunFrames frames(std::move(animation));
+Clip clip_from_animation(pliant::Animation animation, const pliant::ViewSettings& appearance,
+                         RunAnnotations annotations) {
+  const RunFrames frames(std::move(animation), std::move(annotations));
   Clip clip{frames.render_mesh(), appearance, {}};
   check_size(static_cast<std::int64_t>(frames.count()), clip.render_mesh.vertex_count);
   for (std::size_t i = 0; i < frames.count(); ++i) clip.frames.push_back(frames.frame(i, appearance.color));

@@ -35,11 +35,26 @@ ClipFrame capture_frame(const pliant::Simulation& simulation, const RenderMesh& 
 /// @throws pliant::Error (input) if the frames would take more than 4 GB.
 Clip clip_from_scene(pliant::Scene& scene, std::int64_t every, const std::function<bool(std::int64_t)>& go_on);
 
+/// What is drawn of pins, test forces and wind, frame by frame of a run; equal neighbors stand once.
+struct RunAnnotations {
+  struct Entry {
+    std::vector<std::uint32_t> markers;  ///< vertices that are pinned or under a test force, ascending
+    std::optional<WindAnnotation> wind;
+  };
+  std::vector<Entry> entries;
+  std::vector<std::size_t> entry_of_frame;  ///< empty where nothing is known
+};
+
+/// Those at the times of an animation, by the scene that its run was made from, as it was at the start: its events act
+/// again, without steps.
+/// @throws pliant::Error (input): another count of vertices, an event that does not act as it did
+RunAnnotations annotate_run(pliant::Scene scene, const pliant::Animation& animation);
+
 /// Frames of a run, one at a time, in any order. Stretch is against the first frame, speed from frame to frame.
 class RunFrames {
  public:
   /// @throws pliant::Error (input): points without a mesh
-  explicit RunFrames(pliant::Animation animation);
+  explicit RunFrames(pliant::Animation animation, RunAnnotations annotations = {});
 
   const RenderMesh& render_mesh() const { return render_mesh_; }
   std::size_t count() const { return animation_.times.size(); }
@@ -50,12 +65,14 @@ class RunFrames {
 
  private:
   pliant::Animation animation_;
+  RunAnnotations annotations_;
   RenderMesh render_mesh_;
 };
 
 /// The frames of a run at the times that the animation has. Stretch is against the first frame, speed from frame to
 /// frame. @throws Error (input): colors by energy, which needs the scene; points without a mesh.
-Clip clip_from_animation(pliant::Animation animation, const pliant::ViewSettings& appearance);
+Clip clip_from_animation(pliant::Animation animation, const pliant::ViewSettings& appearance,
+                         RunAnnotations annotations = {});
 
 /// The box around all frames.
 Bounds bounds_of(const Clip& clip);

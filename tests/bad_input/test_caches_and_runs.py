@@ -115,6 +115,7 @@ def wrong_files(contents):
 def converted(name, files, source, out="out.obj", *options, **more):
     """The error names the input, the mesh or the output."""
     names = "|".join([re.escape(source), "thing", re.escape(out)])
+    options = (*options, "--yes") if out.endswith("glb") else options
     return Case(name, ["convert", source, out, *options], files, **({"expect": LEGAL, "says": names, "out": "none"} | more))
 
 

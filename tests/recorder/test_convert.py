@@ -89,6 +89,34 @@ class Convert(ExportCase):
         self.assertIn("rop: no body of this name", error)
         self.assertIn("patch, 1 sheet/ä, bar, rope, still", error)
 
+    def answer(self, text, *arguments):
+        """On a terminal, where that is typed."""
+        ours, theirs = os.openpty()
+        with subprocess.Popen([PLIANT, "convert", *arguments], cwd=self.folder, stdin=theirs, stderr=theirs,
+                              stdout=subprocess.PIPE) as program:
+            os.close(theirs)
+            os.write(ours, text.encode())
+            code = program.wait(timeout=60)
+        os.close(ours)
+        return code
+
+    def test_frames_are_left_out_when_the_user_says_so(self):
+        run = ["run/frames.npy", "thin.glb", "--mesh", "run/mesh.obj"]
+        error = self.error(*run)
+        self.assertRegex(error, r"thin.glb: \d+ of 41 frames would be kept, the others off by at most [\d.e-]+ of the body's "
+                                r"size; agree with --yes, or choose --tolerance or --max-keyframes "
+                                r"\('--tolerance 0 --max-keyframes 41' keeps all\)")
+        self.assertEqual(self.answer("n\n", *run), 2)
+        self.assertEqual(self.answer("\n", *run), 2)
+        self.assertFalse((self.folder / "thin.glb").exists())
+        self.assertEqual(self.answer("y\n", *run), 0)
+        asked = (self.folder / "thin.glb").read_bytes()
+        for options in [["--yes"], ["--tolerance", 0.001], ["--max-keyframes", 256]]:
+            (self.folder / "thin.glb").unlink()
+            self.pliant("convert", *run, *options)
+            self.assertEqual((self.folder / "thin.glb").read_bytes(), asked)
+        self.pliant("convert", "run", "still.glb", "--body", "still", "--frames", "0:1")  # nothing is lost: 2 of 2
+
     def test_frames_and_times_out_of_range(self):
         for frames in ["41", "-42", "0:41", "3:2", "0:40:0", "0:40:-1", "1:2:3:4", "x", "", "1.5", "99999999999999999999"]:
             with self.subTest(frames=frames):

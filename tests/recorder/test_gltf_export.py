@@ -9,7 +9,7 @@ from gltf_reader import Gltf
 
 class GltfExport(ExportCase):
     def convert(self, name, *options):
-        self.done = self.pliant("convert", "run", name, *options)
+        self.done = self.pliant("convert", "run", name, "--yes", *options)
         return Gltf(self.folder / name)
 
     def sizes(self):
@@ -111,6 +111,37 @@ class GltfExport(ExportCase):
         flat = self.convert("flat.glb", "--normals", "flat")
         self.assertEqual(list(flat.primitives("bar")[0]["attributes"]), ["POSITION"])
         self.assertEqual(list(flat.primitives("bar")[0]["targets"][0]), ["POSITION"])
+
+    def test_colors_of_the_scene(self):
+        plain = self.convert("plain.glb")
+        self.assertEqual(len(plain.json["materials"]), 5)
+        self.assertTrue(all(material["doubleSided"] for material in plain.json["materials"]))
+        colors = {"front": "#ff8000", "back": "#0000ff"}
+        self.pliant("run", "scene.json", "--out", "two", *(f"--set=view.{side}={color}" for side, color in colors.items()))
+        self.pliant("convert", "two", "two.glb", "--tolerance", 0.01)
+        gltf = Gltf(self.folder / "two.glb")
+        linear = ((128 / 255 + 0.055) / 1.055) ** 2.4
+        tones = [material["pbrMetallicRoughness"]["baseColorFactor"] for material in gltf.json["materials"]]
+        numpy.testing.assert_allclose(tones, [[1, linear, 0, 1], [0, 0, 1, 1], [1, linear, 0, 1]], atol=1e-9)
+        self.assertEqual([material["doubleSided"] for material in gltf.json["materials"]], [False, False, True])
+        front, back = gltf.primitives("1 sheet/ä")
+        self.assertEqual((front["material"], back["material"], gltf.primitives("rope")[0]["material"]), (0, 1, 2))
+        triangles = [gltf.accessor(side["indices"])[:, 0].reshape(-1, 3) for side in (front, back)]
+        numpy.testing.assert_array_equal(triangles[0][:, [0, 2, 1]], triangles[1])
+        self.assertEqual(front["attributes"]["POSITION"], back["attributes"]["POSITION"])
+        pairs = [(front["attributes"], back["attributes"]), *zip(front["targets"], back["targets"])]
+        for own, other in pairs:
+            numpy.testing.assert_array_equal(gltf.accessor(own["NORMAL"]), -gltf.accessor(other["NORMAL"]))
+        (self.folder / "two/checkpoint.pliant").write_bytes(b"x")
+        done = self.pliant("convert", "two", "two.glb", "--tolerance", 0.01)
+        self.assertIn("warning: the colors of the scene are not known, so each body has one of its own: ", done.stderr)
+        self.assertEqual(len(Gltf(self.folder / "two.glb").json["materials"]), 5)
+        same = [f"--set=view.{side}=#ff8000" for side in colors]
+        self.pliant("run", "scene.json", "--out", "same", *same)
+        self.pliant("convert", "same", "same.glb", "--tolerance", 0.01)
+        gltf = Gltf(self.folder / "same.glb")
+        self.assertEqual([material["doubleSided"] for material in gltf.json["materials"]], [True])
+        self.assertEqual(len(gltf.primitives("bar")), 1)
 
     def test_one_body_and_one_moment(self):
         gltf = self.convert("rope.glb", "--body", "rope", "--time", "0.113")

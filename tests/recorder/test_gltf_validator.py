@@ -20,17 +20,18 @@ class GltfValidator(ExportCase):
         return json.loads(done.stdout)
 
     def test_every_kind_of_file(self):
+        self.pliant("run", "scene.json", "--out", "two", "--set=view.front=#ff8000")
         for arguments in [["run", "all.glb"], ["run", "all.gltf"], ["run", "flat.glb", "--normals", "flat"],
                           ["run", "rope.glb", "--body", "rope"], ["run", "still.glb", "--body", "still"],
                           ["run", "one.glb", "--frames", "7"], ["run", "two.glb", "--max-keyframes", "2"],
-                          ["patch.obj", "patch.gltf"]]:
+                          ["patch.obj", "patch.gltf"], ["two", "two.glb"]]:
             with self.subTest(arguments=arguments):
-                self.pliant("convert", *arguments)
+                self.pliant("convert", "--yes", *arguments)
                 found = self.issues(arguments[1])
                 self.assertEqual((found["numErrors"], found["numWarnings"]), (0, 0), found["messages"])
 
     def test_the_validator_finds_what_is_wrong(self):
-        self.pliant("convert", "run", "good.gltf")
+        self.pliant("convert", "run", "good.gltf", "--yes")
         text = (self.folder / "good.gltf").read_text()
         (self.folder / "bad.gltf").write_text(text.replace('"mode":4', '"mode":"4"'))
         self.assertGreater(self.issues("bad.gltf")["numErrors"], 0)

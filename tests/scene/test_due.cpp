@@ -161,6 +161,29 @@ TEST_CASE("a ramp goes by equal ratios and ends exactly") {
   CHECK(*rig.simulation.stiffness(rig.springs) == doctest::Approx(3200 * std::pow(1.0 / 16, 0.15625)));
 }
 
+TEST_CASE("what is due acts by a clock from elsewhere, without a step, and nothing of a refused one stays") {
+  Rig rig;
+  std::vector<int> acted;
+  for (const std::int64_t step : {7, 3}) {
+    rig.timeline.add(When::at_step(step), [&acted, step](Simulation&) { acted.push_back(static_cast<int>(step)); });
+  }
+  rig.timeline.add(When::at_time(0.5), [](Simulation& s, Timeline& t) {
+    s.set_stiffness(*s.find_group("springs"), 77);
+    if (t.event_count() < 4) fail_input("too early");
+  });
+  for (std::int64_t step = 0; step < 5; ++step)
+    rig.timeline.act_due(rig.simulation, step, 0.1 * static_cast<Real>(step));
+  CHECK(acted == std::vector<int>{3});
+  CHECK_THROWS_AS(rig.timeline.act_due(rig.simulation, 5, 0.5), Error);
+  CHECK(*rig.simulation.stiffness(rig.springs) == 200);
+  rig.timeline.add(When::at_time(1), [](Simulation&) {});
+  rig.timeline.act_due(rig.simulation, 5, 0.5);
+  CHECK(*rig.simulation.stiffness(rig.springs) == 77);
+  rig.timeline.act_due(rig.simulation, 9, 0.9);
+  CHECK(acted == std::vector<int>{3, 7});
+  CHECK(rig.simulation.state().step == 0);
+}
+
 TEST_CASE("events, motions and ramps that are refused") {
   Rig rig;
   constexpr Real not_a_number = std::numeric_limits<Real>::quiet_NaN();

@@ -195,37 +195,46 @@ void Timeline::ramp_stiffness(const Simulation& simulation, GroupId id, Real to,
   ramps_.insert_or_assign(id, Ramp{ramp});
 }
 
-bool Timeline::is_due(const Simulation& simulation) const {
-  const State& state = simulation.state();
-  const Real latest = state.time + 1e-9 * simulation.settings().time_step;
-  return (!by_step_.empty() && by_step_.begin()->first <= state.step) ||
-         (!by_time_.empty() && by_time_.begin()->first <= latest);
+Timeline::Clock Timeline::clock(const Simulation& simulation, std::int64_t step, Real time) {
+  return {step, time + 1e-9 * simulation.settings().time_step};
 }
 
-std::vector<Index> Timeline::due_events(const Simulation& simulation) const {
-  const State& state = simulation.state();
-  const Real latest = state.time + 1e-9 * simulation.settings().time_step;
+Timeline::Clock Timeline::clock(const Simulation& simulation) {
+  return clock(simulation, simulation.state().step, simulation.state().time);
+}
+
+bool Timeline::is_due(const Clock& clock) const {
+  return (!by_step_.empty() && by_step_.begin()->first <= clock.step) ||
+         (!by_time_.empty() && by_time_.begin()->first <= clock.latest);
+}
+
+std::vector<Index> Timeline::due_events(const Clock& clock) const {
   std::vector<Index> due;
   for (const auto& [step, event] : by_step_) {
-    if (step > state.step) break;
+    if (step > clock.step) break;
     due.push_back(event);
   }
   for (const auto& [time, event] : by_time_) {
-    if (time > latest) break;
+    if (time > clock.latest) break;
     due.push_back(event);
   }
   std::ranges::sort(due);
   return due;
 }
 
-void Timeline::run_due(Simulation& simulation) {
-  while (is_due(simulation)) {  // an edit may add events that are due at once
-    for (const Index event : due_events(simulation)) run(simulation, event);
+void Timeline::run_due(Simulation& simulation, std::int64_t step, Real time) {
+  // An edit may add events that are due at once, or change the time step.
+  for (Clock now = clock(simulation, step, time); is_due(now); now = clock(simulation, step, time)) {
+    for (const Index event : due_events(now)) run(simulation, event);
   }
 }
 
+void Timeline::act_due(Simulation& simulation, std::int64_t step, Real time) {
+  if (is_due(clock(simulation, step, time))) all_or_nothing(simulation, [&] { run_due(simulation, step, time); });
+}
+
 Index Timeline::skip_due(const Simulation& simulation) {
-  const std::vector<Index> due = due_events(simulation);
+  const std::vector<Index> due = due_events(clock(simulation));
   for (const Index event : due) take_from_waiting(event);
   return static_cast<Index>(due.size());
 }
@@ -249,9 +258,9 @@ void Timeline::run(Simulation& simulation, Index event) {
 
 StepReport Timeline::step(Simulation& simulation) {
   StepReport report;
-  if (is_due(simulation)) {
+  if (is_due(clock(simulation))) {
     all_or_nothing(simulation, [&] {
-      run_due(simulation);
+      run_due(simulation, simulation.state().step, simulation.state().time);
       prepare(simulation);
       go_on(simulation);
       report = simulation.step();

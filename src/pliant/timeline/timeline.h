@@ -86,6 +86,12 @@ class Timeline {
   /// was due still is. Allocates nothing in a step without events.
   StepReport step(Simulation& simulation);
 
+  /// Lets the events act that are due before that step at that time [s], and no others, without a step: what pins and
+  /// forces a recorded run had then is found again by calling this for all of its steps in turn, from 0 on, whatever
+  /// step and time the simulation is at. Motions that begin are not followed. When this throws, simulation and timeline
+  /// are as before.
+  void act_due(Simulation& simulation, std::int64_t step, Real time);
+
   /// Takes away the events that are due at the next step, for whoever changed the simulation by hand so that one of
   /// them can no longer act. Returns how many there were. A checkpoint does not know of it.
   Index skip_due(const Simulation& simulation);
@@ -121,9 +127,16 @@ class Timeline {
     bool has_arrived = false;
   };
 
-  bool is_due(const Simulation& simulation) const;
-  std::vector<Index> due_events(const Simulation& simulation) const;
-  void run_due(Simulation& simulation);
+  /// The step before which events are due, and the latest time of those [s].
+  struct Clock {
+    std::int64_t step;
+    Real latest;
+  };
+  static Clock clock(const Simulation& simulation, std::int64_t step, Real time);
+  static Clock clock(const Simulation& simulation);
+  bool is_due(const Clock& clock) const;
+  std::vector<Index> due_events(const Clock& clock) const;
+  void run_due(Simulation& simulation, std::int64_t step, Real time);
   void run(Simulation& simulation, Index event);
   void wait(Index event);
   bool is_waiting(Index event) const;

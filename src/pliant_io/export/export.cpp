@@ -68,11 +68,13 @@ ExportReport export_animation(const fs::path& path, const Animation& animation, 
         fmt::format("{}: unknown format of an animation; give one of {}", path.string(), animation_extensions()));
   }
   const Keyframes keyframes = keyframes_for(*format, animation, options);
-  at_place(path.string(), [&] {
-    if (format->needs == AnimationFormat::Needs::faces) check_bodies(path, animation);
-    format->write(path, animation, keyframes.frames, options);
-  });
-  return {std::ssize(animation.times), std::ssize(keyframes.frames), keyframes.largest_error};
+  if (format->needs == AnimationFormat::Needs::faces) {
+    at_place(path.string(), [&] { check_bodies(path, animation); });
+  }
+  const ExportReport report = {std::ssize(animation.times), std::ssize(keyframes.frames), keyframes.largest_error};
+  if (report.keyframes < report.frames && options.before_thinning) options.before_thinning(report);
+  at_place(path.string(), [&] { format->write(path, animation, keyframes.frames, options); });
+  return report;
 }
 
 std::int64_t export_sequence(const fs::path& pattern, const Animation& animation) {

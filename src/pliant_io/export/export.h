@@ -2,6 +2,7 @@
 // Animations to files that other programs read. docs/exports.md says what each format holds.
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string_view>
 
@@ -19,6 +20,19 @@ constexpr std::array<std::string_view, 2> choice_names(Normals) {
 
 inline constexpr Real default_gltf_tolerance = 1e-3;
 
+/// What was written.
+struct ExportReport {
+  std::int64_t frames = 0;     ///< of the animation
+  std::int64_t keyframes = 0;  ///< of these, in the file
+  Real largest_error = 0;      ///< of the others, in sizes of their body
+};
+
+/// Shares of red, green and blue, 0 to 1 (sRGB), of the side that normals point from and of the other.
+struct SurfaceColors {
+  std::array<Real, 3> front{};
+  std::array<Real, 3> back{};
+};
+
 struct ExportOptions {
   /// How far linear interpolation between keyframes may be off, in sizes of the body (keyframes.h). 0 keeps all frames
   /// that are not exactly between others. Default: default_gltf_tolerance for glTF, all frames for USD; the other
@@ -28,13 +42,12 @@ struct ExportOptions {
   /// are what every browser has for them.
   std::int64_t max_keyframes = 256;
   Normals normals = Normals::smooth;  ///< of glTF
-};
-
-/// What was written.
-struct ExportReport {
-  std::int64_t frames = 0;     ///< of the animation
-  std::int64_t keyframes = 0;  ///< of these, in the file
-  Real largest_error = 0;      ///< of the others, in sizes of their body
+  /// Of glTF, for all bodies; where the two sides differ, each has triangles of its own. Default: a muted color for
+  /// each body.
+  std::optional<SurfaceColors> colors = {};
+  /// Called before a file with fewer frames than the animation is written; when it throws, none is. Default: not
+  /// called.
+  std::function<void(const ExportReport&)> before_thinning = {};
 };
 
 /// Writes all bodies and all frames, whole or not at all (atomic_file.h), in the format of the extension. The first

@@ -1,6 +1,9 @@
 // glTF 2.0 (Khronos Group, specification 2.0.1; section numbers are its own).
+#include <array>
 #include <bit>
+#include <cmath>
 #include <limits>
+#include <optional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -111,24 +114,45 @@ class GltfDocument {
   std::string buffer_;
 };
 
+/// The share of light that a share of a color stands for (IEC 61966-2-1); materials have light (Sec. 3.9.2).
+double light_of(double share) {
+  return share <= 0.04045 ? share / 12.92 : std::pow((share + 0.055) / 1.055, 2.4);
+}
+
+enum class Sides { one, both };
+
+OrderedJson material(const std::array<double, 3>& light, Sides sides) {
+  const auto& [red, green, blue] = light;
+  return {{"pbrMetallicRoughness",
+           {{"baseColorFactor", {red, green, blue, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 0.8}}},
+          {"doubleSided", sides == Sides::both}};
+}
+
+OrderedJson material_of_color(const std::array<Real, 3>& color, Sides sides) {
+  return material({light_of(color[0]), light_of(color[1]), light_of(color[2])}, sides);
+}
+
 /// A muted color of its own for each of the first bodies.
-OrderedJson material(std::size_t body) {
-  constexpr std::array<std::array<double, 3>, 6> colors = {{{0.28, 0.45, 0.69},
+OrderedJson material_of_body(std::size_t body) {
+  constexpr std::array<std::array<double, 3>, 6> lights = {{{0.28, 0.45, 0.69},
                                                             {0.77, 0.36, 0.22},
                                                             {0.33, 0.56, 0.38},
                                                             {0.80, 0.64, 0.26},
                                                             {0.52, 0.40, 0.62},
                                                             {0.45, 0.45, 0.45}}};
-  const auto& [red, green, blue] = colors[body % colors.size()];
-  return {{"pbrMetallicRoughness",
-           {{"baseColorFactor", {red, green, blue, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 0.8}}},
-          {"doubleSided", true}};
+  return material(lights[body % lights.size()], Sides::both);
+}
+
+/// The same triangles seen from the other side.
+std::vector<Index> turned(std::vector<Index> triangles) {
+  for (std::size_t i = 0; i + 2 < triangles.size(); i += 3) std::swap(triangles[i + 1], triangles[i + 2]);
+  return triangles;
 }
 
 class GltfExport {
  public:
-  GltfExport(const Animation& animation, const std::vector<std::size_t>& frames, Normals normals)
-      : animation_(animation), frames_(frames), normals_(normals) {
+  GltfExport(const Animation& animation, const std::vector<std::size_t>& frames, const ExportOptions& options)
+      : animation_(animation), frames_(frames), normals_(options.normals), colors_(options.colors) {
     for (std::size_t body = 0; body < animation.bodies.size(); ++body) add_body(body);
     if (moving_nodes_.empty()) return;
     add_animation();
@@ -143,32 +167,78 @@ class GltfExport {
     std::vector<Eigen::Vector3d> normals;
   };
 
+  /// What the primitives of a body's front have, and those of its back, whose normals are turned.
+  struct Side {
+    OrderedJson attributes;
+    OrderedJson targets;  ///< null where nothing moves
+  };
+
   void add_body(std::size_t number) {
     const Body& body = animation_.bodies[number];
     if (body.mesh.vertex_count() == 0) return;
     const GltfSurface surface(body.mesh);
-    const bool has_normals = normals_ == Normals::smooth && !surface.triangles.empty();
     const Shape rest = shape(body, surface, frames_.front());
-    OrderedJson attributes = {{"POSITION", document_.add_vectors(y_up_floats(rest.positions), true)}};
-    if (has_normals) attributes["NORMAL"] = document_.add_vectors(y_up_floats(rest.normals), false);
-    if (!surface.texture.empty()) {
-      attributes["TEXCOORD_0"] = document_.add_texture_coordinates(surface.texture);
-    }
-    const OrderedJson targets = moves(body) ? add_targets(body, surface, rest, has_normals) : OrderedJson();
-    const std::size_t material_index = document_.add("materials", material(number));
+    const bool is_moving = moves(body);
+    const Side front = front_side(body, surface, rest, is_moving);
     OrderedJson primitives = OrderedJson::array();
-    const auto add_primitive = [&](Mode mode, const std::vector<Index>& indices) {
+    const auto add_primitive = [&](Mode mode, const std::vector<Index>& indices, const Side& side,
+                                   std::size_t material_index) {
       OrderedJson primitive = {
-          {"attributes", attributes}, {"material", material_index}, {"mode", static_cast<int>(mode)}};
+          {"attributes", side.attributes}, {"material", material_index}, {"mode", static_cast<int>(mode)}};
+      if (mode != Mode::triangles) primitive["attributes"].erase("TEXCOORD_0");
       if (!indices.empty()) primitive["indices"] = document_.add_indices(indices);
-      if (!targets.empty()) primitive["targets"] = targets;
+      if (!side.targets.empty()) primitive["targets"] = side.targets;
       primitives.push_back(std::move(primitive));
     };
-    if (!surface.triangles.empty()) add_primitive(Mode::triangles, surface.triangles);
-    attributes.erase("TEXCOORD_0");
-    if (!surface.lines.empty()) add_primitive(Mode::lines, surface.lines);
-    if (primitives.empty()) add_primitive(Mode::points, {});
-    add_node(body.name, std::move(primitives), !targets.empty());
+    const bool has_two_tones = colors_ && colors_->front != colors_->back && !surface.triangles.empty();
+    const std::size_t tone = front_material(number, has_two_tones ? Sides::one : Sides::both);
+    if (!surface.triangles.empty()) add_primitive(Mode::triangles, surface.triangles, front, tone);
+    if (has_two_tones) {
+      add_primitive(Mode::triangles, turned(surface.triangles), back_side(body, surface, rest, front), back_material());
+    }
+    if (!surface.lines.empty()) add_primitive(Mode::lines, surface.lines, front, tone);
+    if (primitives.empty()) add_primitive(Mode::points, {}, front, tone);
+    add_node(body.name, std::move(primitives), is_moving);
+  }
+
+  /// One for all bodies, or one for each.
+  std::size_t front_material(std::size_t body, Sides sides) {
+    if (!colors_) return document_.add("materials", material_of_body(body));
+    std::optional<std::size_t>& known = sides == Sides::one ? front_material_ : double_sided_material_;
+    if (!known) known = document_.add("materials", material_of_color(colors_->front, sides));
+    return *known;
+  }
+
+  std::size_t back_material() {
+    if (!back_material_) back_material_ = document_.add("materials", material_of_color(colors_->back, Sides::one));
+    return *back_material_;
+  }
+
+  Side front_side(const Body& body, const GltfSurface& surface, const Shape& rest, bool is_moving) {
+    const bool has_normals = normals_ == Normals::smooth && !surface.triangles.empty();
+    Side side{{{"POSITION", document_.add_vectors(y_up_floats(rest.positions), true)}}, {}};
+    if (has_normals) side.attributes["NORMAL"] = document_.add_vectors(y_up_floats(rest.normals), false);
+    if (!surface.texture.empty()) {
+      side.attributes["TEXCOORD_0"] = document_.add_texture_coordinates(surface.texture);
+    }
+    if (is_moving) side.targets = add_targets(body, surface, rest, has_normals);
+    return side;
+  }
+
+  /// The front's, with normals that point the other way.
+  Side back_side(const Body& body, const GltfSurface& surface, const Shape& rest, const Side& front) {
+    Side side = front;
+    if (!side.attributes.contains("NORMAL")) return side;
+    const auto turn = [](std::vector<Vec3f> vectors) {
+      for (Vec3f& vector : vectors) vector = -vector;
+      return vectors;
+    };
+    side.attributes["NORMAL"] = document_.add_vectors(turn(y_up_floats(rest.normals)), false);
+    for (std::size_t i = 0; i < side.targets.size(); ++i) {
+      const Shape moved = shape(body, surface, frames_[i + 1]);
+      side.targets[i]["NORMAL"] = document_.add_vectors(turn(differences(moved.normals, rest.normals)), false);
+    }
+    return side;
   }
 
   void add_node(const std::string& name, OrderedJson primitives, bool is_moving) {
@@ -255,6 +325,8 @@ class GltfExport {
   const Animation& animation_;
   const std::vector<std::size_t>& frames_;
   Normals normals_;
+  std::optional<SurfaceColors> colors_;
+  std::optional<std::size_t> front_material_, back_material_, double_sided_material_;
   GltfDocument document_;
   std::vector<std::size_t> moving_nodes_;
   Positions positions_;  ///< scratch
@@ -300,7 +372,7 @@ void write_binary(AtomicFile& file, const std::string& json, const std::string& 
 
 void write_gltf(const std::filesystem::path& path, const Animation& animation, const std::vector<std::size_t>& frames,
                 const ExportOptions& options) {
-  GltfExport result(animation, frames, options.normals);
+  GltfExport result(animation, frames, options);
   GltfDocument& document = result.document();
   document.add("buffers", {{"byteLength", document.buffer().size()},
                            {"uri", "data:application/octet-stream;base64," + base64(document.buffer())}});
@@ -311,7 +383,7 @@ void write_gltf(const std::filesystem::path& path, const Animation& animation, c
 
 void write_glb(const std::filesystem::path& path, const Animation& animation, const std::vector<std::size_t>& frames,
                const ExportOptions& options) {
-  GltfExport result(animation, frames, options.normals);
+  GltfExport result(animation, frames, options);
   GltfDocument& document = result.document();
   document.add("buffers", {{"byteLength", document.buffer().size()}});
   AtomicFile file(path);
