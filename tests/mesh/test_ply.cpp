@@ -252,7 +252,7 @@ TEST_CASE("a malformed PLY file is refused with its place") {
     check(ascii("element vertex 1\nproperty float\n", ""), "a:4: a property without a name;");
     check(ascii("element vertex 1\nproperty float x\nproperty int x\n", ""), "a:5: property \"x\" twice");
     check(ascii("element vertex 1\nproperty list float int x\n", ""), "a:4: a list that counts in fractions;");
-    check(ascii("vertex 1\n", ""), "a:3: \"vertex\" is no statement");
+    check(ascii("vertex 1\n", ""), "a:3: unknown statement \"vertex\"");
     check(ascii("element vertex 1 2\n", ""), "a:3: \"2\" too much in a header line;");
     check(ascii("element vertex 0\n" + xyz, ""), "a: no vertices;");
     check(ascii("element face 0\n" + face_list, ""), "a: no vertices;");

@@ -102,7 +102,7 @@ TEST_CASE("a path that leads nowhere says how far it leads") {
   CHECK(message_of("steps") == "--set steps: there is no '='; write PATH=VALUE, such as settings.iterations=20");
   for (const std::string path : {"", ".", "a..b", "a.", ".a", "[0]", "a[", "a[]", "a[0", "a[0]b", "a[0]..b"}) {
     CAPTURE(path);
-    CHECK(message_of(path + "=1").find("is no path") != std::string::npos);
+    CHECK(message_of(path + "=1").find("is not a path") != std::string::npos);
   }
   CHECK(message_of("bodies[2].name=x") == "--set bodies[2].name=x: [2] is out of range; the list has entries 0 to 1");
   CHECK(message_of("bodies[-1].name=x").find("no entry is called '-1'") != std::string::npos);
@@ -111,8 +111,8 @@ TEST_CASE("a path that leads nowhere says how far it leads") {
   CHECK(message_of("forces[wind].drag=1").find("[0] and [1] both have the type 'wind'; give an index") !=
         std::string::npos);
   CHECK(message_of("events[0].time=1").find("events") != std::string::npos);
-  CHECK(message_of("bodies[0].mass.total.x=1").find("'total' is no object") != std::string::npos);
-  CHECK(message_of("bodies[0].name[0]=1").find("'name' is no list") != std::string::npos);
+  CHECK(message_of("bodies[0].mass.total.x=1").find("'total' is not an object") != std::string::npos);
+  CHECK(message_of("bodies[0].name[0]=1").find("'name' is not a list") != std::string::npos);
   CHECK(message_of("gravity[2]=1").find("'gravity'") != std::string::npos);
   CHECK(message_of("bodies.x=1").find("bodies") != std::string::npos);
   CHECK(message_of("include=other.json").find("cannot be set") != std::string::npos);

@@ -94,8 +94,8 @@ TEST_CASE("a view that cannot be drawn") {
   check(R"({"background": "#12345g"})", ".background: is not a color");
   check(R"({"background": [0, 0, 2]})", ".background[2]: is not a color");
   check(R"({"background": [0, 0]})", ".background: the list has 2 entries");
-  check(R"({"camera": {"up": [0, 0, 0]}})", ".camera.up: a direction of length 0");
-  check(R"({"light": [0, 0, 0]})", ".light: a direction of length 0");
+  check(R"({"camera": {"up": [0, 0, 0]}})", ".camera.up: the direction has length 0");
+  check(R"({"light": [0, 0, 0]})", ".light: the direction has length 0");
   check(R"({"camera": {"field_of_view": 180}})", ".camera.field_of_view: 180 is out of range");
   check(R"({"camera": {"position": [1, 1, 1], "target": [1, 1, 1]}})", ".camera: the camera stands at its target");
   check(R"({"camera": {"position": [0, 0, 9], "target": [0, 0, 1]}})", ".camera: the camera looks along its up");

@@ -179,7 +179,7 @@ void keep_frames(Animation& animation, const FrameRange& range) {
   const std::int64_t first = resolve(range.first);
   const std::int64_t last = resolve(range.last);
   if (range.step < 1 || last < first) {
-    fail_input(fmt::format("frames {}:{}:{} are none; give a first one before the last one, and a step from 1 up",
+    fail_input(fmt::format("frames {}:{}:{} select nothing; give a first one before the last one, and a step from 1 up",
                            range.first, range.last, range.step));
   }
   std::vector<Real> kept;

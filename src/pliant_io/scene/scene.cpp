@@ -21,7 +21,7 @@ const std::vector<std::string_view> top_keys = {"pliant",  "name",   "descriptio
 void check_view(const Node& node, const ViewSettings& view) {
   const auto refuse_zero = [](const Node& parent, std::string_view key, const Vec3& direction) {
     if (direction.stableNorm() > 0) return;
-    parent.find(key).value_or(parent).fail("a direction of length 0 is none; give another");
+    parent.find(key).value_or(parent).fail("the direction has length 0; give another");
   };
   const Camera& camera = view.camera;
   const Node camera_node = node.find("camera").value_or(node);

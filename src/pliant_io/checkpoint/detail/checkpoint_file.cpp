@@ -53,7 +53,7 @@ std::string seal(std::string_view content) {
 std::string_view unseal(std::string_view bytes, std::string_view name) {
   const auto fail = [&](std::string_view what) { fail_input(fmt::format("{}: {}", name, what)); };
   if (!bytes.starts_with(magic.substr(0, bytes.size())) || bytes.empty()) {
-    fail("is no checkpoint; give one that `pliant run` wrote, or run the scene from its start");
+    fail("is not a checkpoint; give one that `pliant run` wrote, or run the scene from its start");
   }
   constexpr std::string_view remedy = "take an older checkpoint, or run the scene from its start";
   if (bytes.size() < header_size)

@@ -83,7 +83,7 @@ class HeaderReader {
         lexer_.skip_rest_of_line();
         continue;
       } else {
-        lexer_.fail(fmt::format("{} is no statement of a PLY header; remove the line", TextLexer::quoted(keyword)));
+        lexer_.fail(fmt::format("unknown statement {} in a PLY header; remove the line", TextLexer::quoted(keyword)));
       }
       if (const auto word = lexer_.next_word(); !word.empty()) {
         lexer_.fail(fmt::format("{} too much in a header line; remove it", TextLexer::quoted(word)));

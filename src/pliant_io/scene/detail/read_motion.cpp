@@ -47,7 +47,7 @@ EventPath read_move(const Node& node, std::vector<std::string_view> more_keys) {
     if (kind == "target") return straight_path(MoveKind::target, options.target, options.over, options.ease);
     if (kind == "offset") return straight_path(MoveKind::offset, options.offset, options.over, options.ease);
     if (kind == "keyframes") return rigid_path(options.keyframes, options.center, options.ease);
-    if (!(options.over >= 0)) fail_input(fmt::format("{} s is no duration; give a number from 0 up", options.over));
+    if (!(options.over >= 0)) fail_input(fmt::format("{} s is not a duration; give a number from 0 up", options.over));
     return rigid_path({{.time = options.over, .rotate = *options.rotate}}, options.center, options.ease);
   };
   return {node.locate(make), options.index};

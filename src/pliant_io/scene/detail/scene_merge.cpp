@@ -110,7 +110,7 @@ constexpr std::string_view path_example = "write it like bodies[0].constraints[b
 
 std::vector<PathStep> split_path(std::string_view path, const Node& value) {
   std::vector<PathStep> steps;
-  const auto fail = [&] { value.fail(fmt::format("'{}' is no path; {}", printable(path), path_example)); };
+  const auto fail = [&] { value.fail(fmt::format("'{}' is not a path; {}", printable(path), path_example)); };
   while (!path.empty()) {
     const bool is_key = path.front() != '[';
     if (is_key != (steps.empty() || path.front() == '.')) fail();
@@ -178,13 +178,13 @@ Target step_down(Target from, const PathStep& step, std::string_view place, cons
   if (!step.is_key) {
     if (!from.json->is_array()) {
       value.fail(
-          fmt::format("{} is no list, so [{}] leads nowhere; {}", place, printable(step.text), way_on(*from.json)));
+          fmt::format("{} is not a list, so [{}] leads nowhere; {}", place, printable(step.text), way_on(*from.json)));
     }
     const std::size_t index = entry_of(*from.json, step.text, value);
     return {&(*from.json)[index], &from.origins->entries[index]};
   }
   if (!from.json->is_object()) {
-    value.fail(fmt::format("{} is no object, so the key '{}' leads nowhere; {}", place, printable(step.text),
+    value.fail(fmt::format("{} is not an object, so the key '{}' leads nowhere; {}", place, printable(step.text),
                            way_on(*from.json)));
   }
   OriginMap& origins = from.origins->keys[std::string(step.text)];
