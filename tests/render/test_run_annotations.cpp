@@ -42,7 +42,7 @@ TEST_CASE("pins and wind of a recorded run are those of the scene, also when eve
   REQUIRE(clip.frames.size() == 31);
   CHECK(clip.frames[0].content.markers == std::vector<std::uint32_t>{0, 3});
   CHECK(clip.frames[30].content.markers.empty());
-  for (const std::size_t every : {1, 3}) {
+  for (const std::size_t every : {std::size_t{1}, std::size_t{3}}) {
     CAPTURE(every);
     const Animation animation = animation_of(clip, live, every);
     const RunFrames frames(animation, annotate_run(eventful_scene(), animation));
