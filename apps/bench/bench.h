@@ -35,13 +35,13 @@ constexpr std::array<std::string_view, 2> choice_names(Bandwidth) {
 }
 
 struct BenchOptions {
-  std::vector<Workload> workloads;
-  std::vector<BaselineKind> baselines;
-  std::vector<int> threads = {1, 2};  ///< the phases are those of the first
-  std::optional<int> repeats;         ///< default: as many as fit into a few seconds a workload, at least five
-  pliant::SolverSettings settings;
-  Projections projections = Projections::with;
-  Bandwidth bandwidth = Bandwidth::with;
+  std::vector<Workload> workloads;      ///< what is measured, in turn
+  std::vector<BaselineKind> baselines;  ///< other libraries to measure beside it
+  std::vector<int> threads = {1, 2};    ///< the phases are those of the first
+  std::optional<int> repeats;           ///< default: as many as fit into a few seconds a workload, at least five
+  pliant::SolverSettings settings;      ///< of every workload, but for the threads
+  Projections projections = Projections::with;  ///< whether each type of projection is measured by itself
+  Bandwidth bandwidth = Bandwidth::with;        ///< whether the memory's bandwidth is measured
 
   bool has(BaselineKind kind) const;
 };

@@ -7,10 +7,10 @@ namespace pliant_cli {
 
 /// `scene` may be the folder of a run as well.
 struct AppearanceArguments : SceneArguments {
-  std::string size;
-  std::optional<pliant::ColorBy> color;
-  std::optional<pliant::Shading> shading;
-  bool wireframe = false;
+  std::string size;                        ///< "1280x720" [pixels]; empty: as the scene has it
+  std::optional<pliant::ColorBy> color;    ///< what colors mean; none: as the scene's view has it
+  std::optional<pliant::Shading> shading;  ///< smooth or flat; none: as the view has it
+  bool wireframe = false;                  ///< draw the edges of the elements too
 };
 void add_appearance_options(CLI::App& command, AppearanceArguments& arguments);
 

@@ -26,15 +26,15 @@ using namespace pliant_bench;
 using pliant::Index;
 
 struct BenchArguments {
-  std::vector<std::string> workloads;
-  std::optional<Index> size;
-  MeshOrder order = MeshOrder::rows;
-  std::optional<Index> repeats;
-  std::vector<std::string> threads;
-  std::vector<std::string> baselines = {"all"};
-  std::string json;
-  std::string csv;
-  BenchOptions options;
+  std::vector<std::string> workloads;  ///< names; empty: all
+  std::optional<Index> size;  ///< vertices along a side of a curtain, cells across a bar; none: as each workload has it
+  MeshOrder order = MeshOrder::rows;             ///< of the vertices in memory
+  std::optional<Index> repeats;                  ///< of everything, 1 to 100,000; none: about 3 s a workload
+  std::vector<std::string> threads;              ///< numbers, in turn; empty: 1 and 2
+  std::vector<std::string> baselines = {"all"};  ///< names of other libraries, "all" or "none"
+  std::string json;                              ///< file for the results, "-" for the standard output; empty: none
+  std::string csv;                               ///< as json
+  BenchOptions options;                          ///< what the above make
 };
 
 std::vector<BaselineKind> all_baselines() {

@@ -29,8 +29,8 @@ using pliant::Simulation;
 using pliant::SystemInfo;
 
 struct CheckOptions : SceneArguments {
-  bool as_json = false;
-  bool as_scene = false;
+  bool as_json = false;   ///< print one JSON object in place of the text
+  bool as_scene = false;  ///< print the scene file made for a mesh, and nothing else
 };
 
 /// The most memory that this process has held so far [bytes].

@@ -28,18 +28,18 @@ namespace fs = std::filesystem;
 using pliant::Animation;
 
 struct ConvertOptions {
-  fs::path in;
-  fs::path out;
-  std::optional<fs::path> mesh;
-  pliant::ImportOptions import;
-  pliant::PointCacheOptions cache;
-  std::optional<std::string> body;
-  std::optional<std::string> frames;
-  std::optional<pliant::Real> time;
-  std::optional<pliant::Real> frames_per_second;
-  pliant::ExportOptions exported;
-  std::optional<std::int64_t> max_keyframes;
-  bool yes = false;
+  fs::path in;                                    ///< a mesh, the folder of a run, or a point cache
+  fs::path out;                                   ///< file whose extension says the format
+  std::optional<fs::path> mesh;                   ///< of the vertices of a point cache
+  pliant::ImportOptions import;                   ///< how a mesh is read: scale and axis
+  pliant::PointCacheOptions cache;                ///< how a point cache is read
+  std::optional<std::string> body;                ///< of a run, by its name; none: all
+  std::optional<std::string> frames;              ///< "FIRST:LAST:STEP", both ends included; none: all
+  std::optional<pliant::Real> time;               ///< of the one frame to take [s]
+  std::optional<pliant::Real> frames_per_second;  ///< of the result [1/s]; none: as recorded
+  pliant::ExportOptions exported;                 ///< how the result is written
+  std::optional<std::int64_t> max_keyframes;      ///< of an animation; none: as many as there are
+  bool yes = false;                               ///< thin frames without asking
 };
 
 /// FIRST, FIRST:LAST or FIRST:LAST:STEP; what is empty keeps its default.

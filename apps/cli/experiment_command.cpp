@@ -26,10 +26,10 @@ using pliant_report::Report;
 using pliant_report::Verdict;
 
 struct ExperimentArguments {
-  std::vector<std::string> names;
-  fs::path out = "report";
-  bool without_pictures = false;
-  bool quiet = false;
+  std::vector<std::string> names;  ///< of experiments, or "all"; empty: they are listed
+  fs::path out = "report";         ///< folder of the report
+  bool without_pictures = false;   ///< leave out what needs OpenGL
+  bool quiet = false;              ///< print warnings and errors only
 };
 
 void list_experiments() {

@@ -28,9 +28,9 @@ using pliant::Index;
 using Json = nlohmann::ordered_json;
 
 struct InfoOptions {
-  std::string file;
-  pliant::ImportOptions import;
-  bool json = false;
+  std::string file;              ///< a mesh
+  pliant::ImportOptions import;  ///< how a mesh is read: scale and axis
+  bool json = false;             ///< print one JSON object in place of the text
 };
 
 /// Everything that is printed. The mesh itself is not kept: a diagnosis needs the memory.

@@ -8,7 +8,7 @@
 namespace pliant_cli {
 
 struct RecordingOptions {
-  bool quiet = false;
+  bool quiet = false;                 ///< print warnings and errors only
   std::int64_t checkpoint_every = 0;  ///< steps from checkpoint to checkpoint; 0: one at the end
 };
 void add_recording_options(CLI::App& command, RecordingOptions& options);

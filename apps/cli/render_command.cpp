@@ -25,12 +25,13 @@ namespace fs = std::filesystem;
 using pliant_render::Clip;
 
 struct RenderArguments : AppearanceArguments {
-  fs::path out;
-  std::int64_t fps = 30;
-  std::int64_t samples = 4;
-  std::optional<std::int64_t> frames;
-  bool sheet = false;
-  bool quiet = false;
+  fs::path out;              ///< film, picture or folder of pictures
+  std::int64_t fps = 30;     ///< frames a second of a film, 1 to 240
+  std::int64_t samples = 4;  ///< of a pixel, 1 to 16
+  std::optional<std::int64_t>
+      frames;          ///< how many, spread evenly, 1 to 100,000; none: all for a film, the last for a picture
+  bool sheet = false;  ///< all frames in one picture
+  bool quiet = false;  ///< print warnings and errors only
 };
 
 bool is_picture(const RenderArguments& arguments) {

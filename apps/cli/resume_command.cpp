@@ -22,9 +22,9 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ResumeArguments {
-  fs::path folder;
-  pliant::ResumeOptions options;
-  RecordingOptions recording;
+  fs::path folder;                ///< of the run
+  pliant::ResumeOptions options;  ///< how far, and with how many threads
+  RecordingOptions recording;     ///< what is told and kept on the way
 };
 
 int resume_scene(const ResumeArguments& arguments) {

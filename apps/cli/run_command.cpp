@@ -22,8 +22,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct RunOptions : SceneArguments {
-  fs::path out;
-  RecordingOptions recording;
+  fs::path out;                ///< folder of the run; empty: out/SCENE
+  RecordingOptions recording;  ///< what is told and kept on the way
 };
 
 /// The scene or mesh itself, what it includes, its meshes, maps and point caches.

@@ -13,8 +13,8 @@ namespace pliant_cli {
 
 /// A scene and the values that take the place of its own.
 struct SceneArguments {
-  std::string scene;
-  pliant::SceneOverrides overrides;
+  std::string scene;                  ///< a file, a built-in scene or a mesh
+  pliant::SceneOverrides overrides;   ///< what takes the place of the scene's own
   pliant::ImportOptions import = {};  ///< where the scene is a mesh
 };
 

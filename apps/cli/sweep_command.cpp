@@ -25,12 +25,12 @@ namespace fs = std::filesystem;
 using namespace pliant_sweep;
 
 struct SweepArguments : SceneArguments {
-  std::vector<std::string> vary;
-  fs::path out;
-  std::optional<std::int64_t> jobs;
-  bool dry_run = false;
-  bool restart = false;
-  bool quiet = false;
+  std::vector<std::string> vary;     ///< "path=a,b,c" each
+  fs::path out;                      ///< folder of the sweep
+  std::optional<std::int64_t> jobs;  ///< runs at a time, 1 to 256; none: as many as the processors can take
+  bool dry_run = false;              ///< check and list the runs only
+  bool restart = false;              ///< remove the runs of an earlier sweep in that folder
+  bool quiet = false;                ///< print warnings and errors only
 };
 
 /// One line on a terminal, written anew; elsewhere one at each tenth of the runs.

@@ -24,8 +24,9 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ViewArguments : AppearanceArguments {
-  std::optional<std::int64_t> samples;
-  bool is_paused = false;
+  std::optional<std::int64_t>
+      samples;             ///< of a pixel, 1 to 16; none: 4 on a graphics card, 1 where the processor draws
+  bool is_paused = false;  ///< begin paused
 };
 
 void check(const ViewArguments& arguments) {

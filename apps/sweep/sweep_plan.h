@@ -18,7 +18,7 @@ struct SweepRun {
 };
 
 struct SweepPlan {
-  SweepSetup setup;
+  SweepSetup setup;                                    ///< what was asked for
   std::vector<SweepRun> runs;                          ///< in the order of the product
   std::vector<SweepRun> others;                        ///< of earlier starts, and not asked for now: they are kept
   std::vector<std::string> removed;                    ///< names of runs of earlier starts that begin_sweep() removes

@@ -14,9 +14,9 @@
 namespace pliant_sweep {
 
 struct SweepOptions {
-  std::string scene;  ///< as `pliant run` takes it
-  std::vector<Variation> variations;
-  pliant::SceneOverrides overrides;  ///< of all runs, but for `threads`, which no result depends on
+  std::string scene;                  ///< as `pliant run` takes it
+  std::vector<Variation> variations;  ///< what differs from run to run
+  pliant::SceneOverrides overrides;   ///< of all runs, but for `threads`, which no result depends on
   std::vector<std::pair<std::string, std::string>> import = {};  ///< of a mesh: {"--scale", "0.001"}
 };
 
@@ -31,12 +31,12 @@ struct TextStamp {
 
 /// What has to be the same if runs are to be compared, and the variations.
 struct SweepSetup {
-  std::string scene;
-  std::vector<TextStamp> texts;
-  std::map<std::string, std::uint32_t> files;  ///< meshes and maps, CRC-32 by path
-  std::vector<std::string> set;
+  std::string scene;                                         ///< as given
+  std::vector<TextStamp> texts;                              ///< the scene file and what it includes, as read
+  std::map<std::string, std::uint32_t> files;                ///< meshes and maps, CRC-32 by path
+  std::vector<std::string> set;                              ///< overrides of all runs: "path=value"
   std::vector<std::pair<std::string, std::string>> options;  ///< of `pliant run`: {"--steps", "100"}
-  std::vector<Variation> variations;
+  std::vector<Variation> variations;                         ///< what differs from run to run
 };
 
 /// Reads the scene once with each value, the other variations having their first one, so that a slip is known before

@@ -33,7 +33,7 @@ struct ChildOptions {
   std::filesystem::path log =
       {};         ///< has all it writes, made anew; empty: messages() has its standard error, the rest is lost
   int file = -1;  ///< an open file that the program gets; -1: none
-  Interrupts interrupts = Interrupts::both;
+  Interrupts interrupts = Interrupts::both;  ///< whether Ctrl+C reaches the program too
 };
 
 /// A program that runs beside this one. It is ended when this object goes.

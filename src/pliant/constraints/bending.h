@@ -29,11 +29,17 @@ struct Bending {
   static constexpr ConstraintInfo info{"bending", "1/(2a) Σ (cot α + cot β)(xⱼ − x₀)", "the vectors of length ‖v_g‖",
                                        "½ κ a (‖v‖ − ‖v_g‖)²", "thesis Sec. 4.4.4, Eq. 4.4"};
 
+  /// Vertices that resist bending, where all their neighbors are selected too; default: all.
   Selection on{};
+  /// Center and neighbors (for `signed` in cyclic order), in place of `on`; with cotangents and areas.
   Stencils stencils{};
+  /// κ of the sheet [N·m], > 0; cotton about 1e-5, sheet metal 1 and more. Doubling it costs no time.
   Values stiffness = 1e-3;
+  /// Whether a dent costs as much as a bump.
   Orientation orientation = Orientation::absolute;
-  Ragged<Real> cotangents{};
+  Ragged<Real>
+      cotangents{};  ///< cot α + cot β of each neighbor of each stencil, any finite numbers; with `stencils` alone.
+  /// Of each stencil [m²], > 0; with `stencils` alone.
   Values areas{};
 
   template <class Self, class Visitor>

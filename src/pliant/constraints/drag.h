@@ -12,9 +12,13 @@ struct Drag {
   static constexpr ConstraintInfo info{"drag", "Σ bⱼ xⱼ", "the target t", "½ k ‖Σ bⱼ xⱼ − t‖²",
                                        "thesis Sec. 5.2, made implicit"};
 
+  /// One to four vertices of an element each.
   Stencils stencils{};
+  /// Barycentric coordinates bⱼ of each point, 0 to 1, summing to 1; default: equal.
   Ragged<Real> weights{};
+  /// Of the spring of rest length zero [N/m], > 0; stable at any value.
   Values stiffness = 1e3;
+  /// Where to [m]: one for all, or one for each; default: where the points start.
   Points targets{};
 
   template <class Self, class Visitor>

@@ -16,9 +16,13 @@ struct EdgeSpring {
   static constexpr ConstraintInfo info{"edge_spring", "x₁ − x₀", "the vectors of length L", "½ k (‖x₁ − x₀‖ − L)²",
                                        "thesis Sec. 4.4.3 (w = 2k)"};
 
+  /// Vertices whose edges become springs; default: all.
   Selection on{};
+  /// Pairs of vertices, in place of the edges of the mesh.
   Stencils stencils{};
+  /// k of each spring [N/m], > 0; doubling it halves the stretch and costs no time.
   Values stiffness = 1e4;
+  /// L [m], > 0; default: the length at rest.
   Values rest_length{};
 
   template <class Self, class Visitor>

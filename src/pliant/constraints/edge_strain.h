@@ -24,12 +24,19 @@ struct EdgeStrain {
   static constexpr ConstraintInfo info{"edge_strain", "(x₁ − x₀)/L", "the vectors of length min to max",
                                        "½ w (‖z‖ − 1)², w = EA·L or k·a", "Bouaziz et al. 2014, Sec. 5.1"};
 
+  /// Vertices whose edges become fibres; default: all.
   Selection on{};
+  /// Pairs of vertices, in place of the edges of the mesh.
   Stencils stencils{};
+  /// What the weight of a fibre grows with: its length, or the area beside it.
   FibreMeasure measure = FibreMeasure::rope;
+  /// `rope`: EA [N]; `cloth`: k [N/m]; > 0.
   Values stiffness = 1e3;
+  /// L [m], > 0; default: the length at rest.
   Values rest_length{};
+  /// Shortest length over rest length, 0 to max_stretch; 0: no pressure.
   Values min_stretch = 1;
+  /// Longest length over rest length, from min_stretch.
   Values max_stretch = 1;
 
   template <class Self, class Visitor>

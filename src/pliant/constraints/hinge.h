@@ -20,9 +20,13 @@ struct HingeBending {
   static constexpr ConstraintInfo info{"hinge", "Σ cᵢ xᵢ over two triangles", "the vectors of length ‖z_g‖",
                                        "½ κ/(A₀ + A₁) (‖z‖ − ‖z_g‖)²", "Bergou et al. 2006, Sec. 4"};
 
+  /// Vertices whose edges resist folding; default: all.
   Selection on{};
+  /// Two edge vertices and the two opposite, in place of the edges of the mesh.
   Stencils stencils{};
+  /// κ of the sheet [N·m], > 0; cotton about 1e-5, sheet metal 1 and more.
   Values stiffness = 1e-3;
+  /// Whether both ways of folding cost the same.
   Orientation orientation = Orientation::absolute;
 
   template <class Self, class Visitor>

@@ -14,10 +14,15 @@ struct Line {
   static constexpr ConstraintInfo info{"line", "xᵢ", "the line o + λ d, ‖d‖ = 1", "½ k dist(xᵢ, line)²",
                                        "thesis Sec. 4.4.2, Eq. 4.2"};
 
+  /// Vertices on the line; default: all.
   Selection on{};
+  /// One vertex each, in place of `on`.
   Stencils stencils{};
+  /// Towards the line [N/m], > 0.
   Values stiffness = 1e5;
+  /// Of the line, of any finite length but zero; one for all, or one for each.
   Points direction{};
+  /// A point of the line [m]; default: where the vertex starts.
   Points origin{};
 
   template <class Self, class Visitor>

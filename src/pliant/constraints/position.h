@@ -20,10 +20,15 @@ constexpr std::array<std::string_view, 2> choice_names(Hold) {
 struct Position {
   static constexpr ConstraintInfo info{"position", "xᵢ", "the target t", "½ k ‖xᵢ − t‖²", "thesis Sec. 4.4.1"};
 
+  /// Vertices to pin; default: all.
   Selection on{};
+  /// One vertex each, in place of `on`.
   Stencils stencils{};
+  /// Exactly at the target, or drawn to it by the stiffness.
   Hold hold = Hold::hard;
+  /// Of a soft pin [N/m], > 0; doubling it halves its distance from the target.
   Values stiffness = 1e5;
+  /// Where to [m]: one for all, or one for each; default: where the vertex starts.
   Points targets{};
 
   template <class Self, class Visitor>

@@ -14,10 +14,15 @@ struct TetrahedronStrain {
   static constexpr ConstraintInfo info{"tetrahedron_strain", "F (3 × 3)", "F with stretches from min to max, det > 0",
                                        "½ k v ‖F − p‖²", "Bouaziz et al. 2014, Sec. 5.1"};
 
+  /// Vertices whose tetrahedra resist strain; default: all.
   Selection on{};
+  /// Quadruples of vertices, in place of the tetrahedra of the mesh.
   Stencils stencils{};
+  /// Of the material [Pa], > 0; half of it is the shear modulus.
   Values stiffness = 1e5;
+  /// Smallest singular value of F left alone, above 0 up to max_stretch.
   Values min_stretch = 1;
+  /// Largest singular value of F left alone, from min_stretch.
   Values max_stretch = 1;
 
   template <class Self, class Visitor>

@@ -15,10 +15,15 @@ struct TriangleStrain {
   static constexpr ConstraintInfo info{"triangle_strain", "F (3 × 2)", "F with stretches from min to max",
                                        "½ k a ‖F − p‖²", "Bouaziz et al. 2014, Sec. 5.1"};
 
+  /// Vertices whose triangles resist strain; default: all.
   Selection on{};
+  /// Triples of vertices, in place of the triangles of the mesh.
   Stencils stencils{};
+  /// Young's modulus times thickness, roughly [N/m], > 0; cotton about 1e3.
   Values stiffness = 1e3;
+  /// Smallest singular value of F left alone, 0 to max_stretch.
   Values min_stretch = 1;
+  /// Largest singular value of F left alone, from min_stretch.
   Values max_stretch = 1;
 
   template <class Self, class Visitor>

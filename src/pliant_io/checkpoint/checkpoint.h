@@ -21,7 +21,7 @@ void write_checkpoint(const std::filesystem::path& path, const Scene& scene);
 /// What may be another when a run is taken up; the bits of the results depend on none of it.
 struct ResumeOptions {
   std::optional<std::int64_t> steps = {};  ///< in all, with those taken
-  std::optional<Index> threads = {};
+  std::optional<Index> threads = {};       ///< as SolverSettings::threads; none: as the run has it
 };
 
 /// The scene as it was. The steps that follow have the same bits as if the run had gone on, by one build of the library

@@ -16,9 +16,9 @@ constexpr std::array<std::string_view, 2> choice_names(TetrahedronCut) {
 struct BarOptions {
   static constexpr std::string_view shape = "bar";
 
-  std::array<Index, 3> cells{10, 2, 2};
-  std::array<Real, 3> size{1, 0.2, 0.2};
-  TetrahedronCut cut = TetrahedronCut::six;
+  std::array<Index, 3> cells{10, 2, 2};      ///< cubes along x, y, z, each ≥ 1
+  std::array<Real, 3> size{1, 0.2, 0.2};     ///< extent along x, y, z [m], > 0
+  TetrahedronCut cut = TetrahedronCut::six;  ///< tetrahedra of a cell
 
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& field) {

@@ -7,9 +7,9 @@ namespace pliant {
 struct ChainOptions {
   static constexpr std::string_view shape = "chain";
 
-  Index links = 10;
-  Real length = 1;
-  Vec3 direction{0, 0, -1};
+  Index links = 10;          ///< edges, ≥ 1; vertices are one more
+  Real length = 1;           ///< of the whole chain [m], > 0
+  Vec3 direction{0, 0, -1};  ///< from the first vertex, at the origin; of any finite length but 0
 
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& field) {

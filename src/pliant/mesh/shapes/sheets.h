@@ -25,11 +25,11 @@ constexpr std::array<std::string_view, 4> choice_names(Diagonals) {
 struct GridOptions {
   static constexpr std::string_view shape = "grid";
 
-  Index columns = 11;
-  Index rows = 11;
-  std::array<Real, 2> size{1, 1};
-  Plane plane = Plane::xz;
-  Diagonals diagonals = Diagonals::forward;
+  Index columns = 11;                        ///< vertices along the first axis, ≥ 2
+  Index rows = 11;                           ///< vertices along the second axis, ≥ 2
+  std::array<Real, 2> size{1, 1};            ///< extent along the two axes [m], > 0
+  Plane plane = Plane::xz;                   ///< of the two axes
+  Diagonals diagonals = Diagonals::forward;  ///< of the cells
 
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -62,11 +62,11 @@ constexpr std::array<std::string_view, 2> choice_names(NetDiagonals) {
 struct NetOptions {
   static constexpr std::string_view shape = "net";
 
-  Index columns = 11;
-  Index rows = 11;
-  std::array<Real, 2> size{1, 1};
-  Plane plane = Plane::xz;
-  NetDiagonals diagonals = NetDiagonals::none;
+  Index columns = 11;                           ///< knots along the first axis, ≥ 2
+  Index rows = 11;                              ///< knots along the second axis, ≥ 2
+  std::array<Real, 2> size{1, 1};               ///< extent along the two axes [m], > 0
+  Plane plane = Plane::xz;                      ///< of the two axes
+  NetDiagonals diagonals = NetDiagonals::none;  ///< cords across the cells, or none
 
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -87,11 +87,11 @@ Mesh net(const NetOptions& options);
 struct PillowOptions {
   static constexpr std::string_view shape = "pillow";
 
-  Index columns = 17;
-  Index rows = 17;
-  std::array<Real, 2> size{0.5, 0.5};
-  Plane plane = Plane::xz;
-  Real gap = 0.02;
+  Index columns = 17;                  ///< vertices of a face along the first axis, ≥ 3
+  Index rows = 17;                     ///< vertices of a face along the second axis, ≥ 3
+  std::array<Real, 2> size{0.5, 0.5};  ///< extent along the two axes [m], > 0
+  Plane plane = Plane::xz;             ///< of the seam
+  Real gap = 0.02;                     ///< between the two flat faces [m], > 0; only their border meets
 
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& field) {

@@ -8,10 +8,11 @@ namespace pliant {
 struct TorusOptions {
   static constexpr std::string_view shape = "torus";
 
-  Index major_segments = 48;
-  Index minor_segments = 24;
+  Index major_segments = 48;  ///< vertices around the axis, ≥ 3
+  Index minor_segments = 24;  ///< vertices around the tube, ≥ 3
+  /// R, from the center to the tube's middle [m], > 0
   Real major_radius = 0.5;
-  Real minor_radius = 0.2;
+  Real minor_radius = 0.2;  ///< r, of the tube [m], above 0 and less than R
 
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -30,8 +31,8 @@ Mesh torus(const TorusOptions& options);
 struct SphereOptions {
   static constexpr std::string_view shape = "sphere";
 
-  Index subdivisions = 3;
-  Real radius = 0.5;
+  Index subdivisions = 3;  ///< 0 to 11: 0 is the icosahedron; each more cuts every triangle into four
+  Real radius = 0.5;       ///< of the sphere through the vertices [m], > 0
 
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -53,11 +54,11 @@ constexpr std::array<std::string_view, 2> choice_names(Caps) {
 struct CylinderOptions {
   static constexpr std::string_view shape = "cylinder";
 
-  Index segments = 24;
-  Index rows = 11;
-  Real radius = 0.25;
-  Real height = 1;
-  Caps caps = Caps::open;
+  Index segments = 24;     ///< vertices around the axis, ≥ 3
+  Index rows = 11;         ///< vertices along the axis, ≥ 2
+  Real radius = 0.25;      ///< of the circle through the vertices [m], > 0
+  Real height = 1;         ///< along the axis [m], > 0
+  Caps caps = Caps::open;  ///< its ends, open or closed
 
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& field) {
