@@ -38,7 +38,7 @@ struct ConvertOptions {
   std::optional<pliant::Real> time;               ///< of the one frame to take [s]
   std::optional<pliant::Real> frames_per_second;  ///< of the result [1/s]; none: as recorded
   pliant::ExportOptions exported;                 ///< how the result is written
-  std::optional<std::int64_t> max_keyframes;      ///< of an animation; none: as many as there are
+  std::optional<std::int64_t> max_keyframes;      ///< of a glTF animation; none: 256
   bool yes = false;                               ///< thin frames without asking
 };
 

@@ -187,12 +187,12 @@ void LiveScene::update_render_mesh() {
 }
 
 /// Lists the parameters anew after commands, and a few times a second since the scene's own events change them too.
-void LiveScene::list_parameters() {
+void LiveScene::update_sliders() {
   const Clock::time_point now = Clock::now();
-  if (commands_done_ == commands_listed_ && now - parameters_listed_ < Seconds(0.2)) return;
-  parameters_listed_ = now;
+  if (commands_done_ == commands_listed_ && now - sliders_listed_ < Seconds(0.2)) return;
+  sliders_listed_ = now;
   commands_listed_ = commands_done_;
-  parameters_ = std::make_shared<const std::vector<Parameter>>(session_.parameters());
+  sliders_ = std::make_shared<const std::vector<Slider>>(session_.sliders());
 }
 
 void LiveScene::publish() {
@@ -202,8 +202,8 @@ void LiveScene::publish() {
   back_.color = context_.color;
   back_.pins = pliant_render::pinned_vertices(simulation);
   back_.pull = session_.pull();
-  list_parameters();
-  back_.parameters = parameters_;
+  update_sliders();
+  back_.sliders = sliders_;
   back_.statistics = statistics_.means(Clock::now());
   back_.step = simulation.state().step;
   back_.single_steps = context_.single_steps;

@@ -21,7 +21,7 @@ struct Snapshot {
   pliant::ColorBy color = pliant::ColorBy::none;  ///< what the values of the frame mean
   std::vector<std::uint32_t> pins;                ///< pinned vertices, which can be grabbed, ascending
   std::optional<Pull> pull;
-  std::shared_ptr<const std::vector<Parameter>> parameters;
+  std::shared_ptr<const std::vector<Slider>> sliders;
   FrameStatistics::Means statistics;
   std::int64_t step = 0;
   std::int64_t single_steps = 0;  ///< still to take while paused
@@ -90,7 +90,7 @@ class LiveScene {
   void update_render_mesh();
   Seconds time_to_step();
   void publish();
-  void list_parameters();
+  void update_sliders();
   bool shall_give_up() const;
   void set_thread_count();
 
@@ -111,8 +111,8 @@ class LiveScene {
   std::uint64_t commands_done_ = 0;
   std::uint64_t commands_published_ = 0;
   std::uint64_t restarts_seen_ = 0;
-  std::shared_ptr<const std::vector<Parameter>> parameters_;
-  Clock::time_point parameters_listed_{};
+  std::shared_ptr<const std::vector<Slider>> sliders_;
+  Clock::time_point sliders_listed_{};
   std::uint64_t commands_listed_ = ~std::uint64_t{0};
   bool is_dirty_ = true;
 

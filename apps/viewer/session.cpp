@@ -1,6 +1,7 @@
 #include "viewer/session.h"
 
 #include <algorithm>
+#include <exception>
 
 #include "pliant/constraints/drag.h"
 #include "pliant/constraints/position.h"
@@ -34,6 +35,33 @@ pliant::Drag drag_of(const Pull& pull, Index first_vertex) {
   return drag;
 }
 
+/// False where there is no such slider.
+bool set_by_key(pliant::Simulation& simulation, const std::string& key, const pliant::Vec3& value) {
+  const std::vector<Slider> all = list_sliders(simulation);
+  const auto found = std::ranges::find(all, key, &Slider::key);
+  if (found == all.end()) return false;
+  set_parameter(simulation, found->parameter.handle, value);
+  return true;
+}
+
+/// In an order in which each is allowed: a new smallest stretch may be so only below a new largest one.
+void apply(std::map<std::string, pliant::Vec3> values, pliant::Simulation& simulation) {
+  while (!values.empty()) {
+    const std::size_t count = values.size();
+    std::exception_ptr refused;
+    std::erase_if(values, [&](const auto& entry) {
+      try {
+        set_by_key(simulation, entry.first, entry.second);
+        return true;
+      } catch (const pliant::Error&) {
+        refused = std::current_exception();
+        return false;
+      }
+    });
+    if (values.size() == count) std::rethrow_exception(refused);
+  }
+}
+
 }  // namespace
 
 Session::Session(MakeScene make) : make_(std::move(make)), scene_(make_()) {}
@@ -63,7 +91,7 @@ pliant::StepReport Session::step() {
 void Session::restart(bool keep_values) {
   pliant::Scene scene = make_();
   if (keep_values) {
-    for (const auto& [key, value] : values_) set_parameter(scene.simulation, key, value);
+    apply(values_, scene.simulation);
   } else {
     values_.clear();
   }
@@ -129,8 +157,14 @@ void Session::move_pin(Index vertex, const Vec3f& target) {
   scene_.simulation.set_target(pin->group, pin->target, target.cast<Real>());
 }
 
+std::vector<Slider> Session::sliders() const {
+  return list_sliders(simulation(), [this](pliant::GroupId id) {
+    return id == pull_group_ || simulation().groups().at(id).name == pin_name;
+  });
+}
+
 void Session::set(const std::string& key, const pliant::Vec3& value) {
-  if (set_parameter(scene_.simulation, key, value)) values_[key] = value;
+  if (set_by_key(scene_.simulation, key, value)) values_[key] = value;
 }
 
 std::optional<Session::Pin> Session::find_pin(Index vertex) const {

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "pliant_io/scene/scene.h"
-#include "viewer/parameters.h"
 #include "viewer/picking.h"
+#include "viewer/sliders.h"
 
 namespace pliant_viewer {
 
@@ -35,8 +35,8 @@ class Session {
   /// @throws pliant::Error as Scene::step does.
   pliant::StepReport step();
 
-  /// Makes the scene again, without a pull. `keep_values`: values from set() are applied again; otherwise they are
-  /// forgotten. If this throws, nothing has changed.
+  /// Makes the scene again, without a pull. `keep_values`: values from set() are applied again, where the scene still
+  /// has such a parameter; otherwise they are forgotten. If this throws, nothing has changed.
   void restart(bool keep_values);
 
   /// Attaches a spring to a point, replacing an earlier one. It is implicit, hence stable at any stiffness.
@@ -57,8 +57,10 @@ class Session {
   /// Moves a pin to `target` [m]; motions of the scene no longer move it.
   void move_pin(Index vertex, const Vec3f& target);
 
-  std::vector<Parameter> parameters() const { return list_parameters(simulation(), pull_group_); }
-  /// Sets a parameter by its key (Parameter::key). @throws pliant::Error (input): a value out of range.
+  /// Of the scene's settings, groups and forces; the pull and pins that were set by hand have none.
+  std::vector<Slider> sliders() const;
+  /// Sets a parameter by the key of its slider; does nothing where there is none. @throws pliant::Error (input): a
+  /// value out of range.
   void set(const std::string& key, const pliant::Vec3& value);
 
  private:

@@ -113,6 +113,28 @@ TEST_CASE("the energies of a row add up to its total, under pressure too") {
   }
 }
 
+TEST_CASE("a force says which potential it has; its name decides nothing") {
+  class Tide final : public Force {
+   public:
+    explicit Tide(PotentialKind kind) : kind_(kind) {}
+    std::string_view type() const override { return "gravity"; }
+    void add_to(Positions&, const StateView&, Real) override {}
+    Real potential(const StateView&) const override { return kind_ == PotentialKind::gravitational ? 3 : 5; }
+    PotentialKind potential_kind() const override { return kind_; }
+
+   private:
+    PotentialKind kind_;
+  };
+  Simulation simulation;
+  simulation.add_body(grid({.columns = 2, .rows = 2}), Mass::total(1));
+  simulation.add_force(std::make_unique<Tide>(PotentialKind::gravitational));
+  simulation.add_force(std::make_unique<Tide>(PotentialKind::other));
+  const Measurements row = measure(simulation, {});
+  CHECK(row.gravitational == 3);
+  CHECK(row.other_potential == 5);
+  CHECK(row.total == 8);
+}
+
 TEST_CASE("the file has a row for each record, and numbers that read back to the same bits") {
   const TemporaryFolder folder;
   Simulation simulation;

@@ -95,8 +95,8 @@ struct Desk {
   Vec2f place(std::uint32_t vertex) { return viewer.screen().place_of(position(vertex)).value(); }
   bool is_pinned(std::uint32_t vertex) { return std::ranges::binary_search(shown().pins, vertex); }
   double parameter(std::string_view key) {
-    for (const Parameter& parameter : *shown().parameters) {
-      if (parameter.key() == key) return parameter.value[0];
+    for (const Slider& slider : *shown().sliders) {
+      if (slider.key == key) return slider.parameter.value[0];
     }
     throw std::logic_error("no such parameter");
   }

@@ -8,6 +8,8 @@
 namespace test_session {
 
 using namespace pliant_viewer;
+using pliant::Parameter;
+using pliant::ParameterKind;
 
 namespace {
 
@@ -62,10 +64,14 @@ Vec3f grip(const Session& session, const Pull& pull) {
   return sum;
 }
 
-const Parameter& find(const std::vector<Parameter>& list, std::string_view key) {
-  const auto found = std::ranges::find_if(list, [&](const Parameter& p) { return p.key() == key; });
+const Slider& slider(const std::vector<Slider>& list, std::string_view key) {
+  const auto found = std::ranges::find(list, key, &Slider::key);
   REQUIRE(found != list.end());
   return *found;
+}
+
+const Parameter& find(const std::vector<Slider>& list, std::string_view key) {
+  return slider(list, key).parameter;
 }
 
 }  // namespace
@@ -177,15 +183,45 @@ TEST_CASE("a restart begins anew, with the values that were set or as the scene 
   CHECK_FALSE(session.is_pinned(5));
   CHECK_FALSE(session.pull().has_value());
   CHECK(session.simulation().settings().iterations == 25);
-  std::vector<Parameter> list = session.parameters();
+  std::vector<Slider> list = session.sliders();
   CHECK(find(list, "group:stretch.stiffness").value[0] == 800);
   CHECK(find(list, "force:wind.velocity").value == pliant::Vec3(1, 2, 3));
   CHECK(find(list, "force:wind.model").value[0] == 1);
   session.restart(false);
-  list = session.parameters();
+  list = session.sliders();
   CHECK(session.simulation().settings().iterations == 10);
   CHECK(find(list, "group:stretch.stiffness").value[0] == 500);
   CHECK(find(list, "force:wind.model").value[0] == 0);
+}
+
+TEST_CASE("a restart keeps both ends of a range, wherever they went") {
+  // min ≤ max holds after each change, but not in every order of the two.
+  for (const auto& [low, high] : {std::pair{0.5, 0.8}, {1.2, 1.5}}) {
+    Session session = make_session();
+    const std::string min = "group:stretch.min_stretch", max = "group:stretch.max_stretch";
+    session.set(low < 1 ? min : max, {low < 1 ? low : high, 0, 0});
+    session.set(low < 1 ? max : min, {low < 1 ? high : low, 0, 0});
+    CHECK_THROWS_AS(session.set(min, {high + 0.1, 0, 0}), pliant::Error);
+    session.restart(true);
+    const std::vector<Slider> list = session.sliders();
+    CHECK(find(list, min).value[0] == low);
+    CHECK(find(list, max).value[0] == high);
+    steps(session, 3);
+  }
+}
+
+TEST_CASE("pins that become soft stay where they were moved, and can be hard again") {
+  Session session = make_session();
+  const Vec3f up = position(session, 143) + Vec3f(0, 0, 0.1F);
+  session.move_pin(143, up);
+  session.set("group:hooks.hold", {1, 0, 0});
+  CHECK(find(session.sliders(), "group:hooks.stiffness").value[0] == 1e5);
+  steps(session, 60);
+  CHECK((position(session, 143) - up).norm() < 1e-3F);
+  CHECK((position(session, 143) - up).norm() > 0);  // a soft pin gives way
+  session.set("group:hooks.hold", {0, 0, 0});
+  session.step();
+  CHECK((position(session, 143) - up).norm() < 1e-6F);
 }
 
 TEST_CASE("a restart that fails leaves the scene as it is") {
@@ -204,26 +240,30 @@ TEST_CASE("a restart that fails leaves the scene as it is") {
 TEST_CASE("parameters have the names, units and ranges of their types, and refuse what these refuse") {
   Session session = make_session();
   session.grab(pull_at_middle(session, 100));
-  const std::vector<Parameter> list = session.parameters();
+  session.pin(5);
+  const std::vector<Slider> list = session.sliders();
   const Parameter& bend = find(list, "group:bend.stiffness");
   CHECK(bend.unit == "N·m");
-  CHECK(bend.heading == "hinge \"bend\"");
+  CHECK(slider(list, "group:bend.stiffness").heading == "hinge \"bend\"");
   CHECK(bend.value[0] == doctest::Approx(0.001));
   CHECK(find(list, "settings.time_step").unit == "s");
   CHECK(find(list, "settings.start").choices == std::vector<std::string>{"prediction", "positions"});
   CHECK(find(list, "force:gravity.acceleration").kind == ParameterKind::vector);
   CHECK(find(list, "force:wind.gust_strength").range.max == 1);
-  // Hard pins have no stiffness, and the mouse's own spring is not the scene's.
-  for (const Parameter& parameter : list) {
-    CHECK(parameter.section != "group:hooks");
-    CHECK(parameter.section.find("mouse") == std::string::npos);
+  CHECK(find(list, "group:stretch.min_stretch").value[0] == 1);
+  CHECK(find(list, "group:hooks.hold").choices == std::vector<std::string>{"hard", "soft"});
+  // Hard pins have no stiffness, and what the user holds is not the scene's.
+  for (const Slider& each : list) {
+    CHECK(each.key != "group:hooks.stiffness");
+    CHECK(each.parameter.name.find("mouse") == std::string::npos);
+    CHECK(each.parameter.name.find("hand") == std::string::npos);
   }
   CHECK_THROWS_AS(session.set("settings.time_step", {0, 0, 0}), pliant::Error);
   CHECK_THROWS_AS(session.set("settings.iterations", {2.5, 0, 0}), pliant::Error);
   CHECK_THROWS_AS(session.set("settings.start", {7, 0, 0}), pliant::Error);
   CHECK_THROWS_AS(session.set("group:bend.stiffness", {-1, 0, 0}), pliant::Error);
   CHECK_THROWS_AS(session.set("force:wind.gust_strength", {2, 0, 0}), pliant::Error);
-  CHECK(find(session.parameters(), "force:wind.gust_strength").value[0] == 0);
+  CHECK(find(session.sliders(), "force:wind.gust_strength").value[0] == 0);
 }
 
 }  // namespace test_session

@@ -8,13 +8,24 @@
 #include <imgui.h>
 
 namespace pliant_viewer {
+
+using pliant::Parameter;
+using pliant::ParameterKind;
+
 namespace {
 
 constexpr double decades = 1e3;  // that a slider goes up and down from the value that it is first seen with
 
+constexpr std::size_t many_groups = 12;
+
+bool is_of_settings(const Slider& slider) {
+  return std::holds_alternative<std::monostate>(slider.parameter.handle.owner);
+}
+
 /// Those of the solver that are always in sight; the others unfold.
-bool is_common(const Parameter& parameter) {
-  return parameter.section != "settings" || parameter.name == "time_step" || parameter.name == "iterations";
+bool is_common(const Slider& slider) {
+  const std::string& option = slider.parameter.handle.option;
+  return !is_of_settings(slider) || option == "time_step" || option == "iterations";
 }
 
 /// "time step" for "time_step".
@@ -23,16 +34,22 @@ std::string label_of(std::string name) {
   return name;
 }
 
-/// The ends of a slider: the parameter's own where they are near, else some way up and down from its value.
+/// The ends of a slider: the parameter's own where they are near; from 0 to twice a ratio, such as a stretch; else some
+/// way up and down from its value.
 std::array<double, 2> range_of(const Parameter& parameter) {
   const pliant::Range& range = parameter.range;
   if (range.min > -1e3 && range.max < 1e4) return {range.min, range.max};
   const double value = parameter.value[0];
+  if (parameter.unit.empty() && range.min >= 0) {
+    const double most = std::max(2.0, 2 * value);
+    return {range.excludes_min ? most / decades : range.min, most};
+  }
   return {value / decades, value * decades};
 }
 
 std::string help_of(const Parameter& parameter) {
-  return parameter.doc + "\nCtrl + click: type a number";
+  const bool is_typed = parameter.kind == ParameterKind::real || parameter.kind == ParameterKind::integer;
+  return parameter.doc + (is_typed ? "\nCtrl + click: type a number" : "");
 }
 
 }  // namespace
@@ -45,62 +62,89 @@ std::optional<std::array<float, 4>> ParameterPanel::place_of(const std::string& 
 
 void ParameterPanel::draw(const Snapshot& snapshot, LiveScene& live) {
   std::erase_if(edited_, [&](const auto& entry) { return entry.second.command <= snapshot.commands; });
-  const std::span<const Parameter> all = *snapshot.parameters;
-  const auto draw_those = [&](const char* title, std::string_view kind) {
-    const auto is_meant = [kind](const Parameter& parameter) { return parameter.section.starts_with(kind); };
+  const std::span<const Slider> all = *snapshot.sliders;
+  const auto those_of = [all](std::size_t kind_of_owner) {
+    const auto is_meant = [=](const Slider& slider) { return slider.parameter.handle.owner.index() == kind_of_owner; };
     const auto begin = std::ranges::find_if(all, is_meant);
-    const auto end = std::find_if_not(begin, all.end(), is_meant);
-    if (begin == end || !section_header(title)) return;
-    draw_sections({begin, end}, live);
+    return std::span<const Slider>(begin, std::find_if_not(begin, all.end(), is_meant));
   };
-  draw_those("Solver", "settings");
-  draw_those("Stiffness", "group:");
-  draw_those("Forces", "force:");
+  const auto draw_all = [&](const char* title, std::span<const Slider> sliders, bool is_open_at_first) {
+    if (!sliders.empty() && section_header(title, is_open_at_first)) draw_owners(sliders, live);
+  };
+  const std::span<const Slider> groups = those_of(1);
+  draw_all("Solver", those_of(0), true);
+  draw_all("Constraints", groups, groups.size() <= 4 * many_groups);
+  draw_all("Forces", those_of(2), true);
 }
 
-void ParameterPanel::draw_sections(std::span<const Parameter> sections, LiveScene& live) {
-  for (auto begin = sections.begin(); begin != sections.end();) {
+void ParameterPanel::draw_owners(std::span<const Slider> sliders, LiveScene& live) {
+  for (auto begin = sliders.begin(); begin != sliders.end();) {
+    const pliant::ParameterOwner& owner = begin->parameter.handle.owner;
     const auto end =
-        std::find_if(begin, sections.end(), [&](const auto& other) { return other.section != begin->section; });
-    draw_section({begin, end}, live);
+        std::find_if(begin, sliders.end(), [&](const Slider& other) { return other.parameter.handle.owner != owner; });
+    ImGui::PushID(begin->key.c_str());
+    if (std::holds_alternative<pliant::GroupId>(owner)) {
+      draw_group({begin, end}, live);
+    } else {
+      draw_options({begin, end}, live);
+    }
+    ImGui::PopID();
     begin = end;
   }
 }
 
-/// Of a stiffness one row with the name of the group, of forces a row each below their name.
-void ParameterPanel::draw_section(std::span<const Parameter> section, LiveScene& live) {
-  const Parameter& first = section.front();
-  ImGui::PushID(first.section.c_str());
-  if (first.section.starts_with("group:")) {
-    draw_row(first, first.section.substr(first.section.find(':') + 1), live);
-  } else {
-    const bool is_solver = first.section == "settings";
-    if (!is_solver) ImGui::TextDisabled("%s", first.heading.c_str());
-    const auto draw_those = [&](bool common) {
-      for (const Parameter& parameter : section) {
-        if (is_common(parameter) == common) draw_row(parameter, label_of(parameter.name), live);
-      }
-    };
-    draw_those(true);
-    if (is_solver && ImGui::TreeNode("more")) {
-      draw_those(false);
-      ImGui::TreePop();
-    }
+/// One row with the name of the group and its stiffness, or else its first option; the others unfold.
+void ParameterPanel::draw_group(std::span<const Slider> group, LiveScene& live) {
+  const auto is_stiffness = [](const Slider& slider) { return slider.parameter.handle.option == "stiffness"; };
+  const auto stiffness = std::ranges::find_if(group, is_stiffness);
+  const Slider& first = stiffness == group.end() ? group.front() : *stiffness;
+  const std::string help = first.heading + ": " + label_of(first.parameter.handle.option) + ", ";
+  bool is_open = false;
+  if (group.size() > 1) {
+    is_open = ImGui::TreeNodeEx("##more", ImGuiTreeNodeFlags_FramePadding);
+    explain("all options of " + first.heading);
+    if (is_open) ImGui::TreePop();  // the row itself is not moved in
+    ImGui::SameLine(0, ImGui::GetStyle().FramePadding.x);
   }
-  ImGui::PopID();
+  draw_row(first, first.parameter.name, help + help_of(first.parameter), live);
+  if (!is_open) return;
+  ImGui::Indent();
+  for (const Slider& slider : group) {
+    if (&slider == &first) continue;
+    draw_row(slider, label_of(slider.parameter.handle.option), help_of(slider.parameter), live);
+  }
+  ImGui::Unindent();
 }
 
-void ParameterPanel::draw_row(const Parameter& parameter, const std::string& label, LiveScene& live) {
-  const std::string key = parameter.key();
+/// A row for each option: of the solver the common ones, and the others unfold; of a force below its name.
+void ParameterPanel::draw_options(std::span<const Slider> options, LiveScene& live) {
+  const bool is_solver = is_of_settings(options.front());
+  if (!is_solver) ImGui::TextDisabled("%s", options.front().heading.c_str());
+  const auto draw_those = [&](bool common) {
+    for (const Slider& slider : options) {
+      if (is_common(slider) != common) continue;
+      draw_row(slider, label_of(slider.parameter.handle.option), help_of(slider.parameter), live);
+    }
+  };
+  draw_those(true);
+  if (is_solver && ImGui::TreeNode("more")) {
+    draw_those(false);
+    ImGui::TreePop();
+  }
+}
+
+void ParameterPanel::draw_row(const Slider& slider, const std::string& label, const std::string& help,
+                              LiveScene& live) {
+  const Parameter& parameter = slider.parameter;
+  const std::string& key = slider.key;
   const auto found = edited_.find(key);
   pliant::Vec3 value = found == edited_.end() ? parameter.value : found->second.value;
-  row_label(label, parameter.section.starts_with("group:") ? parameter.heading + ": " + help_of(parameter)
-                                                           : help_of(parameter));
-  const std::string id = "##" + parameter.name;
+  row_label(label, help);
+  const std::string id = "##" + parameter.handle.option;
   bool has_changed = false;
   switch (parameter.kind) {
     case ParameterKind::real:
-      has_changed = draw_real(parameter, value[0]);
+      has_changed = draw_real(slider, value[0]);
       break;
     case ParameterKind::integer: {
       int number = static_cast<int>(std::min(value[0], 1e9));
@@ -132,11 +176,12 @@ void ParameterPanel::draw_row(const Parameter& parameter, const std::string& lab
   edited_[key] = {value, command};
 }
 
-bool ParameterPanel::draw_real(const Parameter& parameter, double& value) {
-  const std::string id = "##" + parameter.name;
+bool ParameterPanel::draw_real(const Slider& slider, double& value) {
+  const Parameter& parameter = slider.parameter;
+  const std::string id = "##" + parameter.handle.option;
   const std::string format = number_format(value, parameter.unit);
-  auto found = ranges_.find(parameter.key());
-  if (found == ranges_.end()) found = ranges_.emplace(parameter.key(), range_of(parameter)).first;
+  auto found = ranges_.find(slider.key);
+  if (found == ranges_.end()) found = ranges_.emplace(slider.key, range_of(parameter)).first;
   auto [low, high] = found->second;
   if (!(low < high)) {  // from zero there are no decades
     const double step = std::max(std::abs(value) * 0.01, 1e-3);

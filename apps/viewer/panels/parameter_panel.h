@@ -22,10 +22,11 @@ class ParameterPanel {
     pliant::Vec3 value;
     std::uint64_t command;
   };
-  void draw_sections(std::span<const Parameter> sections, LiveScene& live);
-  void draw_section(std::span<const Parameter> section, LiveScene& live);
-  void draw_row(const Parameter& parameter, const std::string& label, LiveScene& live);
-  bool draw_real(const Parameter& parameter, double& value);
+  void draw_owners(std::span<const Slider> sliders, LiveScene& live);
+  void draw_group(std::span<const Slider> group, LiveScene& live);
+  void draw_options(std::span<const Slider> options, LiveScene& live);
+  void draw_row(const Slider& slider, const std::string& label, const std::string& help, LiveScene& live);
+  bool draw_real(const Slider& slider, double& value);
 
   std::map<std::string, Edited> edited_;
   std::map<std::string, std::array<double, 2>> ranges_;  // of sliders, by the values that were seen first

@@ -12,6 +12,9 @@ namespace pliant {
 
 class ConstraintGroup;
 
+/// Which energy the potential of a force is: measurements have one column for each.
+enum class PotentialKind { gravitational, other };
+
 /// A user's own force derives from this class. Indices are those of the simulation.
 class Force {
  public:
@@ -27,6 +30,7 @@ class Force {
 
   /// Potential energy [J] of a conservative force; 0 for every other.
   virtual Real potential(const StateView& state) const;
+  virtual PotentialKind potential_kind() const { return PotentialKind::other; }
 
   /// Whether it is conservative. Energy projection takes the work of any force along the way that vertices go in a
   /// step: with the mean of both ends where it is conservative, so that the sum of all energies is kept, else with the

@@ -23,6 +23,8 @@ class GravityForce final : public Force {
     }
   }
 
+  PotentialKind potential_kind() const override { return PotentialKind::gravitational; }
+
   Real potential(const StateView& state) const override {
     Real energy = 0;
     const Index end = std::min(end_, static_cast<Index>(state.positions.rows()));

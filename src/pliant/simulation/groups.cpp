@@ -62,54 +62,93 @@ std::vector<Index> new_points(const ConstraintSet& set) {
   return points;
 }
 
-}  // namespace
-
-GroupId Simulation::add_set(BodyId id, ConstraintSet set, std::string type, std::string name) {
-  if (name.empty()) name = type;
-  const std::string place = name + " on body '" + body(id).name + "'";
-  check_set(set, place, std::nullopt);
-  warn_of(set, place);
-  const GroupId group{next_group_++};
-  if (transaction_ != nullptr) transaction_->save(group, std::nullopt);
-  std::vector<Index> points = new_points(set);
-  const auto next_point = static_cast<Index>(points.size());
-  const auto placed = groups_.emplace(
-      group, Group{std::move(name), std::move(type), id, std::move(set), std::move(points), next_point});
-  group_index_.add(group, placed.first->second);
-  groups_changed_ = true;
-  return group;
+/// One for each of the constraints that stay, where there is one for each.
+template <class List>
+List those_of(const List& given, std::span<const Index> stays) {
+  auto list = given.list();
+  list.clear();
+  for (const Index i : stays) list.push_back(given[i]);
+  return List(std::move(list));
 }
 
-void Simulation::check_set(const ConstraintSet& set, const std::string& place, std::optional<GroupId> replaced) const {
-  for (const auto& batch : set.batches) {
+/// The options of the positions that stay, given their places among all and their stencils within the body.
+Position with_rest(const Position& given, std::span<const Index> stays, const Stencils& stencils) {
+  Position rest = given;
+  rest.on = stencils.empty() ? Selection(std::vector<Index>{}) : Selection();
+  rest.stencils = stencils;
+  if (given.stiffness.each() && !given.stiffness.of_vertices()) rest.stiffness = those_of(given.stiffness, stays);
+  if (given.targets.each()) rest.targets = those_of(given.targets, stays);
+  return rest;
+}
+
+/// "stretch on body 'cloth'".
+std::string place_of(const Group& group, const Body& body) {
+  return group.name + " on body '" + body.name + "'";
+}
+
+/// The vertices that a group pins, ascending.
+std::vector<Index> sorted_pins(const ConstraintGroup& group) {
+  std::vector<Index> pinned(group.pinned_vertices().begin(), group.pinned_vertices().end());
+  std::ranges::sort(pinned);
+  return pinned;
+}
+
+}  // namespace
+
+Values with_factor(const Values& given, Real factor) {
+  if (!given.each()) return factor;
+  if (factor == 1) return given;
+  std::vector<Real> list = given.list();
+  for (Real& number : list) number *= factor;
+  return given.of_vertices() ? Values::of_vertices(std::move(list)) : Values(std::move(list));
+}
+
+GroupId Simulation::add_set(BodyId id, ConstraintSet set, std::string type, std::string name) {
+  return add_group({std::move(name), std::move(type), id, nullptr, std::move(set)});
+}
+
+GroupId Simulation::add_group(Group added) {
+  if (added.name.empty()) added.name = added.type;
+  check_group_of(added, std::nullopt);
+  warn_of(added);
+  const GroupId id{next_group_++};
+  if (transaction_ != nullptr) transaction_->save(id, std::nullopt);
+  added.points = new_points(added.set);
+  added.next_point = static_cast<Index>(added.points.size());
+  const auto placed = groups_.emplace(id, std::move(added));
+  group_index_.add(id, placed.first->second);
+  groups_changed_ = true;
+  return id;
+}
+
+/// Refuses constraints that do not keep to their shape, and a vertex that is pinned twice: it can be at one place only.
+void Simulation::check_group_of(const Group& added, std::optional<GroupId> replaced) const {
+  const std::string place = place_of(added, body(added.body));
+  for (const auto& batch : added.set.batches) {
     if (!batch) fail_input(place + ": a batch of its constraints is null; leave it out");
     check_group(*batch, state_.vertex_count(), place);
-    check_pins(*batch, place, replaced);
+    const std::vector<Index> pinned = sorted_pins(*batch);
+    const auto twice = std::ranges::adjacent_find(pinned);
+    if (twice != pinned.end()) {
+      fail_input(place + ": vertex " + std::to_string(*twice) + " is pinned twice; leave one out");
+    }
+    for (const Index vertex : pinned) {
+      const std::optional<GroupId> holder = group_index_.holder(vertex);
+      if (!holder || holder == replaced) continue;
+      fail_input(place + ": vertex " + std::to_string(vertex) + " is already pinned by '" + group(*holder).name +
+                 "'; leave it out of one of the two");
+    }
   }
 }
 
-void Simulation::warn_of(const ConstraintSet& set, const std::string& place) {
+void Simulation::warn_of(const Group& added) {
+  const std::string place = place_of(added, body(added.body));
+  const ConstraintSet& set = added.set;
   if (set.count == 0 && set.skipped == 0) {
     warnings_.push_back(place + ": makes no constraint; does the selection hold whole elements?");
   }
   if (set.skipped > 0) {
     warnings_.push_back(place + ": left out at " + std::to_string(set.skipped) + " " + set.skipped_reason);
-  }
-}
-
-/// A vertex can be pinned at one place only.
-void Simulation::check_pins(const ConstraintGroup& added, const std::string& place,
-                            std::optional<GroupId> replaced) const {
-  std::vector<Index> pinned(added.pinned_vertices().begin(), added.pinned_vertices().end());
-  std::ranges::sort(pinned);
-  const auto twice = std::ranges::adjacent_find(pinned);
-  if (twice != pinned.end())
-    fail_input(place + ": vertex " + std::to_string(*twice) + " is pinned twice; leave one out");
-  for (const Index vertex : pinned) {
-    const std::optional<GroupId> holder = group_index_.holder(vertex);
-    if (!holder || holder == replaced) continue;
-    fail_input(place + ": vertex " + std::to_string(vertex) + " is already pinned by '" + group(*holder).name +
-               "'; leave it out of one of the two");
   }
 }
 
@@ -144,12 +183,16 @@ std::optional<GroupId> Simulation::find_group(std::string_view name) const {
 
 void Simulation::replace_set(GroupId id, ConstraintSet set, std::string type, Anchors anchors) {
   const Group& old = group(id);
-  const std::string place = old.name + " on body '" + body(old.body).name + "'";
-  check_set(set, place, id);
+  replace_group(id, {old.name, std::move(type), old.body, nullptr, std::move(set)}, anchors);
+}
+
+void Simulation::replace_group(GroupId id, Group renewed, Anchors anchors) {
+  const Group& old = group(id);
+  check_group_of(renewed, id);
   std::multimap<Identity, Anchored> olds = anchors_of(old);
-  Index next_point = old.next_point;
-  std::vector<Index> points;
-  for (const auto& batch : set.batches) {
+  renewed.next_point = old.next_point;
+  std::vector<Index>& points = renewed.points;
+  for (const auto& batch : renewed.set.batches) {
     const std::size_t end_of_batch = points.size() + batch->targets().size() / 3;
     for (std::size_t i = 0; i < count_of(*batch); ++i) {
       const std::span<Real> anchor = batch->anchor(static_cast<Index>(i));
@@ -157,35 +200,39 @@ void Simulation::replace_set(GroupId id, ConstraintSet set, std::string type, An
       const auto same = olds.find(identity(*batch, i));
       if (same != olds.end() && anchors == Anchors::kept) std::ranges::copy(same->second.anchor, anchor.begin());
       const bool has_number = same != olds.end() && same->second.number.has_value();
-      if (points.size() < end_of_batch) points.push_back(has_number ? *same->second.number : next_point++);
+      if (points.size() < end_of_batch) points.push_back(has_number ? *same->second.number : renewed.next_point++);
       if (same != olds.end()) olds.erase(same);
     }
-    while (points.size() < end_of_batch) points.push_back(next_point++);
+    while (points.size() < end_of_batch) points.push_back(renewed.next_point++);
   }
-  warn_of(set, place);
-  exchange_set(id, std::move(set), std::move(type), std::move(points), next_point);
+  warn_of(renewed);
+  exchange_group(id, std::move(renewed));
 }
 
 void Simulation::release(GroupId id, std::span<const Index> vertices) {
   const Group& old = group(id);
   std::vector<Index> released;
   for (const Index v : vertices) released.push_back(vertex(old.body, v));
-  ConstraintSet rest = pliant::release(old.set, released);
+  Group rest{old.name, old.type, old.body, nullptr, pliant::release(old.set, released), {}, old.next_point};
   std::ranges::sort(released);
-  std::vector<Index> points;
-  std::size_t target = 0;
+  std::vector<Index> stays;  // places of constraints
+  Stencils stencils;         // of the body
+  Index place = 0;
   for (const auto& batch : old.set.batches) {
-    for (std::size_t i = 0; i < count_of(*batch); ++i, ++target) {
-      if (!std::ranges::binary_search(released, identity(*batch, i).first[0])) points.push_back(old.points[target]);
+    for (std::size_t i = 0; i < count_of(*batch); ++i, ++place) {
+      const Index vertex = identity(*batch, i).first[0];
+      if (std::ranges::binary_search(released, vertex)) continue;
+      stays.push_back(place);
+      stencils.add({vertex - body(old.body).first_vertex});
+      rest.points.push_back(old.points[static_cast<std::size_t>(place)]);
     }
   }
-  exchange_set(id, std::move(rest), old.type, std::move(points), old.next_point);
+  if (const auto* given = options_in<Position>(old)) rest.source = source_of(with_rest(*given, stays, stencils));
+  exchange_group(id, std::move(rest));
 }
 
-void Simulation::exchange_set(GroupId id, ConstraintSet set, std::string type, std::vector<Index> points,
-                              Index next_point) {
+void Simulation::exchange_group(GroupId id, Group renewed) {
   Group& group = groups_.at(id);
-  Group renewed{group.name, std::move(type), group.body, std::move(set), std::move(points), next_point};
   group_index_.remove(id, group);
   if (transaction_ != nullptr) transaction_->save(id, std::move(group));
   group = std::move(renewed);

@@ -27,28 +27,6 @@ struct BodyOptions {
   Positions velocities{};  ///< m × 3 [m/s]; default: zero
 };
 
-/// Constraints of one type on one body, as a user sees them.
-struct Group {
-  std::string name;
-  std::string type;
-  BodyId body{};
-  ConstraintSet set;
-  std::vector<Index> points{};  ///< of each target a number, which it keeps when others come and go; at first 0, 1, ...
-  Index next_point = 0;         ///< the number of the next new target
-};
-
-/// Whether options say where targets or origins are.
-template <class Constraint>
-bool gives_anchors(const Constraint& options) {
-  if constexpr (requires { options.targets; }) {
-    return !options.targets.empty();
-  } else if constexpr (requires { options.origin; }) {
-    return !options.origin.empty();
-  } else {
-    return false;
-  }
-}
-
 /// The options that something was made of, whatever their type.
 class AnyOptions {
  public:
@@ -67,19 +45,64 @@ std::shared_ptr<const AnyOptions> source_of(const Options& options) {
   return std::make_shared<const OptionsOf<Options>>(options);
 }
 
+/// What a group or a force was made of; null where it was made of options of another type, or of none.
+template <class Options, class Record>
+const Options* options_in(const Record& record) {
+  const auto* source = dynamic_cast<const OptionsOf<Options>*>(record.source.get());
+  return source == nullptr ? nullptr : &source->options;
+}
+
+/// Constraints of one type on one body, as a user sees them.
+struct Group {
+  std::string name;
+  std::string type;
+  BodyId body{};
+  /// None of constraints that were made elsewhere. Stiffness and targets may have changed since (Simulation::options).
+  std::shared_ptr<const AnyOptions> source;
+  ConstraintSet set;
+  std::vector<Index> points{};  ///< of each target a number, which it keeps when others come and go; at first 0, 1, ...
+  Index next_point = 0;         ///< the number of the next new target
+};
+
+/// The option of a constraint that says where targets or origins are; null for a type without.
+template <class Constraint>
+const Points* anchors_in(const Constraint& options) {
+  if constexpr (requires { options.targets; }) {
+    return &options.targets;
+  } else if constexpr (requires { options.origin; }) {
+    return &options.origin;
+  } else {
+    return nullptr;
+  }
+}
+
+template <class Constraint>
+bool gives_anchors(const Constraint& options) {
+  const Points* anchors = anchors_in(options);
+  return anchors != nullptr && !anchors->empty();
+}
+
+/// Stiffnesses of constraints whose group has this common factor by now: the factor, or that times each one's own.
+Values with_factor(const Values& given, Real factor);
+
+/// What a group was made of, with its common factor of now, if it has one; none where it was made of another type.
+template <class Constraint>
+std::optional<Constraint> options_of(const Group& group, std::optional<Real> factor) {
+  const Constraint* given = options_in<Constraint>(group);
+  if (given == nullptr) return std::nullopt;
+  Constraint now = *given;
+  if constexpr (requires { now.stiffness.each(); }) {
+    if (factor) now.stiffness = with_factor(now.stiffness, *factor);
+  }
+  return now;
+}
+
 /// What a simulation knows of a force besides the force itself.
 struct ForceRecord {
   std::string name;
   std::optional<BodyId> body{};                   ///< that it is on; none: all there were, or it is a user's own
   std::shared_ptr<const AnyOptions> source = {};  ///< none: it is a user's own
 };
-
-/// Null where it was made of options of another type.
-template <class Options>
-const Options* options_in(const ForceRecord& record) {
-  const auto* source = dynamic_cast<const OptionsOf<Options>*>(record.source.get());
-  return source == nullptr ? nullptr : &source->options;
-}
 
 /// What becomes of the anchors (targets of pins and drags, origins of lines) of a group that is replaced. `kept`: a
 /// constraint of the same vertices has that of its predecessor; `given`: all have what the new options say.

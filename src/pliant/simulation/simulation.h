@@ -43,8 +43,7 @@ class Simulation {
   /// Adds a built-in constraint type, or any other with `info`, `visit` and a `build(BodyView, options)`.
   template <class Constraint>
   requires(!describes_force<Constraint>) GroupId add(BodyId id, const Constraint& options, std::string name = {}) {
-    check_options(Constraint::info.name, options);
-    return add_set(id, build(view(id), options), std::string(Constraint::info.name), std::move(name));
+    return add_group(make_group(id, options, std::move(name)));
   }
   /// Adds constraints made elsewhere; their stencils have the indices of the simulation (check_group).
   GroupId add_set(BodyId id, ConstraintSet set, std::string type, std::string name = {});
@@ -56,34 +55,35 @@ class Simulation {
 
   /// Makes a group anew from other options, of its type or another one, under its id and name. Targets and origins
   /// that the options leave open stay, where a constraint has the vertices of an old one; else they begin where the
-  /// vertices are now. Costs what adding the group does: a numeric factorization, and an ordering where vertices are
-  /// connected that were not.
+  /// vertices are now. Costs what adding does: a numeric factorization, and an ordering where other vertices connect.
   template <class Constraint>
   void replace(GroupId id, const Constraint& options) {
     replace(id, options, gives_anchors(options) ? Anchors::given : Anchors::kept);
   }
   template <class Constraint>
   void replace(GroupId id, const Constraint& options, Anchors anchors) {
-    check_options(Constraint::info.name, options);
-    replace_set(id, build(view(group(id).body), options), std::string(Constraint::info.name), anchors);
+    replace_group(id, make_group(group(id).body, options, group(id).name), anchors);
   }
   void replace_set(GroupId id, ConstraintSet set, std::string type, Anchors anchors);
+  /// What a group was made of, with its stiffness of now; none for another type, and of constraints made elsewhere.
+  template <class Constraint>
+  std::optional<Constraint> options(GroupId id) const {
+    return options_of<Constraint>(group(id), stiffness(id));
+  }
   /// Lets vertices of a group of positions go; the others stay as they are. Vertices have the indices of their body.
   void release(GroupId id, std::span<const Index> vertices);
 
   /// New common factor of a group's weights: costs one numeric factorization at the next step.
   void set_stiffness(GroupId id, Real stiffness);
-  /// That factor; none for hard pins, which have no stiffness.
-  std::optional<Real> stiffness(GroupId id) const;
+  std::optional<Real> stiffness(GroupId id) const;  ///< that factor; none for hard pins
   /// Movable points of a group (positions, drags), in the order of its constraints.
   Index target_count(GroupId id) const;
   Vec3 target(GroupId id, Index i) const;
   /// Moves point i from the next step on; costs nothing.
   void set_target(GroupId id, Index i, const Vec3& target);
 
-  /// Adds a built-in force, or any other with `info`, `visit` and a `build(ForceScope, options)`: on one body, or on
-  /// what such a force is on where none is named (ForceReach). Default name: the type, with the first free number from
-  /// 2 behind where that is taken.
+  /// Adds a built-in force, or any other with `info`, `visit` and a `build(ForceScope, options)`: on one body, or as
+  /// its ForceReach says. Default name: the type, with the first free number from 2 behind where that is taken.
   template <describes_force Options>
   ForceId add(std::optional<BodyId> body, const Options& options, std::string name = {}) {
     return add_force({std::move(name), body, source_of(options)}, build(scope(body), options));
@@ -94,8 +94,7 @@ class Simulation {
   }
   /// Adds a force of a user's own. Refuses one on a vertex that there is not: add the bodies first.
   ForceId add_force(std::unique_ptr<Force> force, std::string name = {});
-  /// Makes a force anew from other options, of its type or another one, under its id and name: on the body that it was
-  /// on, or on another one. Costs nothing.
+  /// Makes a force anew from other options under its id and name: on its body, or on another one. Costs nothing.
   template <describes_force Options>
   void replace(ForceId id, const Options& options) {
     replace(id, record(id).body, options);
@@ -118,14 +117,12 @@ class Simulation {
   const std::string& name(ForceId id) const;
   /// The force of that name; of several, the one that was added first.
   std::optional<ForceId> find_force(std::string_view name) const;
-  /// The global index of a body's vertex. Throws Error(input) when it is out of range.
-  Index vertex(BodyId id, Index vertex_of_body) const;
+  Index vertex(BodyId id, Index vertex_of_body) const;  ///< its index among all; refuses one out of range
 
   const SolverSettings& settings() const { return settings_; }
   void set_settings(const SolverSettings& settings);  ///< refuses BDF2 with a force that is an explicit spring
 
-  /// Asked before each iteration whether the step is to be given up, so that even one of a thousand million iterations
-  /// can be; called on the thread of step(). None: never.
+  /// Asked before each iteration, on the thread of step(), whether the step is to be given up. None: never.
   void set_stop(std::function<bool()> stop);
 
   /// Takes one step (Algorithm 1). Throws Error(diverged), with the state as it was before, when a position would not
@@ -135,26 +132,19 @@ class Simulation {
   Evaluation evaluate();
   /// Elastic energy of a group at the last evaluate() [J]; 0 for a group added since.
   Real elastic_energy(GroupId id) const;
-  /// The objective E(q) before each global solve of the last step [J], of its first 4096 solves. evaluate() has the
-  /// objective after the last one.
+  /// E(q) before each global solve of the last step [J], of its first 4096; evaluate() has that after the last one.
   std::span<const Real> objective_history() const;
 
   const State& state() const { return state_; }
-  /// Replaces positions and velocities (m × 3 each).
-  void set_state(const Positions& positions, const Positions& velocities);
-  /// Goes on from a state of this simulation, or of one with the same bodies: positions, velocities, step and time.
-  /// Refuses other masses.
+  void set_state(const Positions& positions, const Positions& velocities);  ///< m × 3 each
+  /// Goes on from a state of this simulation, or of one with the same bodies. Refuses other masses.
   void restore(const State& state);
 
   /// Describes the system of equations as the next step has it; factorizes when something has changed.
   SystemInfo system_info();
-
-  /// The name of the back end in use.
-  std::string_view backend() const;
-  /// Of the factor in use; `double_` before the first step.
-  Precision precision() const;
-  /// The share of an error that a solve in single precision was seen to leave; 0 where that was not asked for.
-  Real contraction() const;
+  std::string_view backend() const;  ///< the name of the one in use
+  Precision precision() const;       ///< of the factor in use; `double_` before the first step
+  Real contraction() const;          ///< of an error, by a solve in single precision; 0 where that was not asked for
   int thread_count() const;
   /// What a user may want to know: skipped constraints, forces past their stability limit. It only grows.
   const std::vector<std::string>& warnings() const { return warnings_; }
@@ -166,10 +156,16 @@ class Simulation {
   const Group& group(GroupId id) const;
   std::span<Real> target_numbers(GroupId id, Index i) const;
   void warn_of_precision();
-  void check_set(const ConstraintSet& set, const std::string& place, std::optional<GroupId> replaced) const;
-  void check_pins(const ConstraintGroup& added, const std::string& place, std::optional<GroupId> replaced) const;
-  void warn_of(const ConstraintSet& set, const std::string& place);
-  void exchange_set(GroupId id, ConstraintSet set, std::string type, std::vector<Index> points, Index next_point);
+  void check_group_of(const Group& added, std::optional<GroupId> replaced) const;
+  void warn_of(const Group& added);
+  template <class Constraint>
+  Group make_group(BodyId id, const Constraint& options, std::string name) {
+    check_options(Constraint::info.name, options);
+    return {std::move(name), std::string(Constraint::info.name), id, source_of(options), build(view(id), options)};
+  }
+  GroupId add_group(Group added);
+  void replace_group(GroupId id, Group renewed, Anchors anchors);
+  void exchange_group(GroupId id, Group renewed);
   const ForceRecord& record(ForceId id) const;
   ForceId add_force(ForceRecord record, std::unique_ptr<Force> force);
   void exchange_force(ForceId id, ForceRecord record, std::unique_ptr<Force> force);

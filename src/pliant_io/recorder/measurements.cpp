@@ -83,8 +83,8 @@ Measurements measure(Simulation& simulation, const StepReport& report) {
   }
   for (const auto& [id, force] : simulation.forces()) {
     const Real potential = force->potential(state.view());
-    Real& column = force->type() == "gravity" ? row.gravitational : row.other_potential;
-    column += potential;
+    const bool is_gravitational = force->potential_kind() == PotentialKind::gravitational;
+    (is_gravitational ? row.gravitational : row.other_potential) += potential;
     row.total += potential;
   }
   check_finite(row);
