@@ -166,6 +166,7 @@ Chapter run_integrators(const ExperimentContext& context) {
   measure_curtain(context, chapter);
   measure_liveliness(context, chapter);
   measure_builtin_scenes(context, chapter);
+  measure_energy_gains(context, chapter);
   measure_damping(context, chapter);
   return chapter;
 }

@@ -13,6 +13,9 @@ void measure_liveliness(const ExperimentContext& context, pliant_report::Chapter
 /// Every built-in scene with BDF2, and with energy projection, to its end.
 void measure_builtin_scenes(const ExperimentContext& context, pliant_report::Chapter& chapter);
 
+/// Every built-in scene without winds: whether energy projection brings in energy of its own.
+void measure_energy_gains(const ExperimentContext& context, pliant_report::Chapter& chapter);
+
 /// By what shares damping changes what it should leave alone.
 struct DampedFlight {
   double momentum = 0;          ///< largest of a step, against the same step without damping

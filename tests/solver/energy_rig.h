@@ -1,6 +1,7 @@
 #pragma once
 // What tests of energy projection share: energies, and small scenes that swing.
 #include <numbers>
+#include <numeric>
 
 #include "../simulation/run.h"
 #include "motions.h"
@@ -26,6 +27,12 @@ inline Real total(Simulation& simulation) {
   Real energy = kinetic(simulation) + simulation.evaluate().elastic;
   for (const auto& [id, force] : simulation.forces()) energy += force->potential(simulation.state().view());
   return energy;
+}
+
+/// What energy projection has let bodies have too much and is to take back [J].
+inline Real surplus(const Simulation& simulation) {
+  const std::vector<Real>& noted = simulation.state().energy_surplus;
+  return std::accumulate(noted.begin(), noted.end(), Real(0));
 }
 
 inline SolverSettings keeping(const SolverSettings& settings, Real share = 1) {

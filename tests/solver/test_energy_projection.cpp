@@ -76,7 +76,7 @@ TEST_CASE("damping damps at its own rate, whatever the integrator would lose") {
 
 TEST_CASE("a swinging rope keeps the sum of its energies") {
   const Real scale = 0.8 * 9.81;  // from the height of the pin to where it could fall [J]
-  for (const auto& [integrator, tolerance] : {std::pair{Integrator::implicit_euler, 1e-9}, {Integrator::bdf2, 5e-3}}) {
+  for (const auto& [integrator, tolerance] : {std::pair{Integrator::implicit_euler, 1e-9}, {Integrator::bdf2, 2e-2}}) {
     const SolverSettings settings{.integrator = integrator, .iterations = 100, .threads = 1};
     Simulation kept = swinging_rope(keeping(settings));
     Simulation lossy = swinging_rope(settings);
@@ -85,6 +85,7 @@ TEST_CASE("a swinging rope keeps the sum of its energies") {
       kept.step();
       lossy.step();
       REQUIRE(std::abs(total(kept) - begin) < tolerance * scale);
+      REQUIRE(total(kept) - begin - surplus(kept) < 1e-9 * scale);
     }
     CHECK(total(lossy) - begin < -0.05 * scale);
   }
@@ -238,8 +239,7 @@ TEST_CASE("few iterations: a stiff beam swings as it should, and what they gain 
       simulation.step();
       result.mean += kinetic(simulation) / 600;
       result.most = std::max(result.most, kinetic(simulation));
-      const std::vector<Real>& surplus = simulation.state().energy_surplus;
-      result.surplus = std::max(result.surplus, std::accumulate(surplus.begin(), surplus.end(), Real(0)));
+      result.surplus = std::max(result.surplus, surplus(simulation));
     }
     return result;
   };

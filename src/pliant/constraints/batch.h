@@ -102,9 +102,9 @@ class Batch final : public ConstraintGroup {
     ConstraintGroup::sync_parameters(from, order);
     take_in_order(dynamic_cast<const Batch&>(from).fields(), order, Type::fields, std::span<Real>(fields_));
   }
-
+  bool freezes_shape() const override { return has_begin_step; }
   void begin_step(const StateView& state, Real) override {
-    if constexpr (requires { &Type::begin_step; }) {
+    if constexpr (has_begin_step) {
       const auto n = static_cast<std::size_t>(vertices());
       for (std::size_t i = 0; i < rest_measure_.size(); ++i) {
         Type::begin_step(state.positions, std::span<const Index>(stencil_).subspan(i * n, n), field(i));
@@ -129,6 +129,7 @@ class Batch final : public ConstraintGroup {
  private:
   static constexpr std::size_t size = Type::rows * 3;
   static constexpr bool has_kernel = requires { Type::kernel; };
+  static constexpr bool has_begin_step = requires { &Type::begin_step; };
 
   /// Writes w (p − z) of constraint i; returns its energy.
   Real project_one(const Real* positions, std::size_t i, Real* to) const {

@@ -39,6 +39,9 @@ class ConstraintGroup {
 
   /// Called once at the start of a step, before anything reads the group: the place to freeze normals.
   virtual void begin_step(const StateView& state, Real time_step);
+  /// Whether begin_step() only freezes numbers that follow from the positions, as normals do. Then energy projection
+  /// calls it at the end of a step as well: V is what the next step begins with.
+  virtual bool freezes_shape() const { return false; }
 
   /// The local step for constraints [begin, end). Writes w (p − z), k × 3 numbers a constraint, to `out`, which begins
   /// with the first row of constraint `begin`, and returns Σ w/2 ‖z − p‖² [J]. May be called from several threads.

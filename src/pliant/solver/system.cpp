@@ -54,6 +54,17 @@ void System::begin_step(const State& state, Integrator integrator, Real h) {
   for (ConstraintGroup* group : simulation_groups_) group->begin_step(view, h);
 }
 
+void System::freeze_shapes(const Positions& q, const State& state, Real h) {
+  const auto freezes = [](const ConstraintGroup* group) { return group->freezes_shape(); };
+  if (std::ranges::none_of(simulation_groups_, freezes)) return;
+  groups_.scatter(q, shape_);
+  const StateView view{shape_, state.velocities, state.masses, state.step, state.time};
+  for (ConstraintGroup* group : simulation_groups_) {
+    if (freezes(group)) group->begin_step(view, h);
+  }
+  groups_.sync_parameters();
+}
+
 bool System::needs_layout() const {
   if (!is_laid_out_) return true;
   for (std::size_t g = 0; g < simulation_groups_.size(); ++g) {

@@ -30,6 +30,8 @@ class System {
 
   /// Lets the groups take what they need of the state that a step of length h [s] begins with.
   void begin_step(const State& state, Integrator integrator, Real h);
+  /// Lets groups whose begin_step() freezes the shape alone take that of q, in which a step of length h [s] ends.
+  void freeze_shapes(const Positions& q, const State& state, Real h);
   /// Whether a group was added, or has another stencil, reduction, measure or pin, since the layout was made.
   bool needs_layout() const;
   /// Order, slots, pattern and components. What was gathered before is in another order then.
@@ -94,6 +96,8 @@ class System {
   std::vector<char> none_pinned_;
   Components components_, free_components_;
   std::vector<Index> component_of_vertex_;
+
+  Positions shape_;  // in the order of the simulation
 
   std::vector<Real> inertia_weights_;
   std::vector<Real> no_weights_;

@@ -11,7 +11,7 @@ struct WorkingState {
   State begin;                 ///< qₙ, vₙ, masses, what BDF2 and energy projection go on from; not step and time
   Positions step_begin;        ///< positions before the first substep, m × 3 [m]; where there are several
   Positions forces;            ///< f at the beginning, m × 3 [N]
-  Positions not_conservative;  ///< those of f that may brake, m × 3 [N]; where energy is projected
+  Positions not_conservative;  ///< those of f that are not conservative, m × 3 [N]; where energy is projected
   Positions prediction;        ///< s, m × 3 [m]
   Positions positions;         ///< q, the iterate, then qₙ₊₁, m × 3 [m]
   Positions residual;          ///< r, m × 3 [N]

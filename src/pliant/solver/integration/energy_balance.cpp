@@ -11,17 +11,26 @@ namespace {
 /// once, which would brake, but kept from what later steps would be given.
 constexpr Real least_factor = 0.98;
 constexpr Real largest_factor = 2;
+/// But a kinetic energy that alone is more than T + V should be is too much for certain, as BDF2 leaves it where a cord
+/// goes taut. That is taken at once, down to this factor of the velocities.
+constexpr Real hardest_brake = 0.5;
 
 /// Shares of an energy that are rounding.
 constexpr Real rounding = 1e-13;
 
 /// x with square·(x² − 1) + linear·(x − 1) = missing, as far as it may go; 1 where that is rounding, or no number.
-Real factor_of(Real square, Real linear, Real missing, Real noise) {
+Real factor_of(Real square, Real linear, Real missing, Real noise, Real least = least_factor) {
   const Real slope = 2 * square + linear;  // at 1
   if (!(std::abs(missing) > noise)) return 1;
   const Real root = std::sqrt(std::max(Real(0), slope * slope + 4 * square * missing));
   const Real factor = 1 + 2 * missing / (slope + root);
-  return slope > 0 && !std::isnan(factor) ? std::clamp(factor, least_factor, largest_factor) : 1;
+  return slope > 0 && !std::isnan(factor) ? std::clamp(factor, least, largest_factor) : 1;
+}
+
+/// By what velocities may be scaled at least: to `allowed` [J], where their kinetic energy is more.
+Real least_velocity_factor(Real kinetic, Real allowed) {
+  if (!(allowed < least_factor * least_factor * kinetic)) return least_factor;
+  return std::max(hardest_brake, std::sqrt(std::max(Real(0), allowed) / kinetic));
 }
 
 /// Of a turning with that angular momentum [J].
@@ -79,7 +88,7 @@ void EnergyBalance::begin(const StepEnd& begin, std::span<const Real> masses, st
   }
 }
 
-void EnergyBalance::balance(const StepEnd& end, const OutsideForces& outside, Real h, Real share, Positions& forces) {
+void EnergyBalance::balance(const StepEnd& end, const Positions& outside, Real h, Real share, Positions& forces) {
   for (std::size_t p = 0; p < components_.count(); ++p) {
     balance_component(p, end, outside, h, share);
     write_forces(p, end, outside, forces);
@@ -87,7 +96,7 @@ void EnergyBalance::balance(const StepEnd& end, const OutsideForces& outside, Re
 }
 
 EnergyBalance::Work EnergyBalance::outside_work(std::size_t component, const RigidMotion& rigid, const StepEnd& end,
-                                                const OutsideForces& outside) const {
+                                                const Positions& outside) const {
   const Account& account = accounts_[component];
   const Vec3 shift = rigid.center - account.center;
   Work work;
@@ -97,9 +106,8 @@ EnergyBalance::Work EnergyBalance::outside_work(std::size_t component, const Rig
       work.add(-(row(elastic_forces_, v) + row(end.elastic_forces, v)).dot(displacement) / 2);
       continue;
     }
-    const Vec3 force = row(outside.all, v);
+    const Vec3 force = row(outside, v);
     work.add(force.dot(displacement - shift));
-    work.braked -= std::min(Real(0), row(outside.not_conservative, v).dot(displacement - shift));
     if (!is_free_[component]) continue;
     const Vec3 arm = (row(positions_, v) + row(end.positions, v) - account.center - rigid.center) / 2;
     work.torque += arm.cross(force);
@@ -107,7 +115,7 @@ EnergyBalance::Work EnergyBalance::outside_work(std::size_t component, const Rig
   return work;
 }
 
-void EnergyBalance::balance_component(std::size_t component, const StepEnd& end, const OutsideForces& outside, Real h,
+void EnergyBalance::balance_component(std::size_t component, const StepEnd& end, const Positions& outside, Real h,
                                       Real share) {
   const RigidMotion rigid = rigid_motion(component, end.positions, end.velocities);
   const Work work = outside_work(component, rigid, end, outside);
@@ -115,7 +123,6 @@ void EnergyBalance::balance_component(std::size_t component, const StepEnd& end,
                       turning_energy(rigid.inertia, rigid.angular_momentum);
   Account& account = accounts_[component];
   account.noise = rounding * (account.target + work.size + energy);
-  if (work.braked > 0) account.surplus *= std::max(Real(0), 1 - work.braked / account.target);  // its share of it
   const Real missing = account.target + work.sum - energy;
   const Real owed = missing > 0 ? std::min(missing, account.surplus) : 0;
   account.surplus -= owed;
@@ -127,9 +134,9 @@ void EnergyBalance::balance_component(std::size_t component, const StepEnd& end,
 }
 
 /// Of a component that nothing holds, less what moves it as a whole.
-void EnergyBalance::write_forces(std::size_t component, const StepEnd& end, const OutsideForces& outside,
+void EnergyBalance::write_forces(std::size_t component, const StepEnd& end, const Positions& outside,
                                  Positions& forces) const {
-  const auto force_on = [&](Index v) { return Vec3(row(end.elastic_forces, v) + row(outside.all, v)); };
+  const auto force_on = [&](Index v) { return Vec3(row(end.elastic_forces, v) + row(outside, v)); };
   Vec3 acceleration = Vec3::Zero();
   if (is_free_[component]) {
     Real mass = 0;
@@ -182,7 +189,7 @@ void EnergyBalance::move(const StepEnd& end, const Positions& forces, const Posi
   }
 }
 
-void EnergyBalance::finish(const StepEnd& end, const OutsideForces& outside, Positions& velocities) {
+void EnergyBalance::finish(const StepEnd& end, const Positions& outside, Positions& velocities) {
   for (std::size_t p = 0; p < components_.count(); ++p) {
     Account& account = accounts_[p];
     const RigidMotion rigid = rigid_motion(p, end.positions, end.velocities);
@@ -192,7 +199,8 @@ void EnergyBalance::finish(const StepEnd& end, const OutsideForces& outside, Pos
     const Vec3 angular_momentum = allowed_momentum(p, rigid, end.elastic[p], scaled);
     const Vec3 turning = angular_velocity(rigid.inertia, angular_momentum);
     const Real missing = account.target - end.elastic[p] - scaled - turning.dot(angular_momentum) / 2;
-    const Real factor = factor_of(scaled, 0, missing, account.noise);
+    const Real least = least_velocity_factor(scaled, scaled + missing + end.elastic[p]);
+    const Real factor = factor_of(scaled, 0, missing, account.noise, least);
     const Real surplus = scaled * (factor * factor - 1) - missing;
     if (surplus > account.noise) account.surplus += surplus;
     for (const Index v : components_.component(p)) {

@@ -8,9 +8,9 @@
 //
 // V is the elastic energy of all constraints but external ones (ConstraintGroup::is_external: soft pins, drags, what a
 // force brings): these count as forces from outside, with the force at which the step leaves them, so their own springs
-// stay damped by the step. A component that
-// nothing holds is seen from its center, whose flight is left alone, and v_rigid is its turning with the angular
-// momentum that it should have; of a component that something holds v_rigid is 0.
+// stay damped by the step. A component that nothing holds is seen from its center, whose flight is left alone, and
+// v_rigid is its turning with the angular momentum that it should have; of a component that something holds v_rigid
+// is 0. What a step has too much and may not be taken at once is the surplus: T + V = H* + surplus, always.
 #include <cmath>
 
 #include "pliant/solver/global/components.h"
@@ -26,14 +26,6 @@ struct StepEnd {
   const Positions& elastic_forces;  ///< −∇V, pinned vertices among them, m × 3 [N]
 };
 
-/// What acts on the vertices from outside in a step, in the order of the local step; each m × 3 [N]. The work of all of
-/// it is F·(qₙ₊₁ − qₙ), along the path that the vertices take: no other sum is free of drift, since velocities are what
-/// the projection itself changes.
-struct OutsideForces {
-  const Positions& all;
-  const Positions& not_conservative;  ///< those among them that may brake
-};
-
 class EnergyBalance {
  public:
   /// The components, which of them nothing holds, and which vertices are pinned.
@@ -43,9 +35,11 @@ class EnergyBalance {
   /// too much and are not to be given back, at any vertex of each; or none.
   void begin(const StepEnd& begin, std::span<const Real> masses, std::span<const Real> surplus);
 
-  /// Balances a step of length h [s] that ends so. share: of what is missing, how much is to be given back. Writes the
-  /// force −∇H on each vertex, m × 3 [N], zero at pinned ones.
-  void balance(const StepEnd& end, const OutsideForces& outside, Real h, Real share, Positions& forces);
+  /// Balances a step of length h [s] that ends so. outside: what acts on the vertices from outside in it, m × 3 [N];
+  /// its work is F·(qₙ₊₁ − qₙ), along the path that the vertices take: no other sum is free of drift, since velocities
+  /// are what the projection itself changes. share: of what is missing, how much is to be given back. Writes the force
+  /// −∇H on each vertex, m × 3 [N], zero at pinned ones.
+  void balance(const StepEnd& end, const Positions& outside, Real h, Real share, Positions& forces);
 
   /// Moves the positions at that end along `direction`, which is Y⁻¹ of those forces. weights: M/h² of each vertex.
   /// `positions` may be those of the end.
@@ -54,7 +48,7 @@ class EnergyBalance {
 
   /// Gives the velocities what is missing still where move() has left the positions; their V and the forces are now
   /// those there. `velocities` may be those of the end.
-  void finish(const StepEnd& end, const OutsideForces& outside, Positions& velocities);
+  void finish(const StepEnd& end, const Positions& outside, Positions& velocities);
 
   /// Surplus for the next step, m numbers [J].
   void write_surplus(std::span<Real> surplus) const;
@@ -73,9 +67,8 @@ class EnergyBalance {
 
   /// What is done on a component from outside.
   struct Work {
-    Real sum = 0;     // relative to the center of a component that nothing holds [J]
-    Real size = 0;    // of its terms
-    Real braked = 0;  // taken by forces that are not conservative
+    Real sum = 0;   // relative to the center of a component that nothing holds [J]
+    Real size = 0;  // of its terms
     Vec3 torque = Vec3::Zero();
     void add(Real energy) {
       sum += energy;
@@ -87,10 +80,10 @@ class EnergyBalance {
   Real non_rigid_energy(std::size_t component, const RigidMotion& rigid, const Positions& positions,
                         const Positions& velocities) const;
   Work outside_work(std::size_t component, const RigidMotion& rigid, const StepEnd& end,
-                    const OutsideForces& outside) const;
+                    const Positions& outside) const;
   Vec3 allowed_momentum(std::size_t component, const RigidMotion& rigid, Real elastic, Real scaled) const;
-  void balance_component(std::size_t component, const StepEnd& end, const OutsideForces& outside, Real h, Real share);
-  void write_forces(std::size_t component, const StepEnd& end, const OutsideForces& outside, Positions& forces) const;
+  void balance_component(std::size_t component, const StepEnd& end, const Positions& outside, Real h, Real share);
+  void write_forces(std::size_t component, const StepEnd& end, const Positions& outside, Positions& forces) const;
 
   Components components_;
   std::vector<char> is_free_;    // of each component

@@ -12,7 +12,7 @@ void EnergyProjection::set_system(const System& system) {
 }
 
 void EnergyProjection::begin(const StepContext& step, const WorkingState& work) {
-  for (Positions* x : {&outside_, &outside_not_conservative_}) x->setZero(work.positions.rows(), 3);
+  outside_.setZero(work.positions.rows(), 3);
   for (Positions* x : {&elastic_forces_, &direction_}) x->resize(work.positions.rows(), 3);
   evaluate_elastic(step, work.begin.positions);
   balance_.begin({work.begin.positions, work.begin.velocities, elastic_, elastic_forces_}, work.begin.masses,
@@ -21,14 +21,13 @@ void EnergyProjection::begin(const StepContext& step, const WorkingState& work) 
 
 void EnergyProjection::project(const StepContext& step, WorkingState& work) {
   const StepEnd end{work.positions, work.velocities, elastic_, elastic_forces_};
-  const OutsideForces outside{outside_, outside_not_conservative_};
   evaluate_end(step, work);
   Positions& forces = work.residual;
-  balance_.balance(end, outside, step.time_step, step.settings.energy_projection, forces);
+  balance_.balance(end, outside_, step.time_step, step.settings.energy_projection, forces);
   step.system.solve(forces, direction_, step.threads);
   balance_.move(end, forces, direction_, step.system.inertia_weights(), work.positions);
   evaluate_end(step, work);
-  balance_.finish(end, outside, work.velocities);
+  balance_.finish(end, outside_, work.velocities);
   check_finite(step, work);
 
   const Real left = std::exp(-2 * step.settings.damping * step.time_step);  // by damping, of a vibration's energy
@@ -42,8 +41,8 @@ void EnergyProjection::project(const StepContext& step, WorkingState& work) {
 void EnergyProjection::evaluate_end(const StepContext& step, const WorkingState& work) {
   step.forces.evaluate_conservative(step.state, work.positions, work.velocities, step.time_step, step.system.order(),
                                     conservative_);
-  outside_not_conservative_ = work.not_conservative;
   outside_ = (work.forces - work.not_conservative + conservative_) / 2 + work.not_conservative;
+  step.system.freeze_shapes(work.positions, step.state, step.time_step);
   evaluate_elastic(step, work.positions);
 }
 
@@ -68,7 +67,6 @@ void EnergyProjection::add_external_groups(const System& system, const Positions
         for (std::size_t a = 0; a < row.size(); ++a) {
           const Vec3 force = row[a] * slot;
           outside_.row(stencil[a]) += force.transpose();
-          if (group->targets().empty()) outside_not_conservative_.row(stencil[a]) += force.transpose();
           elastic_forces_.row(stencil[a]) -= force.transpose();
         }
       }

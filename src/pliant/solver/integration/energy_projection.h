@@ -23,11 +23,10 @@ class EnergyProjection {
   void add_external_groups(const System& system, const Positions& q);
 
   EnergyBalance balance_;
-  std::vector<Real> elastic_;           // V of each component [J]
-  Positions elastic_forces_;            // −∇V
-  Positions outside_;                   // what else acts, and what of it is not conservative
-  Positions outside_not_conservative_;  //
-  Positions conservative_;              // forces at the end
+  std::vector<Real> elastic_;  // V of each component [J]
+  Positions elastic_forces_;   // −∇V
+  Positions outside_;          // what else acts
+  Positions conservative_;     // forces at the end
   Positions direction_;
   std::vector<Real> slots_;  // of a constraint
 };
