@@ -33,18 +33,18 @@ TARGETS = ["pliant", "pliant_io"]
 FILE_HEADERS = {"fstream", "filesystem", "cstdio"}
 
 # Folders outside the library; they use its public headers.
-USERS = ["apps", "benchmarks", "examples", "experiments", "python", "tests", "web"]
+USERS = ["apps", "examples", "experiments", "python", "tests", "web"]
 
 # Third-party headers by the start of their name, and the folders whose sources may include them. Only the first two are
 # known to the users of an installed library, so only they may stand in its public headers.
 THIRD_PARTY = {
-    "Eigen/": ["src", "apps", "benchmarks", "examples", "experiments", "python", "tests", "web"],
+    "Eigen/": ["src", "apps", "examples", "experiments", "python", "tests", "web"],
     "unsupported/Eigen/": [],
-    "fmt/": ["src", "apps", "benchmarks", "experiments", "tests"],
+    "fmt/": ["src", "apps", "experiments", "tests"],
     "nlohmann/": ["src/pliant_io", "apps", "tests"],
     "CLI/": ["apps"],
     "zlib": ["src/pliant_io/files"],
-    "cholmod": ["src/pliant/solver/global/factorization", "apps/bench", "benchmarks"],
+    "cholmod": ["src/pliant/solver/global/factorization", "apps/bench"],
     "epoxy/": ["apps/render"],
     "GLFW/": ["apps/viewer", "tests"],
     "imgui": ["apps/render", "apps/viewer"],

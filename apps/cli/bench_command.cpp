@@ -13,6 +13,7 @@
 #include "bench/solves.h"
 #include "choice_option.h"
 #include "commands.h"
+#include "interrupts.h"
 #include "pliant/core/printable.h"
 #include "pliant_io/files/atomic_file.h"
 #include "pliant_io/scene/nearest_names.h"

@@ -1,12 +1,24 @@
 #pragma once
 // The sub-commands of `pliant`, one file each. A sub-command adds itself to the program and, when it is chosen, leaves
 // its exit code in `exit_code`; errors are thrown to main.
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include <CLI/CLI.hpp>
 
 namespace pliant_cli {
 
+/// Whether bench, sweep and experiment are part of the program (PLIANT_BUILD_STUDIES).
+inline constexpr bool has_studies = PLIANT_HAS_STUDIES;
+inline constexpr std::array<std::string_view, 3> study_commands = {"bench", "sweep", "experiment"};
+
 inline constexpr int exit_interrupted = 130;
 inline constexpr std::size_t message_limit = 900;  // bytes of a message on the terminal
+
+/// Names of all experiments; there only with the studies.
+std::vector<std::string> experiment_names();
 
 void add_completion_command(CLI::App& program);
 void add_man_command(CLI::App& program);

@@ -7,6 +7,7 @@
 #include "bench/bench.h"
 #include "commands.h"
 #include "experiments.h"
+#include "interrupts.h"
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
 #include "pliant/core/stopwatch.h"
@@ -195,6 +196,12 @@ int run_experiments(const ExperimentArguments& arguments) {
 }
 
 }  // namespace
+
+std::vector<std::string> experiment_names() {
+  std::vector<std::string> names;
+  for (const Experiment& experiment : pliant_experiments::experiments()) names.emplace_back(experiment.name);
+  return names;
+}
 
 void add_experiment_command(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand(

@@ -23,11 +23,12 @@ namespace {
 std::string help_footer() {
   std::size_t width = 0;
   constexpr std::size_t widest = 48;
-  for (const auto& example : pliant_cli::program_examples) {
+  const auto examples = pliant_cli::program_examples();
+  for (const auto& example : examples) {
     if (example.command.size() <= widest) width = std::max(width, example.command.size());
   }
   std::string text = "Examples:\n";
-  for (const auto& [command, meaning] : pliant_cli::program_examples) {
+  for (const auto& [command, meaning] : examples) {
     text += fmt::format("  {:<{}}  {}\n", command, width, meaning);
   }
   text += "\nExit codes:";
@@ -87,6 +88,12 @@ void refuse_unknown_command(const pliant_cli::ProgramText& program, std::span<ch
   for (const pliant_cli::CommandText& command : program.commands) names.push_back(command.name);
   const std::string_view word = words[i];
   if (std::ranges::find(names, word) != names.end()) return;
+  if (std::ranges::find(pliant_cli::study_commands, word) != pliant_cli::study_commands.end()) {
+    pliant::fail_input(
+        fmt::format("this program was built without '{}'; build all of it: cmake --preset release && "
+                    "cmake --build --preset release",
+                    word));
+  }
   const std::string suggestion = pliant::did_you_mean(word, names);
   pliant::fail_input(fmt::format("unknown command '{}'{}", pliant::printable(word),
                                  suggestion.empty() ? "; see pliant --help" : suggestion));
@@ -126,14 +133,16 @@ std::string refusal_text(const CLI::App& program, const CLI::ParseError& error) 
 void add_commands(CLI::App& program, int& exit_code) {
   pliant_cli::add_run_command(program, exit_code);
   pliant_cli::add_resume_command(program, exit_code);
-  pliant_cli::add_sweep_command(program, exit_code);
-  pliant_cli::add_experiment_command(program, exit_code);
+  if constexpr (pliant_cli::has_studies) {
+    pliant_cli::add_sweep_command(program, exit_code);
+    pliant_cli::add_experiment_command(program, exit_code);
+  }
   pliant_cli::add_render_command(program, exit_code);
   pliant_cli::add_view_command(program, exit_code);
   pliant_cli::add_check_command(program);
   pliant_cli::add_convert_command(program);
   pliant_cli::add_info_command(program);
-  pliant_cli::add_bench_command(program);
+  if constexpr (pliant_cli::has_studies) pliant_cli::add_bench_command(program);
   pliant_cli::add_scenes_command(program);
   pliant_cli::add_schema_command(program);
   pliant_cli::add_completion_command(program);

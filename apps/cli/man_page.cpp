@@ -118,7 +118,7 @@ std::string man_page(const ProgramText& program) {
   out += ".SH EXIT STATUS\n";
   for (const auto& [code, meaning] : exit_codes) out += fmt::format(".TP\n\\fB{}\\fP\n{}\n", code, roff(meaning));
   out += std::string(files_and_environment) + ".SH EXAMPLES\n";
-  for (const auto& [command, text] : program_examples)
+  for (const auto& [command, text] : program_examples())
     out += fmt::format(".TP\n\\fB{}\\fP\n{}\n", roff(command), roff(text));
   return out + ".SH SEE ALSO\n\\fBffmpeg\\fP(1), which makes the films of \\fBpliant render\\fP\n";
 }

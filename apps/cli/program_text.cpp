@@ -1,14 +1,32 @@
 #include "program_text.h"
 
 #include <algorithm>
+#include <array>
+#include <iterator>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
-#include "experiments.h"
+#include "commands.h"
 #include "pliant_io/scene/builtin_scenes.h"
 
 namespace pliant_cli {
 namespace {
+
+constexpr std::array<Example, 12> all_examples = {{
+    {"pliant scenes", "lists the built-in scenes"},
+    {"pliant run curtain_wind --out out/curtain", "simulates one of them"},
+    {"pliant run shirt.obj --up y", "simulates a mesh of your own, as cloth"},
+    {"pliant check my_scene.json", "says what is in a scene of your own, and what is wrong with it"},
+    {"pliant resume out/curtain --steps 900", "continues a run, up to step 900"},
+    {"pliant view curtain_wind", "opens a window in which you can pull at it"},
+    {"pliant render curtain_wind --out curtain.mp4", "makes a film, without a display"},
+    {"pliant convert out/curtain curtain.glb", "exports a run as an animation"},
+    {"pliant sweep curtain --vary settings.iterations=5,10,20 --out out/sweep", "runs and compares all of these"},
+    {"pliant experiment all --out report", "repeats the experiments of the thesis, with figures and verdicts"},
+    {"pliant info shirt.ply", "describes a mesh and what is wrong with it"},
+    {"pliant bench", "measures how fast this machine is, part by part"},
+}};
 
 /// "TEXT:{npy,pc2}" → npy, pc2.
 std::vector<std::string> choices_of(const std::string& type) {
@@ -60,13 +78,25 @@ ProgramText describe_program(const CLI::App& program) {
   return text;
 }
 
+std::vector<Example> program_examples() {
+  std::vector<Example> examples(all_examples.begin(), all_examples.end());
+  if constexpr (!has_studies) {
+    std::erase_if(examples, [](const Example& example) {
+      return std::ranges::any_of(study_commands, [&](std::string_view name) {
+        return example.command.starts_with(fmt::format("pliant {}", name));
+      });
+    });
+  }
+  return examples;
+}
+
 std::vector<std::string> known_values(const OptionText& argument) {
   std::vector<std::string> values = argument.choices;
   if (argument.names.front() == "scene") {
     for (const pliant::BuiltinScene& scene : pliant::builtin_scenes()) values.emplace_back(scene.name);
   } else if (argument.names.front() == "experiments") {
     values.emplace_back("all");
-    for (const auto& experiment : pliant_experiments::experiments()) values.emplace_back(experiment.name);
+    if constexpr (has_studies) std::ranges::copy(experiment_names(), std::back_inserter(values));
   }
   return values;
 }

@@ -25,20 +25,8 @@ struct Example {
   std::string_view command;
   std::string_view text;
 };
-inline constexpr std::array<Example, 12> program_examples = {{
-    {"pliant scenes", "lists the built-in scenes"},
-    {"pliant run curtain_wind --out out/curtain", "simulates one of them"},
-    {"pliant run shirt.obj --up y", "simulates a mesh of your own, as cloth"},
-    {"pliant check my_scene.json", "says what is in a scene of your own, and what is wrong with it"},
-    {"pliant resume out/curtain --steps 900", "continues a run, up to step 900"},
-    {"pliant view curtain_wind", "opens a window in which you can pull at it"},
-    {"pliant render curtain_wind --out curtain.mp4", "makes a film, without a display"},
-    {"pliant convert out/curtain curtain.glb", "exports a run as an animation"},
-    {"pliant sweep curtain --vary settings.iterations=5,10,20 --out out/sweep", "runs and compares all of these"},
-    {"pliant experiment all --out report", "repeats the experiments of the thesis, with figures and verdicts"},
-    {"pliant info shirt.ply", "describes a mesh and what is wrong with it"},
-    {"pliant bench", "measures how fast this machine is, part by part"},
-}};
+/// What one may try; of commands that this program has.
+std::vector<Example> program_examples();
 
 /// An option, or a positional argument.
 struct OptionText {

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "commands.h"
+#include "interrupts.h"
 #include "number_option.h"
 #include "pliant/core/printable.h"
 #include "pliant_io/checkpoint/checkpoint.h"

@@ -10,6 +10,7 @@
 #include "appearance_options.h"
 #include "commands.h"
 #include "import_options.h"
+#include "interrupts.h"
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
 #include "pliant_io/files/atomic_file.h"

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "commands.h"
+#include "interrupts.h"
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
 #include "pliant_io/checkpoint/checkpoint.h"
@@ -14,7 +15,6 @@
 #include "recording.h"
 #include "scene_options.h"
 #include "system/folder_lock.h"
-#include "terminal.h"
 
 namespace pliant_cli {
 namespace {

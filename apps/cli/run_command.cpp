@@ -7,6 +7,7 @@
 
 #include "commands.h"
 #include "import_options.h"
+#include "interrupts.h"
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
 #include "pliant_io/recorder/recorder.h"
@@ -14,7 +15,6 @@
 #include "recording.h"
 #include "scene_options.h"
 #include "system/folder_lock.h"
-#include "terminal.h"
 
 namespace pliant_cli {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "commands.h"
 #include "import_options.h"
+#include "interrupts.h"
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
 #include "progress.h"

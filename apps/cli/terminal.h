@@ -1,5 +1,5 @@
 #pragma once
-// What depends on the operating system: signals, terminals and the three standard streams.
+// What depends on the operating system: terminals, the three standard streams and memory.
 #include <array>
 #include <optional>
 #include <string>
@@ -19,16 +19,6 @@ void limit_memory();
 void print_to_stderr(std::string_view text);
 /// A line of progress begins with this: it takes the place of the line before.
 inline constexpr std::string_view rewritten_line = "\r\x1b[K";
-
-/// From now on an interrupt ends the program at once, with the exit code of interrupts: nothing has to be finished.
-void end_at_interrupts();
-
-/// From now on the first SIGINT, SIGTERM, SIGHUP or SIGXCPU only raises a flag; a second one ends the program.
-void catch_interrupts();
-bool was_interrupted();
-/// Whether that was longer ago than a step may take that is to be finished.
-bool waits_no_longer();
-inline constexpr unsigned patience = 2;  // [s]
 
 /// Whether what is printed has colors: where people read it on a terminal, always, or never. Without a choice NO_COLOR
 /// (no-color.org) and TERM=dumb say never.

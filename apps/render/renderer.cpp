@@ -13,6 +13,8 @@ constexpr float rope_width = 3.5F;         // pixels of a picture of 720 rows
 constexpr float rope_shadow_width = 1.5F;  // texels of the mask
 constexpr float edge_width = 1.0F;
 constexpr float marker_radius = 5.0F;
+const Vec3f pin_color(0.86F, 0.10F, 0.13F);  // and of vertices under a test force
+const Vec3f edge_color(0.10F, 0.11F, 0.14F);
 constexpr int ground_rings = 24;
 constexpr int ground_sectors = 48;
 constexpr float shadow_darkness = 0.34F;
@@ -262,7 +264,7 @@ void Renderer::draw_lines(const pliant::ViewSettings& appearance, const DrawOpti
   };
   draw_list(ropes_array_, count_of(render_mesh_.ropes), rope_width, 1, tone_of(appearance.front), true);
   if (appearance.wireframe) {
-    draw_list(edges_array_, count_of(render_mesh_.edges), edge_width, 0.55F, Vec3f(0.10F, 0.11F, 0.14F), false);
+    draw_list(edges_array_, count_of(render_mesh_.edges), edge_width, 0.55F, edge_color, false);
   }
 }
 
@@ -273,7 +275,7 @@ void Renderer::draw_markers(const DrawOptions& options, const Mat4f& camera, con
   marker_.set("picture", picture);
   marker_.set("lift", depth_shift(options.viewpoint, bounds_, 4 * lift * bounds_.radius()));
   marker_.set("radius", marker_radius * options.scale);
-  marker_.set("tone", Vec3f(0.86F, 0.10F, 0.13F));
+  marker_.set("tone", pin_color);
   glBindVertexArray(markers_array_.id());
   glDrawElements(GL_POINTS, marker_count_, GL_UNSIGNED_INT, nullptr);
 }
