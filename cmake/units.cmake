@@ -18,8 +18,8 @@ function(pliant_units target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
 endfunction()
 
-# pliant_quick_to_compile(TARGET): of what spends its time in files, in drawing or in the algorithm's own library. -O3 would
-# make it a third longer to compile, and no faster.
+# pliant_quick_to_compile(TARGET): of what draws, asks or reports, whose time goes into the libraries. -O3 would make it a
+# quarter longer to compile, and no faster.
 function(pliant_quick_to_compile target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()

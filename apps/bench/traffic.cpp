@@ -33,7 +33,7 @@ Traffic traffic_of(const Simulation& simulation, const SystemInfo& info) {
   const std::int64_t m = simulation.state().vertex_count();
   Traffic traffic;
   traffic.projections = constraints + m * point + info.local_list_bytes + info.partial_bytes;
-  // q, s, M/h² and the mark of held vertices in, r out
+  // q, s, M/h² and the mark of pinned vertices in, r out
   traffic.gather = info.partial_list_bytes + info.partial_bytes + m * (2 * point + real + 1 + point);
   const std::int64_t lanes = 4 * (info.precision == Precision::mixed ? 4 : 8);  // of a vertex in a substitution
   traffic.substitution = info.substitution_bytes + m * (2 * lanes + point + index);

@@ -37,7 +37,7 @@ MassSpring mass_spring(const pliant::Simulation& simulation);
 /// One step of implicit Euler: q minimizes E(q) = 1/(2h²) ‖M^½ (q − s)‖² + Σ w/2 ‖z − p(z)‖².
 struct EulerStep {
   double time_step = 0;         ///< h [s]
-  pliant::Positions predicted;  ///< s = qₙ + h vₙ + h² M⁻¹ f, m × 3 [m]; held vertices stand still
+  pliant::Positions predicted;  ///< s = qₙ + h vₙ + h² M⁻¹ f, m × 3 [m]; pinned vertices stand still
 };
 
 /// The next step of a simulation, with its state and its forces as they are now.
@@ -46,7 +46,7 @@ EulerStep next_step(const pliant::Simulation& simulation, const MassSpring& mode
 /// E(q) [J]
 double objective(const MassSpring& model, const EulerStep& step, const pliant::Positions& q);
 
-/// ∇E(q), m × 3 [N]; zero on held vertices.
+/// ∇E(q), m × 3 [N]; zero on pinned vertices.
 pliant::Positions gradient(const MassSpring& model, const EulerStep& step, const pliant::Positions& q);
 
 }  // namespace pliant_experiments

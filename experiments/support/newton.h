@@ -41,7 +41,7 @@ class Newton {
   /// Iterates until q moves no further, at most `most` times. Returns how often.
   int minimize(const EulerStep& step, pliant::Positions& q, int most);
 
-  /// The Hessian of E at q, 3m × 3m, lower triangle, as it is or without negative terms; rows and columns of held
+  /// The Hessian of E at q, 3m × 3m, lower triangle, as it is or without negative terms; rows and columns of pinned
   /// vertices are those of the identity.
   const Eigen::SparseMatrix<double>& assemble(const EulerStep& step, const pliant::Positions& q, Curvature curvature);
 

@@ -38,7 +38,7 @@ class Xpbd {
   MassSpring model_;
   XpbdOptions options_;
   double time_step_;
-  std::vector<double> inverse_masses_;  // [1/kg], 0 for held vertices
+  std::vector<double> inverse_masses_;  // [1/kg], 0 for pinned vertices
   pliant::Positions accelerations_, positions_, velocities_, before_;
   std::vector<double> multipliers_;  // λ of each spring [N s²], since the start of the substep
 };

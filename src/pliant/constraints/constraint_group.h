@@ -52,7 +52,7 @@ class ConstraintGroup {
   /// coefficient. For groups with at most max_force_rows rows.
   virtual Real project_to_forces(const Positions& positions, std::span<Real> out, Index begin, Index end) const;
 
-  /// Vertices that the group holds exactly (hard pins). They leave the system of equations; vertex i of them stands at
+  /// Vertices that the group pins exactly (hard pins). They leave the system of equations; vertex i of them stands at
   /// the point i of targets().
   virtual std::span<const Index> pinned_vertices() const;
   /// Points in space that may be moved while the simulation runs, count × 3; empty for a type that has none.
@@ -64,8 +64,8 @@ class ConstraintGroup {
   virtual bool is_external();
 
   /// Moves the guess that a step begins with, q = s of every vertex, to where this group and the inertia M/η² [N/m] of
-  /// each vertex (0: it is held) would have it. A group that a force brings says so: s has every other force in it, and
-  /// few iterations are not to find out about this one.
+  /// each vertex (0: it is pinned) would have it. A group that a force brings says so: s has every other force in it,
+  /// and few iterations are not to find out about this one.
   virtual void move_guess(Positions& q, std::span<const Real> inertia) const;
 
   /// The point of constraint i that its builder puts where the vertices are, unless it is told where: a target, the
@@ -89,7 +89,7 @@ class ConstraintGroup {
   /// A changed stiffness is taken up at the next step, with one numeric factorization. Refuses what is not positive.
   void set_stiffness(Real stiffness);
 
-  /// Raised whenever stencil, reduction, measure or the held vertices change: the matrix is then summed anew.
+  /// Raised whenever stencil, reduction, measure or the pinned vertices change: the matrix is then summed anew.
   std::uint64_t revision() const { return revision_; }
 
  protected:
@@ -119,7 +119,7 @@ inline Real project_to_slots(const ConstraintGroup& group, const Positions& posi
 
 /// Throws Error(input), naming the constraint and the remedy, on a group that does not keep to its own shape: lists of
 /// the wrong length, a vertex out of range or twice in a stencil, a coefficient that is not finite, a measure that is
-/// not positive, a held vertex without a target.
+/// not positive, a pinned vertex without a target.
 void check_group(ConstraintGroup& group, Index vertex_count, std::string_view name);
 
 }  // namespace pliant

@@ -1,5 +1,5 @@
 #pragma once
-// One exception type for everything a user can mend. The message is one line: what, where, remedy.
+// One exception type for everything a user can fix. The message is one line: what, where, remedy.
 #include <stdexcept>
 #include <string>
 #include <utility>

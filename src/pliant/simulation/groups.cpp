@@ -10,8 +10,8 @@ namespace {
 
 /// Constraints that the set has in a batch, hard pins included.
 std::size_t count_of(const ConstraintGroup& batch) {
-  const std::size_t held = batch.pinned_vertices().size();
-  return held > 0 ? held : batch.rest_measure().size();
+  const std::size_t pinned = batch.pinned_vertices().size();
+  return pinned > 0 ? pinned : batch.rest_measure().size();
 }
 
 /// What makes a constraint the same one in another set: its vertices and their coefficients.

@@ -65,7 +65,8 @@ int create_locked(const fs::path& path) {
   return -1;
 }
 
-/// Removes a temporary that no process writes any more. The lock is held meanwhile, so that the name stays that file's.
+/// Removes a temporary that no process writes any longer. The lock is held meanwhile, so that the name stays that
+/// file's.
 bool remove_if_left(const fs::path& path) {
   const int file = open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (file < 0) return false;

@@ -9,7 +9,7 @@ namespace pliant {
 namespace {
 
 /// Past this, single precision would cost iterations: what a solve gets wrong can be a motion that is soft against the
-/// one asked for, and so one that the iterations mend slowly.
+/// one asked for, and so one that the iterations correct slowly.
 constexpr Real largest_contraction = 0.01;
 constexpr int power_iterations = 4;
 

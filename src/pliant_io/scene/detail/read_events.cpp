@@ -246,8 +246,9 @@ Timeline::Edit EventReader::read_remove(const Node& node) {
 std::vector<Index> pinned_vertices(const Simulation& simulation, const Group& group) {
   std::vector<Index> vertices;
   for (const auto& batch : group.set.batches) {
-    const std::span<const Index> held = batch->pinned_vertices().empty() ? batch->stencil() : batch->pinned_vertices();
-    vertices.insert(vertices.end(), held.begin(), held.end());
+    const std::span<const Index> pinned =
+        batch->pinned_vertices().empty() ? batch->stencil() : batch->pinned_vertices();
+    vertices.insert(vertices.end(), pinned.begin(), pinned.end());
   }
   for (Index& vertex : vertices) vertex -= simulation.body(group.body).first_vertex;
   return vertices;
@@ -258,23 +259,23 @@ bool contains(const std::vector<Index>& sorted, Index number) {
 }
 
 /// Which of these a selection holds; of a list, all of them must be there.
-std::vector<Index> read_released(const Node& node, const SceneBody& body, const std::vector<Index>& held) {
+std::vector<Index> read_released(const Node& node, const SceneBody& body, const std::vector<Index>& pinned) {
   Selection selection = read_selection(node, body);
-  if (selection.everything) return held;
+  if (selection.everything) return pinned;
   if (node.is_list()) return selection.vertices;
   std::ranges::sort(selection.vertices);
   std::vector<Index> released;
-  std::ranges::copy_if(held, std::back_inserter(released), [&](Index v) { return contains(selection.vertices, v); });
+  std::ranges::copy_if(pinned, std::back_inserter(released), [&](Index v) { return contains(selection.vertices, v); });
   if (released.empty()) node.fail("the group holds none of these vertices; select others");
   return released;
 }
 
 /// The same by the numbers of constraints.
-std::vector<Index> read_released_numbers(const Node& node, const Group& group, const std::vector<Index>& held) {
+std::vector<Index> read_released_numbers(const Node& node, const Group& group, const std::vector<Index>& pinned) {
   ConstraintNumbers numbers;
   read(node, numbers);
   std::map<Index, Index> vertices;  // by number
-  for (std::size_t i = 0; i < held.size(); ++i) vertices.emplace(group.points[i], held[i]);
+  for (std::size_t i = 0; i < pinned.size(); ++i) vertices.emplace(group.points[i], pinned[i]);
   for (Index& number : numbers) {
     const auto found = vertices.find(number);
     if (found == vertices.end()) {
@@ -287,13 +288,13 @@ std::vector<Index> read_released_numbers(const Node& node, const Group& group, c
 }
 
 /// Positions without those of some vertices.
-void leave_out(std::vector<Index> released, const std::vector<Index>& held, Position& options) {
+void leave_out(std::vector<Index> released, const std::vector<Index>& pinned, Position& options) {
   std::ranges::sort(released);
   Stencils stencils;
   std::vector<Real> stiffness;
-  for (std::size_t i = 0; i < held.size(); ++i) {
-    if (contains(released, held[i])) continue;
-    stencils.add({held[i]});
+  for (std::size_t i = 0; i < pinned.size(); ++i) {
+    if (contains(released, pinned[i])) continue;
+    stencils.add({pinned[i]});
     if (options.stiffness.each()) stiffness.push_back(options.stiffness[static_cast<Index>(i)]);
   }
   options.on = stencils.empty() ? Selection(std::vector<Index>{}) : Selection();
@@ -312,12 +313,12 @@ Timeline::Edit EventReader::read_release(const Node& node) {
                           printable(name), type_of(entry.options)));
   }
   const Group& group = scene_.simulation.groups().at(find_group(scene_.simulation, name));
-  const std::vector<Index> held = pinned_vertices(scene_.simulation, group);
+  const std::vector<Index> pinned = pinned_vertices(scene_.simulation, group);
   const std::string_view key = node_.require_one_of({"vertices", "index"});
   const std::vector<Index> released = key == "vertices"
-                                          ? read_released(node_.require(key), scene_.body(entry.body), held)
-                                          : read_released_numbers(node_.require(key), group, held);
-  leave_out(released, held, *options);
+                                          ? read_released(node_.require(key), scene_.body(entry.body), pinned)
+                                          : read_released_numbers(node_.require(key), group, pinned);
+  leave_out(released, pinned, *options);
   return [name, released](Simulation& simulation, Timeline&) {
     simulation.release(find_group(simulation, name), released);
   };

@@ -21,7 +21,7 @@ class SceneFiles {
 /// @throws Error (input) with the place of a value that is no text, is empty or has a character that no path can have.
 std::filesystem::path read_path(const Node& node);
 
-/// The same path from the root, without . and ..; as it is where there is no current folder any more.
+/// The same path from the root, without . and ..; as it is where there is no current folder any longer.
 std::filesystem::path absolute_path(const std::filesystem::path& path);
 
 /// A file that a value names, with its path.
