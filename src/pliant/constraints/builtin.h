@@ -16,13 +16,35 @@
 
 namespace pliant {
 
+// An entry a line.
+// clang-format off
+
 /// What a user asks for.
-using BuiltinConstraints =
-    std::tuple<Position, Line, EdgeSpring, EdgeStrain, Bending, HingeBending, TriangleStrain, TetrahedronStrain, Drag>;
+using BuiltinConstraints = std::tuple<
+    Position,
+    Line,
+    EdgeSpring,
+    EdgeStrain,
+    Bending,
+    HingeBending,
+    TriangleStrain,
+    TetrahedronStrain,
+    Drag>;
 
 /// What projects.
-using BuiltinProjections = std::tuple<PositionProjection, LineProjection, EdgeSpringProjection, EdgeStrainProjection,
-                                      FlatCurvature, AbsoluteCurvature, SignedFanCurvature, SignedHingeCurvature,
-                                      TriangleStrainProjection, TetrahedronStrainProjection, DragProjection>;
+using BuiltinProjections = std::tuple<
+    PositionProjection,
+    LineProjection,
+    EdgeSpringProjection,
+    EdgeStrainProjection,
+    FlatCurvature,
+    AbsoluteCurvature,
+    SignedFanCurvature,
+    SignedHingeCurvature,
+    TriangleStrainProjection,
+    TetrahedronStrainProjection,
+    DragProjection>;
+
+// clang-format on
 
 }  // namespace pliant
