@@ -10,6 +10,7 @@
 #include "pliant/constraints/edge_strain.h"
 #include "pliant/constraints/hinge.h"
 #include "pliant/constraints/line.h"
+#include "pliant/constraints/slide.h"
 #include "pliant/constraints/position.h"
 #include "pliant/constraints/tetrahedron_strain.h"
 #include "pliant/constraints/triangle_strain.h"
@@ -23,6 +24,7 @@ namespace pliant {
 using BuiltinConstraints = std::tuple<
     Position,
     Line,
+    Slide,
     EdgeSpring,
     EdgeStrain,
     Bending,
@@ -35,6 +37,7 @@ using BuiltinConstraints = std::tuple<
 using BuiltinProjections = std::tuple<
     PositionProjection,
     LineProjection,
+    SlideProjection,
     EdgeSpringProjection,
     EdgeStrainProjection,
     FlatCurvature,
