@@ -10,7 +10,6 @@
 #include "pliant/constraints/edge_strain.h"
 #include "pliant/constraints/hinge.h"
 #include "pliant/constraints/line.h"
-#include "pliant/constraints/slide.h"
 #include "pliant/constraints/position.h"
 #include "pliant/constraints/tetrahedron_strain.h"
 #include "pliant/constraints/triangle_strain.h"
@@ -24,7 +23,6 @@ namespace pliant {
 using BuiltinConstraints = std::tuple<
     Position,
     Line,
-    Slide,
     EdgeSpring,
     EdgeStrain,
     Bending,
@@ -37,7 +35,6 @@ using BuiltinConstraints = std::tuple<
 using BuiltinProjections = std::tuple<
     PositionProjection,
     LineProjection,
-    SlideProjection,
     EdgeSpringProjection,
     EdgeStrainProjection,
     FlatCurvature,
