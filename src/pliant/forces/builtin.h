@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "pliant/forces/gravity.h"
+#include "pliant/forces/harmonic_trap.h"
 #include "pliant/forces/mouse_spring.h"
 #include "pliant/forces/pressure.h"
 #include "pliant/forces/test_force.h"
@@ -11,6 +12,6 @@
 
 namespace pliant {
 
-using BuiltinForces = std::tuple<Wind, TestForce, MouseSpring, Pressure, Gravity>;
+using BuiltinForces = std::tuple<Wind, TestForce, MouseSpring, Pressure, Gravity, HarmonicTrap>;
 
 }  // namespace pliant
