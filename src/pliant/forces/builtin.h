@@ -4,7 +4,6 @@
 #include <tuple>
 
 #include "pliant/forces/gravity.h"
-#include "pliant/forces/harmonic_trap.h"
 #include "pliant/forces/mouse_spring.h"
 #include "pliant/forces/pressure.h"
 #include "pliant/forces/test_force.h"
@@ -12,6 +11,6 @@
 
 namespace pliant {
 
-using BuiltinForces = std::tuple<Wind, TestForce, MouseSpring, Pressure, Gravity, HarmonicTrap>;
+using BuiltinForces = std::tuple<Wind, TestForce, MouseSpring, Pressure, Gravity>;
 
 }  // namespace pliant
