@@ -13,7 +13,6 @@
 #include "pliant_io/mesh/obj.h"
 #include "pliant_io/mesh/off.h"
 #include "pliant_io/mesh/ply.h"
-#include "pliant_io/mesh/raw.h"
 #include "pliant_io/mesh/stl.h"
 #include "pliant_io/mesh/tetgen.h"
 
@@ -32,7 +31,6 @@ constexpr MeshFormat formats[] = {
     {"stl", {"stl"}, read_stl, write_stl},
     {"gmsh", {"msh"}, read_gmsh, write_gmsh},
     {"medit", {"mesh"}, read_medit, write_medit},
-    {"raw", {"raw"}, read_raw, write_raw},
     {"tetgen", {"node", "ele"}, read_tetgen, nullptr, read_tetgen_pair},
 };
 
