@@ -14,7 +14,7 @@ namespace {
 constexpr std::array interrupts = {SIGINT, SIGTERM, SIGHUP, SIGXCPU};
 
 // A handler may run on any thread.
-std::atomic<int> interrupted = 0;
+std::atomic<int> interrupt_flag = 0;
 std::atomic<int> patience_ended = 0;
 static_assert(std::atomic<int>::is_always_lock_free);
 
@@ -23,7 +23,7 @@ extern "C" void on_alarm(int) {
 }
 
 extern "C" void on_interrupt(int) {
-  if (interrupted.exchange(1) != 0) return;  // SIGXCPU comes every second
+  if (interrupt_flag.exchange(1) != 0) return;  // SIGXCPU comes every second
   alarm(patience);
   for (const int number : interrupts) {
     if (number != SIGXCPU) std::signal(number, SIG_DFL);
@@ -60,7 +60,7 @@ void catch_interrupts() {
 }
 
 bool was_interrupted() {
-  return interrupted != 0;
+  return interrupt_flag != 0;
 }
 
 bool waits_no_longer() {
