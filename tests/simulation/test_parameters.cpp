@@ -97,7 +97,8 @@ TEST_CASE("every number, choice and vector of every type is a parameter") {
   std::size_t count = options_of(simulation, {}).size();
   CHECK(count == 12);
   for (const auto& [id, group] : simulation.groups()) {
-    CAPTURE(group.type);
+    const std::string& group_type = group.type;  // a lambda of clang 14 captures no structured binding
+    CAPTURE(group_type);
     const Names names = options_of(simulation, id);
     count += names.size();
     if (group.type == "position") {  // hard pins have no stiffness
