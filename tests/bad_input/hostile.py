@@ -33,6 +33,7 @@ CLOCK_FACTOR = 6
 START_UP = 0.3  # [s] of work in which the program may not yet have said what an interrupt does
 LONGEST_LINE = 1000  # characters
 MEMORY_FACTOR = 10  # times the input
+JSON_MEMORY_FACTOR = 25  # where it is all JSON: a value of 3 characters, "{},", takes up to 70 bytes (json_text.h)
 MEMORY_CONSTANT = 64 << 20  # [bytes], above the program's own
 # Past so many cases of a test, one in so many is run; a sanitized program takes ten times as long. HOSTILE_ALL=1: all.
 DENSE_CASES, STRIDE = 150, 3
@@ -67,6 +68,7 @@ class Case:
     streams: dict = dataclasses.field(default_factory=dict)  # stdin, stdout, stderr, as subprocess takes them
     interrupt_after: float = None  # [s]; SIGINT is sent then
     input_size: int = None  # [bytes]; default: that of the files
+    memory_factor: int = MEMORY_FACTOR
     plain_only: bool = False  # means nothing under a sanitizer, such as a memory limit
     out: str = "out"  # the folder of the run
 
@@ -262,7 +264,7 @@ def complain_of_ending(ending, case, input_size, own):
         yield f"exit code {ending.code}, not one of {case.expect}"
     if ending.code < 0 or "stderr" not in case.streams:
         yield from complain_of_lines(ending, case)
-    limit = MEMORY_FACTOR * input_size + max(program_peak(), own) + MEMORY_CONSTANT
+    limit = case.memory_factor * input_size + max(program_peak(), own) + MEMORY_CONSTANT
     if ending.peak > limit and not is_sanitized():
         yield f"{ending.peak >> 20} MiB of memory for {input_size} bytes of input"
 

@@ -2,7 +2,7 @@
 import random
 
 import hostile
-from hostile import DONE, INPUT, HostileTest, run_scene_case
+from hostile import DONE, INPUT, JSON_MEMORY_FACTOR, HostileTest, run_scene_case
 
 SMALL = """{
   "pliant": 1, "steps": 1,
@@ -176,7 +176,8 @@ class SceneSyntax(HostileTest):
         self.attack([run_scene_case("closed again", "[" * BRACKETS + "]" * BRACKETS, expect=(INPUT,))])
 
     def test_big(self):
-        self.attack(run_scene_case(name, make(), expect=(INPUT,)) for name, make in BIG)
+        self.attack(run_scene_case(name, make(), expect=(INPUT,), memory_factor=JSON_MEMORY_FACTOR)
+                    for name, make in BIG)
 
 
 if __name__ == "__main__":
