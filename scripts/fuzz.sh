@@ -2,13 +2,13 @@
 # Builds the fuzz targets (fuzz/fuzz_*.cpp) and runs each on mutations of its seeds.
 #   scripts/fuzz.sh [SECONDS] [TARGET...]   seconds for each target, default 10; all targets when none is named
 # What was learned stays in build/fuzz/corpus/, so a later run goes on from there; an input that breaks a promise is
-# kept as build/fuzz/found/TARGET-*. Mend the cause, and add the input to the tests.
+# kept as build/fuzz/found/TARGET-*. Fix the cause, and add the input to the tests.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 seconds="${1:-10}"
 shift || true
 if ! [[ "$seconds" =~ ^[1-9][0-9]*$ ]]; then
-  echo "fuzz.sh: '$seconds' is no number of seconds; usage: scripts/fuzz.sh [SECONDS] [TARGET...]" >&2
+  echo "fuzz.sh: '$seconds' is not a number of seconds; usage: scripts/fuzz.sh [SECONDS] [TARGET...]" >&2
   exit 2
 fi
 

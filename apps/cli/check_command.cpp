@@ -127,8 +127,12 @@ std::vector<std::string> warnings_of(const Simulation& simulation, const SystemI
       warnings.push_back(fmt::format("and {} more components that nothing holds", info.free_components.size() - shown));
       break;
     }
-    warnings.push_back(fmt::format("nothing holds the {} vertices from vertex {} of '{}' on: they will move freely",
-                                   component.vertex_count, component.first_vertex - owner->first_vertex, owner->name));
+    const Index first = component.first_vertex - owner->first_vertex;
+    warnings.push_back(
+        component.vertex_count == 1
+            ? fmt::format("nothing holds vertex {} of '{}': it will move freely", first, owner->name)
+            : fmt::format("nothing holds the {} vertices from vertex {} of '{}' on: they will move freely",
+                          component.vertex_count, first, owner->name));
   }
   return warnings;
 }

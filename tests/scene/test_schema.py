@@ -6,6 +6,7 @@ import pathlib
 import re
 import subprocess
 import sys
+import tempfile
 import unittest
 
 try:
@@ -71,9 +72,10 @@ def changed(path, value):
 
 
 def check(scene):
-    path = pathlib.Path("schema_scene.json")
-    path.write_text(json.dumps(scene))
-    return subprocess.run([PLIANT, "check", path], capture_output=True, text=True)
+    with tempfile.TemporaryDirectory(prefix="pliant-") as folder:
+        path = pathlib.Path(folder) / "scene.json"
+        path.write_text(json.dumps(scene))
+        return subprocess.run([PLIANT, "check", path], capture_output=True, text=True)
 
 
 class Schema(unittest.TestCase):
