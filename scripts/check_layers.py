@@ -13,6 +13,7 @@ from pathlib import Path
 LAYERS = {
     "pliant/core": [],
     "pliant/mesh": ["pliant/core"],
+    "pliant/collision": ["pliant/core", "pliant/mesh"],
     "pliant/constraints": ["pliant/core", "pliant/mesh"],
     "pliant/forces": ["pliant/core", "pliant/mesh", "pliant/constraints/constraint_group.h", "pliant/constraints/batch.h",
                       "pliant/constraints/reorder.h"],
@@ -168,6 +169,8 @@ SELF_TEST = [
     ("src/pliant_io/mesh/a.cpp", '"pliant/core/b.h"', False),
     ("src/pliant_io/mesh/a.cpp", '"pliant/constraints/b.h"', False),
     ("src/pliant/mesh/a.cpp", '"pliant/pliant.h"', True),
+    ("src/pliant/collision/a.h", '"pliant/mesh/b.h"', False),
+    ("src/pliant/collision/a.cpp", '"pliant/solver/b.h"', True),
     ("src/pliant/constraints/a.h", '"pliant/mesh/b.h"', False),
     ("src/pliant/constraints/a.h", '"pliant/forces/b.h"', True),
     ("src/pliant/constraints/a.h", '"pliant/solver/b.h"', True),
