@@ -9,6 +9,7 @@
 #include <sys/resource.h>
 
 #include "commands.h"
+#include "crossing_texts.h"
 #include "import_options.h"
 #include "pliant/core/printable.h"
 #include "pliant/mesh/geometry.h"
@@ -134,6 +135,7 @@ std::vector<std::string> warnings_of(const Simulation& simulation, const SystemI
             : fmt::format("nothing holds the {} vertices from vertex {} of '{}' on: they will move freely",
                           component.vertex_count, first, owner->name));
   }
+  for (std::string& warning : crossing_warnings(simulation)) warnings.push_back(std::move(warning));
   return warnings;
 }
 

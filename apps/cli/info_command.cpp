@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "crossing_texts.h"
 #include "import_options.h"
 #include "pliant/core/printable.h"
 #include "pliant/mesh/diagnosis.h"
@@ -33,6 +34,21 @@ struct InfoOptions {
   bool json = false;             ///< print one JSON object in place of the text
 };
 
+/// Where the mesh passes through itself, told like a defect.
+struct SelfCrossings {
+  bool is_complete = true;  ///< all were looked for
+  std::int64_t count = 0;
+  std::string elements;      ///< of the first one, say "triangles 17 and 402"
+  pliant::Vec3 point;        ///< of the first one [m]
+  std::string_view element;  ///< what has two numbers in `first`
+  std::vector<std::array<Index, 2>>
+      first;  ///< the first ones: two triangles each; of tetrahedra, an edge of the surface
+
+  static constexpr pliant::DefectEffect effect = pliant::DefectEffect::harmless;
+  static constexpr std::string_view meaning = "it simulates all the same; in pictures one side comes through the other";
+  static constexpr std::string_view remedy = "move the two sides apart, unless meant";
+};
+
 /// Everything that is printed. The mesh itself is not kept: a diagnosis needs the memory.
 struct Info {
   std::string file;
@@ -42,6 +58,7 @@ struct Info {
   Index texture_coordinate_count = 0;
   std::vector<std::string> maps;
   Diagnosis diagnosis;
+  SelfCrossings self_crossings;
   pliant::Real scale = 1;  ///< that it was read with
 };
 
@@ -87,6 +104,28 @@ std::optional<SuspectedUnit> suspect_unit(const Diagnosis& d, pliant::Real scale
   return {};
 }
 
+SelfCrossings find_self_crossings(const pliant::Mesh& mesh) {
+  const std::vector<pliant::Triangle> triangles = pliant::surface_triangles(mesh);
+  SelfCrossings result;
+  result.is_complete = may_be_surface(triangles.size(), mesh.vertex_count());
+  if (!result.is_complete) return result;
+  const pliant::Crossings found = pliant::find_crossings(
+      {.positions = mesh.vertices, .triangles = triangles, .most_effort = crossing_effort(triangles.size())},
+      Defect::max_listed);
+  result.is_complete = found.is_complete;
+  if (found.count == 0) return result;
+  const CrossingBody body{.is_solid = mesh.triangles.empty()};
+  result.count = found.count;
+  result.elements = both_sides_text(body, found.first[0], triangles);
+  result.point = found.first[0].point;
+  result.element = body.is_solid ? "edge" : "triangle";
+  for (const pliant::Crossing& crossing : found.first) {
+    const std::array<Index, 2> both = {crossing.edge_triangles[0], crossing.triangle};
+    result.first.push_back(body.is_solid ? crossing.edge : both);
+  }
+  return result;
+}
+
 Info examine(const InfoOptions& options) {
   pliant::Mesh mesh = pliant::read_mesh(options.file, options.import);
   Info info;
@@ -98,6 +137,7 @@ Info examine(const InfoOptions& options) {
   info.texture_coordinate_count = static_cast<Index>(mesh.texture_coordinates.rows());
   for (const pliant::VertexMap& map : mesh.maps) info.maps.push_back(pliant::printable(map.name, 40));
   mesh.maps = {};
+  info.self_crossings = find_self_crossings(mesh);
   info.diagnosis = pliant::diagnose(std::move(mesh));
   info.scale = options.import.scale;
   return info;
@@ -187,21 +227,33 @@ std::string indices_text(const Defect& defect) {
   return fmt::format("{}{}", fmt::join(texts, ", "), is_cut ? ", ..." : "");
 }
 
-void print_defects(const Diagnosis& d) {
-  if (d.defects.empty()) {
+std::string_view effect_text(pliant::DefectEffect effect) {
+  return choice_names(effect)[static_cast<std::size_t>(effect)];
+}
+
+void print_self_crossings(const SelfCrossings& crossings) {
+  if (crossings.count == 0) return;
+  fmt::print("  {:<8} crosses itself: {}{}\n", effect_text(crossings.effect), crossings.elements,
+             more_text(crossings.count));
+  fmt::print("           at {}\n           {}\n           remedy: {}\n", place_text(crossings.point), crossings.meaning,
+             crossings.remedy);
+}
+
+void print_defects(const Diagnosis& d, const SelfCrossings& crossings) {
+  if (d.defects.empty() && crossings.count == 0) {
     fmt::print("No defects.\n");
     return;
   }
   fmt::print("Defects, indices from 0:\n");
   for (const Defect& defect : d.defects) {
     const pliant::DefectInfo& kind = info_of(defect.kind);
-    const auto effect = choice_names(kind.effect)[static_cast<std::size_t>(kind.effect)];
-    fmt::print("  {:<8} {}: {}\n", effect, kind.text, defect.count);
+    fmt::print("  {:<8} {}: {}\n", effect_text(kind.effect), kind.text, defect.count);
     if (!defect.first.empty()) {
       fmt::print("           {} {}\n", element_name(kind.element, defect.count), indices_text(defect));
     }
     fmt::print("           {}\n           remedy: {}\n", kind.meaning, kind.remedy);
   }
+  print_self_crossings(crossings);
 }
 
 void print_text(const Info& info) {
@@ -210,7 +262,8 @@ void print_text(const Info& info) {
   print_measures(info.diagnosis);
   if (const auto unit = suspect_unit(info.diagnosis, info.scale)) print_row("unit", unit->text);
   print_boundary(info.diagnosis);
-  print_defects(info.diagnosis);
+  if (!info.self_crossings.is_complete) print_row("crossings", std::string(incomplete_search));
+  print_defects(info.diagnosis, info.self_crossings);
 }
 
 // ---- as JSON
@@ -219,7 +272,7 @@ Json spread_json(const pliant::Spread& spread) {
   return {{"min", spread.min}, {"mean", spread.mean}, {"max", spread.max}};
 }
 
-Json defects_json(const Diagnosis& d) {
+Json defects_json(const Diagnosis& d, const SelfCrossings& crossings) {
   Json defects = Json::array();
   for (const Defect& defect : d.defects) {
     const pliant::DefectInfo& kind = info_of(defect.kind);
@@ -229,11 +282,21 @@ Json defects_json(const Diagnosis& d) {
     }
     defects.push_back({{"kind", kind.name},
                        {"count", defect.count},
-                       {"effect", choice_names(kind.effect)[static_cast<std::size_t>(kind.effect)]},
+                       {"effect", effect_text(kind.effect)},
                        {"element", element_name(kind.element, 1)},
                        {"first", indices},
                        {"meaning", kind.meaning},
                        {"remedy", kind.remedy}});
+  }
+  if (crossings.count > 0) {
+    defects.push_back({{"kind", "crossings"},
+                       {"count", crossings.count},
+                       {"effect", effect_text(crossings.effect)},
+                       {"element", crossings.element},
+                       {"first", crossings.first},
+                       {"point", {crossings.point[0], crossings.point[1], crossings.point[2]}},
+                       {"meaning", crossings.meaning},
+                       {"remedy", crossings.remedy}});
   }
   return defects;
 }
@@ -285,7 +348,8 @@ void print_json(const Info& info) {
       {"volume", d.volume},
       {"closed", d.is_closed},
       {"boundary", boundary_json(d)},
-      {"defects", defects_json(d)},
+      {"all_crossings_found", info.self_crossings.is_complete},
+      {"defects", defects_json(d, info.self_crossings)},
   };
   // In ASCII: the name of a file may hold what turns the direction of writing or commands a terminal.
   fmt::print("{}\n", json.dump(2, ' ', true, Json::error_handler_t::replace));

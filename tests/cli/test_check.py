@@ -70,6 +70,58 @@ class Check(unittest.TestCase):
         self.assertEqual(info["free_components"], 1)
         self.assertIn("nothing holds the 2 vertices", info["warnings"][0])
 
+    def write_bodies(self, bodies):
+        """A scene of surfaces that are given as name: (vertices, elements by their kind)."""
+        scene = self.folder / "s.json"
+        scene.write_text(json.dumps({
+            "pliant": 1, "steps": 1,
+            "bodies": [{"name": name, "mesh": {"vertices": vertices, **elements}, "mass": {"total": 1}}
+                       for name, (vertices, elements) in bodies.items()]}))
+        return scene
+
+    def crossings_of(self, bodies):
+        scene = self.write_bodies(bodies)
+        text = self.pliant("check", scene).stdout
+        self.assertIn("The scene is sound.", text)
+        warnings = [line for line in json.loads(self.pliant("check", scene, "--json").stdout)["warnings"]
+                    if "cross" in line]
+        for line in warnings:
+            self.assertIn(f"warning: {line}\n", text)
+        return warnings
+
+    def test_bodies_that_cross(self):
+        level = ([[0, 0, 0], [4, 0, 0], [0, 4, 0], [4, 4, 0]], {"triangles": [[0, 1, 2], [1, 3, 2]]})
+
+        def upright(x, y=1, low=-1, high=1):
+            return ([[x, y, low], [x, y, high], [x, y + 0.5, high + 1]], {"triangles": [[0, 1, 2]]})
+
+        self.assertEqual(self.crossings_of({"sail": level, "mast": upright(1)}), [
+            "'sail' crosses 'mast': triangle 0 of 'sail', triangle 0 of 'mast', at (1, 1, 0) m (and 1 more)"])
+        self.assertEqual(self.crossings_of({"mast": upright(3, y=3), "sail": level}), [
+            "'mast' crosses 'sail': triangle 0 of 'mast', triangle 1 of 'sail', at (3, 3, 0) m (and 1 more)"])
+        self.assertEqual(self.crossings_of({"sail": level, "mast": upright(1, low=0)}), [])
+        self.assertEqual(self.crossings_of({"sail": level, "mast": upright(5)}), [])
+        solid = ([[1, 1, -1], [1.5, 1, -1], [1, 1.5, -1], [1, 1, 1]], {"tetrahedra": [[0, 1, 2, 3]]})
+        self.assertEqual(self.crossings_of({"block": solid, "sail": level}), [
+            "'block' crosses 'sail': edge 0-3 of 'block', triangle 0 of 'sail', at (1, 1, 0) m (and 2 more)"])
+        spike = ([[1.1, 1.1, 0], [1.2, 1.1, 9], [1.1, 1.2, 9]], {"triangles": [[0, 1, 2]]})
+        self.assertEqual(self.crossings_of({"spike": spike, "block": solid}), [
+            "'spike' crosses 'block': triangle 0 of 'spike', face 1-2-3 of 'block', at (1.102, 1.1, 0.1915) m "
+            "(and 1 more)"])
+        rope = ([[1, 1, -1], [1, 1, 1]], {"edges": [[0, 1]]})
+        self.assertEqual(self.crossings_of({"sail": level, "rope": rope}), [])
+        masts = {f"mast {i}": upright(0.1 + 0.1 * i) for i in range(8)}
+        warnings = self.crossings_of({**masts, "sail": level})
+        self.assertEqual(len(warnings), 6)
+        self.assertTrue(warnings[0].startswith("'mast 0' crosses 'sail': "))
+        self.assertEqual(warnings[5], "and 3 more bodies or pairs of bodies that cross")
+
+    def test_a_body_that_crosses_itself(self):
+        both = [[0, 0, 0], [4, 0, 0], [0, 4, 0], [1, 1, -1], [1, 1, 1], [9, 1, 1]]
+        other = ([[9, 9, 9], [8, 9, 9], [9, 8, 9]], {"triangles": [[0, 1, 2]]})
+        warnings = self.crossings_of({"other": other, "sail": (both, {"triangles": [[0, 1, 2], [3, 4, 5]]})})
+        self.assertEqual(warnings, ["'sail' crosses itself: triangles 0 and 1, at (3, 1, 0) m (and 1 more)"])
+
     def test_values_are_set(self):
         info = json.loads(self.pliant("check", "curtain", "--json", "--set", "steps=7", "--set",
                                       "bodies[curtain].mesh.columns=5").stdout)

@@ -108,6 +108,25 @@ TEST_CASE("the list is cut, the count is not") {
   }
 }
 
+TEST_CASE("a search that would take too long ends early, and says so") {
+  Random random(7);
+  const Mesh mesh = soup(random, 800, 2);  // nearly all boxes meet
+  const Crossings all = find_crossings({.positions = mesh.vertices, .triangles = mesh.triangles});
+  CHECK(all.is_complete);
+  const auto cut = [&](std::int64_t effort) {
+    return find_crossings({.positions = mesh.vertices, .triangles = mesh.triangles, .most_effort = effort});
+  };
+  CHECK(!cut(0).is_complete);
+  CHECK(cut(0).count == 0);
+  CHECK(!cut(1000000).is_complete);
+  CHECK(cut(1000000).count < all.count);
+  CHECK(cut(1000000000000).count == all.count);
+  const Mesh smooth = torus({.major_segments = 200, .minor_segments = 100});
+  const auto effort = 1000 * static_cast<std::int64_t>(smooth.triangles.size());
+  CHECK(
+      find_crossings({.positions = smooth.vertices, .triangles = smooth.triangles, .most_effort = effort}).is_complete);
+}
+
 TEST_CASE("neither the order of vertices and triangles nor a mirror changes what crosses") {
   Random random(3);
   for (int i = 0; i < 20; ++i) {

@@ -153,6 +153,42 @@ def test_defects(folder):
         check(text in result.stdout, f"not in the text: {text!r}")
 
 
+def test_crossings(folder):
+    path = os.path.join(folder, "crossing.obj")
+    with open(path, "w") as file:
+        file.write("v 0 0 0\nv 4 0 0\nv 0 4 0\nv 1 1 -1\nv 1 1 1\nv 1 9 1\nf 1 2 3\nf 4 5 6\n")
+    found = description(path)["defects"]
+    check([d["kind"] for d in found] == ["crossings"], f"crossing triangles: {found}")
+    check(found[0]["count"] == 2 and found[0]["element"] == "triangle", f"crossing triangles: {found}")
+    check(found[0]["first"] == [[0, 1], [1, 0]] and found[0]["effect"] == "harmless", f"first crossings: {found}")
+    check(np.allclose(found[0]["point"], [1, 3, 0], atol=1e-12), f"point: {found}")
+    result = info(path)
+    check(result.returncode == 0 and result.stderr == "", "a mesh that crosses itself is no error")
+    for text in ("  harmless crosses itself: triangles 0 and 1 (and 1 more)\n", "           at (1, 3, 0) m\n", "remedy: "):
+        check(text in result.stdout, f"not in the text: {text!r} {result.stdout}")
+    found = description(path, "--scale", "0.5", "--up", "y")["defects"]
+    check(np.allclose(found[0]["point"], [0.5, 0, 1.5], atol=1e-12), f"scaled and turned: {found}")
+
+    with open(path, "w") as file:  # a vertex on the triangle, and one beside it
+        file.write("v 0 0 0\nv 4 0 0\nv 0 4 0\nv 1 1 0\nv 1 1 1\nv 1 9 1\nf 1 2 3\nf 4 5 6\n")
+    check(description(path)["defects"] == [], "what touches crosses")
+    check("No defects." in info(path).stdout, "what touches is a defect")
+    check(description(path)["all_crossings_found"], "a search in part")
+
+    with open(path, "w") as file:  # far more triangles than a surface has
+        file.write("v 0 0 0\nv 4 0 0\nv 0 4 0\n" + 100 * "f 1 2 3\n")
+    check(not description(path)["all_crossings_found"], "what is no surface was searched")
+    check("  crossings        looked for in part: too many triangles overlap\n" in info(path).stdout, "a search in part")
+    path = os.path.join(folder, "crossing.mesh")
+    with open(path, "w") as file:
+        file.write("MeshVersionFormatted 2\nDimension 3\nVertices 8\n0 0 0 0\n4 0 0 0\n0 4 0 0\n0 0 4 0\n"
+                   "1 1 -1 0\n1.5 1 -1 0\n1 1.5 -1 0\n1 1 1 0\nTetrahedra 2\n1 2 3 4 0\n5 6 7 8 0\nEnd\n")
+    found = description(path)["defects"]
+    check([d["kind"] for d in found] == ["crossings"] and found[0]["element"] == "edge", f"tetrahedra: {found}")
+    check(found[0]["first"] == [[4, 7], [5, 7], [6, 7]] and found[0]["count"] == 3, f"tetrahedra: {found}")
+    check("crosses itself: edge 4-7 and face 0-2-1 (and 2 more)\n" in info(path).stdout, "tetrahedra in the text")
+
+
 def test_units(folder):
     path = os.path.join(folder, "size.obj")
 
@@ -202,6 +238,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         test_formats(folder)
         test_defects(folder)
+        test_crossings(folder)
         test_units(folder)
         test_refusals(folder)
     for failure in failures:

@@ -46,9 +46,9 @@ class CrossingSearch {
   CrossingSearch(const CrossingInput& input, const std::function<void(const Crossing&)>& visit)
       : x_(input.positions), triangles_(input.triangles), surface_(x_, input.triangles, input.edges), visit_(visit) {}
 
-  void run() {
-    collision::visit_overlaps(surface_.edge_boxes(), surface_.triangle_boxes(),
-                              [&](Index edge, Index triangle) { examine(edge, surface_.triangle_at(triangle)); });
+  bool run(std::int64_t most_effort) {
+    return collision::visit_overlaps(surface_.edge_boxes(), surface_.triangle_boxes(), most_effort,
+                                     [&](Index edge, Index place) { examine(edge, place); });
   }
 
  private:
@@ -63,17 +63,22 @@ class CrossingSearch {
     return orientation(at_vertex(a), at_vertex(b), at_vertex(c), at_vertex(vertex));
   }
 
-  void examine(Index edge, Index triangle) {
+  /// `place` is one in the list of triangle boxes.
+  void examine(Index edge, Index place) {
+    const Index triangle = surface_.triangle_at(place);
+    const collision::Box& box = surface_.triangle_boxes()[at(place)];
     const auto [p, q] = surface_.edge(edge);
     const bool has_p = has(triangle, p);
     const bool has_q = has(triangle, q);
-    if (has_p && has_q) return;
+    // Each vertex is looked at once, with the first of its edges.
+    const bool asks_p = !has_p && surface_.edges_at(p).front() == edge && box.contains(at_vertex(p));
+    const bool asks_q = !has_q && surface_.edges_at(q).front() == edge && box.contains(at_vertex(q));
+    if ((has_p || has_q) && !asks_p && !asks_q) return;
     const int side_p = has_p ? 0 : side_of_triangle(triangle, p);
     const int side_q = has_q ? 0 : side_of_triangle(triangle, q);
     if (side_p * side_q < 0) return examine_passage(edge, triangle);
-    // Each vertex is looked at once, with the first of its edges.
-    if (!has_p && side_p == 0 && surface_.edges_at(p).front() == edge) examine_vertex(p, triangle);
-    if (!has_q && side_q == 0 && surface_.edges_at(q).front() == edge) examine_vertex(q, triangle);
+    if (asks_p && side_p == 0) examine_vertex(p, triangle);
+    if (asks_q && side_q == 0) examine_vertex(q, triangle);
   }
 
   /// The ends of the edge lie on different sides of the triangle's plane.
@@ -182,14 +187,14 @@ bool comes_before(const Crossing& a, const Crossing& b) {
 
 }  // namespace
 
-void visit_crossings(const CrossingInput& input, const std::function<void(const Crossing&)>& visit) {
-  CrossingSearch(input, visit).run();
+bool visit_crossings(const CrossingInput& input, const std::function<void(const Crossing&)>& visit) {
+  return CrossingSearch(input, visit).run(input.most_effort);
 }
 
 Crossings find_crossings(const CrossingInput& input, std::size_t most) {
   Crossings result;
   std::vector<Crossing>& heap = result.first;  // the last one of the list in front
-  visit_crossings(input, [&](const Crossing& crossing) {
+  result.is_complete = visit_crossings(input, [&](const Crossing& crossing) {
     ++result.count;
     if (heap.size() >= most && (most == 0 || !comes_before(crossing, heap.front()))) return;
     heap.push_back(crossing);

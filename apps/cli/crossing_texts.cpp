@@ -1,0 +1,126 @@
+#include "crossing_texts.h"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace pliant_cli {
+namespace {
+
+using pliant::Crossing;
+using pliant::Index;
+using pliant::Triangle;
+
+/// All surfaces of a simulation, one after another.
+struct AllSurfaces {
+  std::vector<CrossingBody> bodies;
+  std::vector<Triangle> triangles;
+};
+
+AllSurfaces surfaces_of(const pliant::Simulation& simulation) {
+  AllSurfaces all;
+  for (const pliant::Body& body : simulation.bodies()) {
+    all.bodies.push_back({body.name, body.first_vertex, pliant::count_of(all.triangles), body.mesh.triangles.empty()});
+    for (const auto& [a, b, c] : pliant::surface_triangles(body.mesh)) {
+      all.triangles.push_back({a + body.first_vertex, b + body.first_vertex, c + body.first_vertex});
+    }
+  }
+  return all;
+}
+
+/// The first crossing of a body with itself or of two bodies, and how many there are.
+struct BodyCrossings {
+  std::int64_t count = 0;
+  Crossing first;
+};
+
+auto place_in_list(const Crossing& crossing) {
+  return std::tuple(crossing.edge, crossing.triangle);
+}
+
+std::string warning_text(const AllSurfaces& all, std::size_t edge_body, std::size_t triangle_body,
+                         const BodyCrossings& crossings) {
+  const Crossing& first = crossings.first;
+  const CrossingBody& edges = all.bodies[edge_body];
+  const std::string end = fmt::format("at {}{}", place_text(first.point), more_text(crossings.count));
+  if (edge_body == triangle_body) {
+    return fmt::format("'{}' crosses itself: {}, {}", edges.name, both_sides_text(edges, first, all.triangles), end);
+  }
+  const CrossingBody& triangles = all.bodies[triangle_body];
+  std::string one = fmt::format("{} of '{}'", edge_side_text(edges, first), edges.name);
+  std::string other = fmt::format("{} of '{}'", triangle_side_text(triangles, first, all.triangles), triangles.name);
+  if (edge_body > triangle_body) std::swap(one, other);
+  return fmt::format("'{}' crosses '{}': {}, {}, {}", all.bodies[std::min(edge_body, triangle_body)].name,
+                     all.bodies[std::max(edge_body, triangle_body)].name, one, other, end);
+}
+
+}  // namespace
+
+std::string edge_side_text(const CrossingBody& body, const Crossing& crossing) {
+  if (!body.is_solid) return fmt::format("triangle {}", crossing.edge_triangles[0] - body.first_triangle);
+  return fmt::format("edge {}-{}", crossing.edge[0] - body.first_vertex, crossing.edge[1] - body.first_vertex);
+}
+
+std::string triangle_side_text(const CrossingBody& body, const Crossing& crossing,
+                               std::span<const Triangle> triangles) {
+  if (!body.is_solid) return fmt::format("triangle {}", crossing.triangle - body.first_triangle);
+  const auto& [a, b, c] = triangles[pliant::at(crossing.triangle)];
+  return fmt::format("face {}-{}-{}", a - body.first_vertex, b - body.first_vertex, c - body.first_vertex);
+}
+
+std::string both_sides_text(const CrossingBody& body, const Crossing& crossing, std::span<const Triangle> triangles) {
+  if (body.is_solid) {
+    return fmt::format("{} and {}", edge_side_text(body, crossing), triangle_side_text(body, crossing, triangles));
+  }
+  return fmt::format("triangles {} and {}", crossing.edge_triangles[0] - body.first_triangle,
+                     crossing.triangle - body.first_triangle);
+}
+
+std::string place_text(const pliant::Vec3& point) {
+  const pliant::Vec3 x = point.array() + 0.0;  // no −0
+  return fmt::format("({:.4g}, {:.4g}, {:.4g}) m", x[0], x[1], x[2]);
+}
+
+std::string more_text(std::int64_t count) {
+  return count > 1 ? fmt::format(" (and {} more)", count - 1) : std::string();
+}
+
+std::vector<std::string> crossing_warnings(const pliant::Simulation& simulation) {
+  const AllSurfaces all = surfaces_of(simulation);
+  const auto body_of = [&](Index vertex) {
+    const auto next = std::ranges::upper_bound(all.bodies, vertex, {}, &CrossingBody::first_vertex);
+    return static_cast<std::size_t>(next - all.bodies.begin()) - 1;
+  };
+  const auto bodies_of = [&](const Crossing& crossing) {
+    return std::pair(body_of(crossing.edge[0]), body_of(all.triangles[pliant::at(crossing.triangle)][0]));
+  };
+  std::map<std::pair<std::size_t, std::size_t>, BodyCrossings> found;  // by the bodies, the lower first
+  const pliant::Positions& positions = simulation.state().positions;
+  const auto note = [&](const Crossing& crossing) {
+    const std::pair<std::size_t, std::size_t> bodies = bodies_of(crossing);
+    BodyCrossings& entry = found[std::minmax(bodies.first, bodies.second)];
+    if (entry.count++ == 0 || place_in_list(crossing) < place_in_list(entry.first)) entry.first = crossing;
+  };
+  const bool is_complete =
+      may_be_surface(all.triangles.size(), simulation.state().vertex_count()) &&
+      pliant::visit_crossings(
+          {.positions = positions, .triangles = all.triangles, .most_effort = crossing_effort(all.triangles.size())},
+          note);
+  constexpr std::size_t shown = 5;
+  std::vector<std::string> warnings;
+  for (const auto& [key, crossings] : found) {
+    if (warnings.size() == shown) {
+      warnings.push_back(fmt::format("and {} more bodies or pairs of bodies that cross", found.size() - shown));
+      break;
+    }
+    const auto [edge_body, triangle_body] = bodies_of(crossings.first);
+    warnings.push_back(warning_text(all, edge_body, triangle_body, crossings));
+  }
+  if (!is_complete) warnings.push_back(fmt::format("crossings: {}", incomplete_search));
+  return warnings;
+}
+
+}  // namespace pliant_cli
