@@ -2,6 +2,7 @@
 // The solver: thesis Algorithm 1 in residual form. step.cpp has the algorithm on one screen; here is what it needs.
 #include <functional>
 
+#include "pliant/solver/acceleration/lbfgs.h"
 #include "pliant/solver/applied_forces.h"
 #include "pliant/solver/integration/energy_projection.h"
 #include "pliant/solver/state.h"
@@ -57,6 +58,7 @@ class Solver {
  private:
   Real substep() const { return settings_.time_step / static_cast<Real>(settings_.substeps); }
   bool projects_energy() const { return settings_.energy_projection > 0; }
+  bool is_accelerated() const { return settings_.acceleration != Acceleration::none; }
   StepContext context(const State& state);
 
   void take_substeps(State& state, StepReport& report);
@@ -68,6 +70,7 @@ class Solver {
   void apply_pins();
   LocalResult local_step(const State& state, StepReport& report);
   void global_step(const LocalResult& local, StepReport& report);
+  void settle(StepReport& report);
   void find_velocities();
   void commit(State& state);
 
@@ -77,6 +80,7 @@ class Solver {
   System system_;
   AppliedForces forces_;
   WorkingState work_;
+  Lbfgs lbfgs_;
   EnergyProjection energy_;
   State step_start_;           // of a step with substeps
   Real substep_fraction_ = 1;  // of the path to their targets that pinned vertices have gone at the end of the substep

@@ -51,6 +51,7 @@ struct SetUpTimes {
 /// What a step tells about itself.
 struct StepReport {
   Index iterations = 0;            ///< global solves made, in all substeps
+  Index backtracks = 0;            ///< moves of acceleration that were taken back, since the objective rose
   bool reached_tolerance = false;  ///< in every substep
   Real residual = 0;               ///< largest force left on a vertex [N], of the iterate before the last solve
   double seconds_local = 0;        ///< projections and the sum of the residual

@@ -50,6 +50,7 @@ void Solver::take_substep(State& state, StepReport& report) {
     if (reached_tolerance && i > 0) break;                        //     not before the first: s knows no constraint
     global_step(local, report);                                   // 6   q ← q + Y⁻¹ r
   }                                                               //
+  if (!reached_tolerance) settle(report);                         //     the last q must not have raised E either
   report.reached_tolerance &= reached_tolerance;                  //
   check_finite(context(state), work_);                            //
   find_velocities();                                              // 8   v = (q − a)/η
@@ -99,6 +100,7 @@ void Solver::initial_guess() {
     work_.positions = work_.begin.positions;
   }
   apply_pins();
+  if (is_accelerated()) lbfgs_.begin(system_.vertex_count());
 }
 
 void Solver::apply_pins() {
@@ -126,6 +128,11 @@ LocalResult Solver::local_step(const State& state, StepReport& report) {
   threads_.begin_iteration();
   const Stopwatch watch;
   LocalResult local = system_.local_step(work_.positions, work_.prediction, work_.residual, threads_.pool());
+  if (is_accelerated() && lbfgs_.has_risen(local)) {
+    lbfgs_.move_plainly(work_.solution, work_.positions);
+    ++report.backtracks;
+    local = system_.local_step(work_.positions, work_.prediction, work_.residual, threads_.pool());
+  }
   if (!std::isfinite(local.residual)) report_divergence(context(state), work_);
   if (history_.size() < history_.capacity()) history_.push_back(local.inertia + local.elastic);
   local.seconds = watch.seconds();
@@ -137,11 +144,28 @@ LocalResult Solver::local_step(const State& state, StepReport& report) {
 
 void Solver::global_step(const LocalResult& local, StepReport& report) {
   const Stopwatch watch;
-  report.solves += system_.global_step(work_.residual, local.residual, work_.positions, threads_.pool());
+  if (is_accelerated()) {
+    report.solves += system_.solve(work_.residual, local.residual, work_.solution, threads_.pool());
+    lbfgs_.move(local, work_.residual, work_.solution, work_.positions, threads_.pool());
+  } else {
+    report.solves += system_.global_step(work_.residual, local.residual, work_.positions, threads_.pool());
+  }
   ++report.iterations;
   const double seconds = watch.seconds();
   report.seconds_global += seconds;
   threads_.end_iteration(local.seconds + seconds);
+}
+
+/// A move of acceleration is only known to be good once the objective was seen there; a plain one needs no proof.
+void Solver::settle(StepReport& report) {
+  if (!is_accelerated() || lbfgs_.is_plain()) return;
+  const Stopwatch watch;
+  const LocalResult last = system_.local_step(work_.positions, work_.prediction, work_.residual, threads_.pool());
+  if (lbfgs_.has_risen(last)) {
+    lbfgs_.move_plainly(work_.solution, work_.positions);
+    ++report.backtracks;
+  }
+  report.seconds_local += watch.seconds();
 }
 
 void Solver::find_velocities() {

@@ -157,8 +157,8 @@ SolveTimes System::global_step(const Positions& r, Real largest, Positions& q, T
   return global_step_.move(r, largest, q, threads);
 }
 
-void System::solve(const Positions& r, Positions& x, ThreadPool& threads) {
-  global_step_.solve(r, r.cwiseAbs().maxCoeff(), x, threads);
+SolveTimes System::solve(const Positions& r, Real largest, Positions& x, ThreadPool& threads) {
+  return global_step_.solve(r, largest, x, threads);
 }
 
 Real System::elastic_energy(const ConstraintGroup& group) const {

@@ -53,7 +53,8 @@ class System {
   /// q ← q + Y⁻¹ r; largest: about the largest number in r.
   SolveTimes global_step(const Positions& r, Real largest, Positions& q, ThreadPool& threads);
   /// x = Y⁻¹ r.
-  void solve(const Positions& r, Positions& x, ThreadPool& threads);
+  SolveTimes solve(const Positions& r, Real largest, Positions& x, ThreadPool& threads);
+  void solve(const Positions& r, Positions& x, ThreadPool& threads) { solve(r, r.cwiseAbs().maxCoeff(), x, threads); }
 
   Index vertex_count() const { return vertex_count_; }
   const LocalGroups& order() const { return groups_; }

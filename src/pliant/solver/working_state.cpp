@@ -3,7 +3,8 @@
 namespace pliant {
 
 void WorkingState::resize(Index vertex_count) {
-  for (Positions* x : {&forces, &prediction, &positions, &residual, &velocities}) x->setZero(vertex_count, 3);
+  for (Positions* x : {&forces, &prediction, &positions, &residual, &solution, &velocities})
+    x->setZero(vertex_count, 3);
   predicted_step = 0;
 }
 

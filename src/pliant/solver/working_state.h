@@ -15,6 +15,7 @@ struct WorkingState {
   Positions prediction;        ///< s, m × 3 [m]
   Positions positions;         ///< q, the iterate, then qₙ₊₁, m × 3 [m]
   Positions residual;          ///< r, m × 3 [N]
+  Positions solution;          ///< x = Y⁻¹ r, m × 3 [m]; where the global step is accelerated
   Positions velocities;        ///< vₙ₊₁, m × 3 [m/s]
   std::vector<Real> energy_surplus;  ///< for the next step (State::energy_surplus); empty: nothing
   Real predicted_step = 0;           ///< η of the prediction [s]; 0: it does not belong to the state

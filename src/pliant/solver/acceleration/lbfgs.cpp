@@ -1,0 +1,216 @@
+#include "pliant/solver/acceleration/lbfgs.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace pliant {
+namespace {
+
+constexpr Index vertices_at_once = 512;  // whose sums are added in order, so that the bits are those of one thread
+
+/// x without its first entry, and that one at the end.
+template <class List>
+void drop_first(List& list) {
+  std::rotate(list.begin(), list.begin() + 1, list.end());
+}
+
+/// Eight sums side by side, which the processor adds at once.
+template <class Number>
+Real dot(const Number* a, const Real* b, std::size_t count) {
+  constexpr std::size_t lanes = 8;
+  std::array<Real, lanes> sums = {};
+  std::size_t i = 0;
+  for (; i + lanes <= count; i += lanes) {
+    for (std::size_t lane = 0; lane < lanes; ++lane) sums[lane] += static_cast<Real>(a[i + lane]) * b[i + lane];
+  }
+  for (std::size_t lane = 0; i < count; ++i, ++lane) sums[lane] += static_cast<Real>(a[i]) * b[i];
+  Real sum = 0;
+  for (const Real lane : sums) sum += lane;
+  return sum;
+}
+
+template <class Number>
+void add(Real factor, const Number* a, Real* b, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) b[i] += factor * static_cast<Real>(a[i]);
+}
+
+template <class Numbers>
+Real sum_of_products(const Numbers& a, const Numbers& b) {
+  return std::inner_product(a.moves.begin(), a.moves.end(), b.moves.begin(), Real{0}) +
+         std::inner_product(a.solutions.begin(), a.solutions.end(), b.solutions.begin(), Real{0});
+}
+
+/// Calls visit(chunk, first number, count of numbers).
+template <class Visit>
+void for_each_chunk(Index vertex_count, ThreadPool& threads, Visit&& visit) {
+  const Index chunks = (vertex_count + vertices_at_once - 1) / vertices_at_once;
+  threads.parallel_for(chunks, [&](Index i) {
+    const Index begin = i * vertices_at_once;
+    const Index end = std::min(vertex_count, begin + vertices_at_once);
+    visit(at(i), 3 * at(begin), 3 * at(end - begin));
+  });
+}
+
+}  // namespace
+
+void Lbfgs::begin(Index vertex_count) {
+  if (positions_before_.rows() != vertex_count) {
+    positions_before_.resize(vertex_count, 3);
+    for (Vector& move : moves_) move.resize(3 * at(vertex_count));
+    for (Vector& solution : solutions_) solution.resize(3 * at(vertex_count));
+    chunk_products_.resize(at((vertex_count + vertices_at_once - 1) / vertices_at_once));
+  }
+  memory_ = vertex_count < large ? memory : memory_of_large;
+  pair_count_ = 0;
+  has_moved_ = false;
+  is_plain_ = true;
+}
+
+bool Lbfgs::has_risen(const LocalResult& now) const {
+  constexpr Real rounding = 1e-12;
+  const Real before = local_before_.inertia + local_before_.elastic;
+  return !is_plain_ && !(now.inertia + now.elastic <= before + rounding * before);
+}
+
+void Lbfgs::move_plainly(const Positions& x, Positions& q) {
+  q = positions_before_ + x;
+  std::swap(solutions_[0], solutions_[pair_count_]);
+  moves_[0] = solutions_[0];
+  last_.solutions[0] = last_.solutions[pair_count_];
+  last_.moves[0] = last_.solutions[0];
+  pair_count_ = 0;
+  is_plain_ = true;
+}
+
+void Lbfgs::move(const LocalResult& local, const Positions& r, const Positions& x, Positions& q, ThreadPool& threads) {
+  Numbers now = products(r, x, threads);
+  if (has_moved_) complete_pair(now);
+  has_moved_ = false;
+  Numbers factors = coefficients(now);
+  Real descent = sum_of_products(factors, now);
+  if (!(descent > 0)) {
+    forget_pairs(now);
+    factors = coefficients(now);
+    descent = now.solutions[0];
+  }
+  add_up(factors, x, q, threads);
+  last_ = now;
+  last_.moves[pair_count_] = descent;
+  local_before_ = local;
+  has_moved_ = true;
+  is_plain_ = pair_count_ == 0;
+  if (pair_count_ == memory_) forget_oldest_pair();
+}
+
+/// Keeps the new solution besides.
+Lbfgs::Numbers Lbfgs::products(const Positions& r, const Positions& x, ThreadPool& threads) {
+  const std::size_t moves = last_solution();
+  const std::size_t solutions = last_solution();
+  for_each_chunk(static_cast<Index>(r.rows()), threads, [&](std::size_t chunk, std::size_t first, std::size_t count) {
+    Numbers& sums = chunk_products_[chunk];
+    const Real* const residual = r.data() + first;
+    const Real* const solved = x.data() + first;
+    for (std::size_t i = 0; i < moves; ++i) sums.moves[i] = dot(moves_[i].data() + first, residual, count);
+    for (std::size_t i = 0; i < solutions; ++i) sums.solutions[i] = dot(solutions_[i].data() + first, residual, count);
+    Kept* const kept = solutions_[solutions].data() + first;
+    for (std::size_t k = 0; k < count; ++k) kept[k] = static_cast<Kept>(solved[k]);
+    sums.solutions[solutions] = dot(kept, residual, count);
+  });
+  Numbers total;
+  for (const Numbers& sums : chunk_products_) {
+    for (std::size_t i = 0; i < moves; ++i) total.moves[i] += sums.moves[i];
+    for (std::size_t i = 0; i <= solutions; ++i) total.solutions[i] += sums.solutions[i];
+  }
+  return total;
+}
+
+/// The pair of the last move; without positive curvature along it, none is kept. Y⁻¹ is symmetric: x'ᵀ r = xᵀ r'.
+void Lbfgs::complete_pair(Numbers& now) {
+  const std::size_t pair = pair_count_;
+  const auto change = [&](std::size_t i) {
+    return last_.solutions[i] - last_.solutions[i + 1] - now.solutions[i] + now.solutions[i + 1];
+  };
+  last_.solutions[pair + 1] = now.solutions[pair];
+  for (std::size_t i = 0; i <= pair; ++i) {
+    move_products_[i][pair] = last_.moves[i] - now.moves[i];
+    solution_products_[i][pair] = change(i);
+  }
+  if (move_products_[pair][pair] > 0) {
+    ++pair_count_;
+    has_moved_ = false;
+  } else {
+    forget_pairs(now);
+  }
+}
+
+/// The two loops, for scalar products in place of vectors.
+Lbfgs::Numbers Lbfgs::coefficients(const Numbers& products) const {
+  std::array<Real, memory> alpha = {};
+  std::array<Real, memory> gamma = {};  // α − β
+  for (std::size_t i = pair_count_; i-- > 0;) {
+    Real sum = products.moves[i];
+    for (std::size_t j = i + 1; j < pair_count_; ++j) sum -= alpha[j] * move_products_[i][j];
+    alpha[i] = sum / move_products_[i][i];
+  }
+  for (std::size_t i = 0; i < pair_count_; ++i) {
+    Real sum = products.solutions[i] - products.solutions[i + 1];
+    for (std::size_t j = 0; j < pair_count_; ++j) {
+      sum -= alpha[j] * solution_products_[std::min(i, j)][std::max(i, j)];
+    }
+    for (std::size_t j = 0; j < i; ++j) sum += gamma[j] * move_products_[j][i];
+    gamma[i] = alpha[i] - sum / move_products_[i][i];
+  }
+  Numbers result;
+  result.solutions[pair_count_] = 1;
+  for (std::size_t i = 0; i < pair_count_; ++i) {
+    result.moves[i] = gamma[i];
+    result.solutions[i] -= alpha[i];
+    result.solutions[i + 1] += alpha[i];
+  }
+  return result;
+}
+
+/// Keeps the move besides, and where it began.
+void Lbfgs::add_up(const Numbers& coefficients, const Positions& x, Positions& q, ThreadPool& threads) {
+  for_each_chunk(static_cast<Index>(q.rows()), threads, [&](std::size_t, std::size_t first, std::size_t count) {
+    std::array<Real, 3 * at(vertices_at_once)> sum;
+    const Real own = coefficients.solutions[pair_count_];
+    const Real* const solved = x.data() + first;
+    for (std::size_t k = 0; k < count; ++k) sum[k] = own * solved[k];
+    for (std::size_t i = 0; i < pair_count_; ++i) {
+      add(coefficients.moves[i], moves_[i].data() + first, sum.data(), count);
+      add(coefficients.solutions[i], solutions_[i].data() + first, sum.data(), count);
+    }
+    Real* const moved = q.data() + first;
+    Real* const before = positions_before_.data() + first;
+    Kept* const kept = moves_[pair_count_].data() + first;
+    for (std::size_t k = 0; k < count; ++k) {
+      before[k] = moved[k];
+      moved[k] += sum[k];
+      kept[k] = static_cast<Kept>(sum[k]);
+    }
+  });
+}
+
+void Lbfgs::forget_pairs(Numbers& products) {
+  const std::size_t last = last_solution();
+  std::swap(solutions_[0], solutions_[last]);
+  products.solutions[0] = products.solutions[last];
+  pair_count_ = 0;
+  has_moved_ = false;
+}
+
+void Lbfgs::forget_oldest_pair() {
+  drop_first(moves_);
+  drop_first(solutions_);
+  drop_first(last_.moves);
+  drop_first(last_.solutions);
+  for (auto* table : {&move_products_, &solution_products_}) {
+    for (auto& line : *table) drop_first(line);
+    drop_first(*table);
+  }
+  --pair_count_;
+}
+
+}  // namespace pliant

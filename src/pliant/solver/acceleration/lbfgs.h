@@ -1,0 +1,78 @@
+#pragma once
+// The global step with the memory of earlier ones: L-BFGS (Nocedal and Wright 2006, Algorithm 7.4), whose first guess
+// of the inverse Hessian is the factor of Y (Liu, Bouaziz and Kavan 2017, Sec. 4.1). The first move of a step is the
+// plain one.
+//
+// With r = −∇E and x = Y⁻¹ r, a pair is a move s and y = r − r', and Y⁻¹ y = x − x' stands in what was solved already.
+// So the two loops need no vectors but the moves and the solutions: one pass over memory takes their scalar products
+// with the new r, the loops are arithmetic of a few numbers, and a second pass adds up the move. The vectors are kept
+// in single precision: they steer where the iteration goes, not what it ends in.
+#include <array>
+#include <vector>
+
+#include "pliant/core/aligned.h"
+#include "pliant/core/thread_pool.h"
+#include "pliant/solver/local/local_step.h"
+
+namespace pliant {
+
+class Lbfgs {
+ public:
+  /// Pairs that are remembered at most, and in large simulations, whose pairs outgrow the second-level cache.
+  static constexpr std::size_t memory = 10;
+  static constexpr std::size_t memory_of_large = 6;
+  static constexpr Index large = 4096;  // vertices
+
+  /// Forgets all pairs: the objective of a new step is another. Allocates when the number of vertices has changed.
+  void begin(Index vertex_count);
+
+  /// Whether the last move was not a plain one and has raised the objective, by more than rounding does, or made it no
+  /// number.
+  bool has_risen(const LocalResult& now) const;
+  /// Takes the last move back, makes the plain one in its place, with the x that it was made from, and forgets the
+  /// pairs.
+  void move_plainly(const Positions& x, Positions& q);
+  /// q ← q + H r. local, r [N]: what the local step found at q; x = Y⁻¹ r [m].
+  void move(const LocalResult& local, const Positions& r, const Positions& x, Positions& q, ThreadPool& threads);
+  bool is_plain() const { return is_plain_; }
+
+ private:
+  static constexpr std::size_t most_moves = memory + 1;
+  static constexpr std::size_t most_solutions = memory + 2;
+  using Kept = float;
+  using Vector = AlignedVector<Kept>;
+
+  /// A number for each vector: its scalar product with a residual, or its coefficient in a move.
+  struct Numbers {
+    std::array<Real, most_moves> moves = {};
+    std::array<Real, most_solutions> solutions = {};
+  };
+  using Table = std::array<std::array<Real, memory>, memory>;
+
+  Numbers products(const Positions& r, const Positions& x, ThreadPool& threads);
+  void complete_pair(Numbers& now);
+  Numbers coefficients(const Numbers& products) const;
+  void add_up(const Numbers& coefficients, const Positions& x, Positions& q, ThreadPool& threads);
+  /// All but the last solution.
+  void forget_pairs(Numbers& products);
+  void forget_oldest_pair();
+  std::size_t last_solution() const { return pair_count_ + (has_moved_ ? 1 : 0); }
+
+  // Oldest first: pair i is move i, and solution i less solution i + 1. After a move there is one of each besides,
+  // whose pair is complete as soon as the next residual and its solution are known.
+  std::size_t memory_ = memory;
+  std::size_t pair_count_ = 0;
+  bool has_moved_ = false;
+  bool is_plain_ = true;
+  std::array<Vector, most_moves> moves_;          // 3 m numbers each [m]
+  std::array<Vector, most_solutions> solutions_;  // the same
+  Numbers last_;                                  // products with the last residual
+  Table move_products_ = {};                      // sᵢᵀ yⱼ, j ≥ i
+  Table solution_products_ = {};                  // yᵢᵀ Y⁻¹ yⱼ, j ≥ i
+
+  LocalResult local_before_;    // the last move
+  Positions positions_before_;  // the same
+  std::vector<Numbers> chunk_products_;
+};
+
+}  // namespace pliant
