@@ -9,30 +9,32 @@ namespace {
 
 constexpr Index vertices_at_once = 512;  // whose sums are added in order, so that the bits are those of one thread
 
-/// x without its first entry, and that one at the end.
+/// The first of so many entries goes behind the others.
 template <class List>
-void drop_first(List& list) {
-  std::rotate(list.begin(), list.begin() + 1, list.end());
+void drop_first(List& list, std::size_t count) {
+  const auto begin = list.begin();
+  std::rotate(begin, begin + 1, begin + static_cast<std::ptrdiff_t>(count));
 }
 
-/// Eight sums side by side, which the processor adds at once.
+/// aᵀ c, in eight sums side by side, which the processor adds at once.
 template <class Number>
-Real dot(const Number* a, const Real* b, std::size_t count) {
+Real dot(const Number* a, const Real* c, std::size_t count) {
   constexpr std::size_t lanes = 8;
   std::array<Real, lanes> sums = {};
   std::size_t i = 0;
   for (; i + lanes <= count; i += lanes) {
-    for (std::size_t lane = 0; lane < lanes; ++lane) sums[lane] += static_cast<Real>(a[i + lane]) * b[i + lane];
+    for (std::size_t lane = 0; lane < lanes; ++lane) sums[lane] += static_cast<Real>(a[i + lane]) * c[i + lane];
   }
-  for (std::size_t lane = 0; i < count; ++i, ++lane) sums[lane] += static_cast<Real>(a[i]) * b[i];
+  for (std::size_t lane = 0; i < count; ++i, ++lane) sums[lane] += static_cast<Real>(a[i]) * c[i];
   Real sum = 0;
   for (const Real lane : sums) sum += lane;
   return sum;
 }
 
+/// c ← c + alpha a + beta b
 template <class Number>
-void add(Real factor, const Number* a, Real* b, std::size_t count) {
-  for (std::size_t i = 0; i < count; ++i) b[i] += factor * static_cast<Real>(a[i]);
+void add(Real alpha, const Number* a, Real beta, const Number* b, Real* c, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) c[i] += alpha * static_cast<Real>(a[i]) + beta * static_cast<Real>(b[i]);
 }
 
 template <class Numbers>
@@ -57,11 +59,11 @@ void for_each_chunk(Index vertex_count, ThreadPool& threads, Visit&& visit) {
 void Lbfgs::begin(Index vertex_count) {
   if (positions_before_.rows() != vertex_count) {
     positions_before_.resize(vertex_count, 3);
-    for (Vector& move : moves_) move.resize(3 * at(vertex_count));
-    for (Vector& solution : solutions_) solution.resize(3 * at(vertex_count));
+    memory_ = vertex_count < large ? memory : memory_of_large;
+    for (std::size_t i = 0; i < memory_ + 1; ++i) moves_[i].resize(3 * at(vertex_count));
+    for (std::size_t i = 0; i < memory_ + 2; ++i) solutions_[i].resize(3 * at(vertex_count));
     chunk_products_.resize(at((vertex_count + vertices_at_once - 1) / vertices_at_once));
   }
-  memory_ = vertex_count < large ? memory : memory_of_large;
   pair_count_ = 0;
   has_moved_ = false;
   is_plain_ = true;
@@ -179,8 +181,8 @@ void Lbfgs::add_up(const Numbers& coefficients, const Positions& x, Positions& q
     const Real* const solved = x.data() + first;
     for (std::size_t k = 0; k < count; ++k) sum[k] = own * solved[k];
     for (std::size_t i = 0; i < pair_count_; ++i) {
-      add(coefficients.moves[i], moves_[i].data() + first, sum.data(), count);
-      add(coefficients.solutions[i], solutions_[i].data() + first, sum.data(), count);
+      add(coefficients.moves[i], moves_[i].data() + first, coefficients.solutions[i], solutions_[i].data() + first,
+          sum.data(), count);
     }
     Real* const moved = q.data() + first;
     Real* const before = positions_before_.data() + first;
@@ -202,13 +204,13 @@ void Lbfgs::forget_pairs(Numbers& products) {
 }
 
 void Lbfgs::forget_oldest_pair() {
-  drop_first(moves_);
-  drop_first(solutions_);
-  drop_first(last_.moves);
-  drop_first(last_.solutions);
-  for (auto* table : {&move_products_, &solution_products_}) {
-    for (auto& line : *table) drop_first(line);
-    drop_first(*table);
+  drop_first(moves_, memory_ + 1);
+  drop_first(last_.moves, memory_ + 1);
+  drop_first(solutions_, memory_ + 2);
+  drop_first(last_.solutions, memory_ + 2);
+  for (Table* const table : {&move_products_, &solution_products_}) {
+    for (auto& line : *table) drop_first(line, memory_);
+    drop_first(*table, memory_);
   }
   --pair_count_;
 }
