@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Steps of a body whose masses and stiffnesses differ by a factor of a million, where the plain algorithm takes ten
-thousands of iterations: each begins in the state of an independent solver, and is compared with where that one converges.
+"""Steps of a body whose masses and stiffnesses differ by a factor of a million, where the plain algorithm takes tens
+of thousands of iterations: each begins in the state of an independent solver, and is compared with where that one converges.
 
     PLIANT=build/release/bin/pliant tests/reference/test_contrast.py
 """

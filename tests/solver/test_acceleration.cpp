@@ -1,5 +1,7 @@
 // What L-BFGS promises: the same minimum in fewer iterations, never uphill, and the same bits whatever came before.
 #include <cstring>
+#include <functional>
+#include <limits>
 
 #include <doctest/doctest.h>
 
@@ -19,11 +21,13 @@ namespace {
 /// The two loops as the textbook has them (Nocedal and Wright 2006, Algorithm 7.4), in double precision.
 class Textbook {
  public:
+  explicit Textbook(std::size_t memory) : memory_(memory) {}
+
   Positions move(const Positions& r, const std::function<Positions(const Positions&)>& solve) {
     if (last_r_.size() > 0) {
       s_.push_back(last_move_);
       y_.push_back(last_r_ - r);
-      if (s_.size() > Lbfgs::memory) {
+      if (s_.size() > memory_) {
         s_.erase(s_.begin());
         y_.erase(y_.begin());
       }
@@ -47,6 +51,7 @@ class Textbook {
  private:
   static Real product(const Positions& a, const Positions& b) { return a.cwiseProduct(b).sum(); }
 
+  std::size_t memory_;
   std::vector<Positions> s_, y_;
   Positions last_r_, last_move_;
 };
@@ -75,14 +80,11 @@ bool same_bits(const Positions& a, const Positions& b) {
   return std::memcmp(a.data(), b.data(), static_cast<std::size_t>(a.size()) * sizeof(Real)) == 0;
 }
 
-}  // namespace
-
-TEST_CASE("L-BFGS: the moves are those of the textbook") {
-  constexpr Index vertices = 1500;  // more than one chunk of the sums
+void compare_with_textbook(Index vertices, std::size_t memory) {
   Random random;
   ThreadPool threads(1);
   Lbfgs lbfgs;
-  Textbook textbook;
+  Textbook textbook(memory);
   Positions q = random.positions(vertices, 1);
   Positions expected = q;
   const auto solve = [](const Positions& r) -> Positions { return r / 10; };
@@ -97,6 +99,14 @@ TEST_CASE("L-BFGS: the moves are those of the textbook") {
     CHECK((q - expected).norm() <= 1e-5 * force(expected).norm());
   }
   CHECK(force(q).norm() < 1e-2 * first);
+}
+
+}  // namespace
+
+TEST_CASE("L-BFGS: the moves are those of the textbook, with as many pairs") {
+  compare_with_textbook(100, Lbfgs::memory);
+  compare_with_textbook(Lbfgs::large - 1, Lbfgs::memory);
+  compare_with_textbook(Lbfgs::large, Lbfgs::memory_of_large);
 }
 
 TEST_CASE("L-BFGS: a move that raises the objective is taken back, for the plain one") {
@@ -211,6 +221,22 @@ TEST_CASE(
   for (const Index threads : {2, 3, 8}) {
     CAPTURE(threads);
     CHECK(same_bits(run(threads), expected));
+  }
+}
+
+TEST_CASE("lbfgs: switched on and off while it runs, each step is that of a simulation made so") {
+  const auto settings = [](bool is_on) {
+    return SolverSettings{
+        .iterations = 12, .acceleration = is_on ? Acceleration::lbfgs : Acceleration::none, .threads = 1};
+  };
+  Simulation simulation = sheet(settings(false));
+  for (const bool is_on : {false, true, true, false, true, false, false, true}) {
+    Simulation other = sheet(settings(is_on));
+    other.restore(simulation.state());
+    simulation.set_settings(settings(is_on));
+    simulation.step();
+    other.step();
+    CHECK(same_bits(simulation.state().positions, other.state().positions));
   }
 }
 

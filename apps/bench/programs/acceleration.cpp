@@ -3,13 +3,14 @@
 //
 //     bench_acceleration [repeats [scene...]]
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
-#include "pliant/core/stopwatch.h"
 #include "pliant/pliant.h"
 #include "pliant_io/pliant_io.h"
 #include "pliant_io/scene/builtin_scenes.h"
@@ -21,7 +22,7 @@ using namespace pliant;
 constexpr Index iterations_to_the_end = 3000;
 constexpr std::array<Index, 8> iteration_counts = {1, 3, 5, 10, 20, 40, 80, 300};
 
-/// A bump of 1 m/s across the sheet, a quarter of its side wide, at its middle.
+/// A bump of 1 m/s across the sheet, half its side wide, at its middle.
 void push_middle(Simulation& simulation) {
   const Positions& x = simulation.state().positions;
   const Vec3 center = x.colwise().mean().transpose();

@@ -70,7 +70,7 @@ class Solver {
   void apply_pins();
   LocalResult local_step(const State& state, StepReport& report);
   void global_step(const LocalResult& local, StepReport& report);
-  void settle(StepReport& report);
+  void check_last_move(StepReport& report);
   void find_velocities();
   void commit(State& state);
 

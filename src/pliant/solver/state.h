@@ -56,7 +56,7 @@ struct StepReport {
   Real residual = 0;               ///< largest force left on a vertex [N], of the iterate before the last solve
   double seconds_local = 0;        ///< projections and the sum of the residual
   double seconds_projections = 0;  ///< the first part of it
-  double seconds_global = 0;       ///< triangular solves
+  double seconds_global = 0;       ///< triangular solves, and what acceleration makes of them
   double seconds_factor = 0;       ///< assembly and factorization, when something changed
   double seconds_total = 0;
   SolveTimes solves;  ///< parts of seconds_global

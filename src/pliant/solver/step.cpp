@@ -1,6 +1,7 @@
 // Projective Dynamics, one step (thesis Algorithm 1; Bouaziz et al. 2014, Algorithm 1), in residual form: with
 // r(q) = M/h² (s − q) + Σ wᵢ SᵢᵀAᵢᵀ (pᵢ − zᵢ), minus the gradient of the objective, the global solve Y q' = b is
-// q' = q + Y⁻¹ r. The margin has the line numbers of Algorithm 1.
+// q' = q + Y⁻¹ r. The margin has the line numbers of Algorithm 1; in take_substep() a, b and η are those of
+// integration/integrator.h, which for implicit Euler are qₙ, vₙ and h.
 #include <cmath>
 #include <string>
 
@@ -43,14 +44,15 @@ void Solver::take_substep(State& state, StepReport& report) {
   predict(state);                                                 // 1-2 s = a + η b + η² M⁻¹ f
   if (projects_energy()) energy_.begin(context(state), work_);    //
   initial_guess();                                                // 3   q = s or qₙ, pins at their targets
+  if (is_accelerated()) lbfgs_.begin(system_.vertex_count());     //
   bool reached_tolerance = false;                                 //
   for (Index i = 0; i < settings_.iterations; ++i) {              // 4
     const LocalResult local = local_step(state, report);          // 5   r = M/η² (s − q) + Σ w SᵀAᵀ (p − z)
     reached_tolerance = local.residual <= settings_.tolerance;    //
-    if (reached_tolerance && i > 0) break;                        //     not before the first: s knows no constraint
-    global_step(local, report);                                   // 6   q ← q + Y⁻¹ r
+    if (reached_tolerance && i > 0) break;                        //     at least one iteration a step
+    global_step(local, report);                                   // 6   q ← q + Y⁻¹ r, or q + H r
   }                                                               //
-  if (!reached_tolerance) settle(report);                         //     the last q must not have raised E either
+  if (!reached_tolerance) check_last_move(report);                //     which must not have raised E either
   report.reached_tolerance &= reached_tolerance;                  //
   check_finite(context(state), work_);                            //
   find_velocities();                                              // 8   v = (q − a)/η
@@ -100,7 +102,6 @@ void Solver::initial_guess() {
     work_.positions = work_.begin.positions;
   }
   apply_pins();
-  if (is_accelerated()) lbfgs_.begin(system_.vertex_count());
 }
 
 void Solver::apply_pins() {
@@ -119,7 +120,8 @@ void Solver::apply_pins() {
   }
 }
 
-/// Throws when a residual is not finite, and when the step is to be given up.
+/// Takes back a move of acceleration that has raised E first, and makes the plain one. Throws when a residual is not
+/// finite, and when the step is to be given up.
 LocalResult Solver::local_step(const State& state, StepReport& report) {
   if (stop_ && stop_()) {
     throw Error(ErrorKind::interrupted,
@@ -131,6 +133,7 @@ LocalResult Solver::local_step(const State& state, StepReport& report) {
   if (is_accelerated() && lbfgs_.has_risen(local)) {
     lbfgs_.move_plainly(work_.solution, work_.positions);
     ++report.backtracks;
+    report.seconds_projections += local.seconds_projections;
     local = system_.local_step(work_.positions, work_.prediction, work_.residual, threads_.pool());
   }
   if (!std::isfinite(local.residual)) report_divergence(context(state), work_);
@@ -156,15 +159,17 @@ void Solver::global_step(const LocalResult& local, StepReport& report) {
   threads_.end_iteration(local.seconds + seconds);
 }
 
-/// A move of acceleration is only known to be good once the objective was seen there; a plain one needs no proof.
-void Solver::settle(StepReport& report) {
+/// A move of acceleration is known to be good once the objective was seen where it led; a plain one always is.
+void Solver::check_last_move(StepReport& report) {
   if (!is_accelerated() || lbfgs_.is_plain()) return;
   const Stopwatch watch;
   const LocalResult last = system_.local_step(work_.positions, work_.prediction, work_.residual, threads_.pool());
   if (lbfgs_.has_risen(last)) {
     lbfgs_.move_plainly(work_.solution, work_.positions);
+    work_.residual.setZero();  // it was that of a place which has been left
     ++report.backtracks;
   }
+  report.seconds_projections += last.seconds_projections;
   report.seconds_local += watch.seconds();
 }
 

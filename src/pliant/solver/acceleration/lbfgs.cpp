@@ -58,11 +58,11 @@ void for_each_chunk(Index vertex_count, ThreadPool& threads, Visit&& visit) {
 
 void Lbfgs::begin(Index vertex_count) {
   if (positions_before_.rows() != vertex_count) {
-    positions_before_.resize(vertex_count, 3);
     memory_ = vertex_count < large ? memory : memory_of_large;
-    for (std::size_t i = 0; i < memory_ + 1; ++i) moves_[i].resize(3 * at(vertex_count));
-    for (std::size_t i = 0; i < memory_ + 2; ++i) solutions_[i].resize(3 * at(vertex_count));
+    for (std::size_t i = 0; i <= memory_; ++i) moves_[i].resize(3 * at(vertex_count));
+    for (std::size_t i = 0; i <= memory_; ++i) solutions_[i].resize(3 * at(vertex_count));
     chunk_products_.resize(at((vertex_count + vertices_at_once - 1) / vertices_at_once));
+    positions_before_.resize(vertex_count, 3);  // last: its size says that all have theirs
   }
   pair_count_ = 0;
   has_moved_ = false;
@@ -127,7 +127,8 @@ Lbfgs::Numbers Lbfgs::products(const Positions& r, const Positions& x, ThreadPoo
   return total;
 }
 
-/// The pair of the last move; without positive curvature along it, none is kept. Y⁻¹ is symmetric: x'ᵀ r = xᵀ r'.
+/// The pair of the last move; without positive curvature along it all pairs are forgotten. Y⁻¹ is taken as symmetric,
+/// x'ᵀ r = xᵀ r', which a solve in single precision is nearly; where that misleads, the objective tells.
 void Lbfgs::complete_pair(Numbers& now) {
   const std::size_t pair = pair_count_;
   const auto change = [&](std::size_t i) {
@@ -206,8 +207,8 @@ void Lbfgs::forget_pairs(Numbers& products) {
 void Lbfgs::forget_oldest_pair() {
   drop_first(moves_, memory_ + 1);
   drop_first(last_.moves, memory_ + 1);
-  drop_first(solutions_, memory_ + 2);
-  drop_first(last_.solutions, memory_ + 2);
+  drop_first(solutions_, memory_ + 1);
+  drop_first(last_.solutions, memory_ + 1);
   for (Table* const table : {&move_products_, &solution_products_}) {
     for (auto& line : *table) drop_first(line, memory_);
     drop_first(*table, memory_);

@@ -18,16 +18,15 @@ namespace pliant {
 
 class Lbfgs {
  public:
-  /// Pairs that are remembered at most, and in large simulations, whose pairs outgrow the second-level cache.
+  /// Pairs that are remembered; fewer from so many vertices on, where they outgrow the second-level cache.
   static constexpr std::size_t memory = 10;
   static constexpr std::size_t memory_of_large = 6;
-  static constexpr Index large = 4096;  // vertices
+  static constexpr Index large = 4096;
 
   /// Forgets all pairs: the objective of a new step is another. Allocates when the number of vertices has changed.
   void begin(Index vertex_count);
 
-  /// Whether the last move was not a plain one and has raised the objective, by more than rounding does, or made it no
-  /// number.
+  /// Whether the last move was not a plain one and has raised the objective, by more than rounding does, or it is NaN.
   bool has_risen(const LocalResult& now) const;
   /// Takes the last move back, makes the plain one in its place, with the x that it was made from, and forgets the
   /// pairs.
@@ -37,15 +36,14 @@ class Lbfgs {
   bool is_plain() const { return is_plain_; }
 
  private:
-  static constexpr std::size_t most_moves = memory + 1;
-  static constexpr std::size_t most_solutions = memory + 2;
+  static constexpr std::size_t most_vectors = memory + 1;
   using Kept = float;
   using Vector = AlignedVector<Kept>;
 
   /// A number for each vector: its scalar product with a residual, or its coefficient in a move.
   struct Numbers {
-    std::array<Real, most_moves> moves = {};
-    std::array<Real, most_solutions> solutions = {};
+    std::array<Real, most_vectors> moves = {};
+    std::array<Real, most_vectors> solutions = {};
   };
   using Table = std::array<std::array<Real, memory>, memory>;
 
@@ -53,7 +51,7 @@ class Lbfgs {
   void complete_pair(Numbers& now);
   Numbers coefficients(const Numbers& products) const;
   void add_up(const Numbers& coefficients, const Positions& x, Positions& q, ThreadPool& threads);
-  /// All but the last solution.
+  /// Forgets everything but the newest solution, which becomes the first.
   void forget_pairs(Numbers& products);
   void forget_oldest_pair();
   std::size_t last_solution() const { return pair_count_ + (has_moved_ ? 1 : 0); }
@@ -64,14 +62,14 @@ class Lbfgs {
   std::size_t pair_count_ = 0;
   bool has_moved_ = false;
   bool is_plain_ = true;
-  std::array<Vector, most_moves> moves_;          // 3 m numbers each [m]
-  std::array<Vector, most_solutions> solutions_;  // the same
-  Numbers last_;                                  // products with the last residual
-  Table move_products_ = {};                      // sᵢᵀ yⱼ, j ≥ i
-  Table solution_products_ = {};                  // yᵢᵀ Y⁻¹ yⱼ, j ≥ i
+  std::array<Vector, most_vectors> moves_;      // 3 m numbers each [m]
+  std::array<Vector, most_vectors> solutions_;  // the same
+  Numbers last_;                                // products with the last residual
+  Table move_products_ = {};                    // sᵢᵀ yⱼ, j ≥ i
+  Table solution_products_ = {};                // yᵢᵀ Y⁻¹ yⱼ, j ≥ i
 
-  LocalResult local_before_;    // the last move
-  Positions positions_before_;  // the same
+  LocalResult local_before_;    // found just before the last move
+  Positions positions_before_;  // from where it went
   std::vector<Numbers> chunk_products_;
 };
 
