@@ -17,8 +17,10 @@ LAYERS = {
     "pliant/constraints": ["pliant/core", "pliant/mesh"],
     "pliant/forces": ["pliant/core", "pliant/mesh", "pliant/constraints/constraint_group.h", "pliant/constraints/batch.h",
                       "pliant/constraints/reorder.h"],
-    "pliant/solver": ["pliant/core", "pliant/constraints/constraint_group.h", "pliant/forces/force.h"],
-    "pliant/simulation": ["pliant/core", "pliant/mesh", "pliant/constraints", "pliant/forces", "pliant/solver"],
+    "pliant/solver": ["pliant/core", "pliant/constraints/constraint_group.h", "pliant/forces/force.h",
+                      "pliant/collision/contact"],
+    "pliant/simulation": ["pliant/core", "pliant/mesh", "pliant/collision/colliders", "pliant/collision/contact",
+                          "pliant/constraints", "pliant/forces", "pliant/solver"],
 }
 LAYERS["pliant/timeline"] = LAYERS["pliant/simulation"] + ["pliant/simulation"]
 # All of the algorithm, and of files what is below.

@@ -1,5 +1,6 @@
 #pragma once
 // Everything that a first program needs of the algorithm; pliant_io/pliant_io.h has files.
+#include "pliant/collision/colliders/builtin.h"
 #include "pliant/constraints/builtin.h"
 #include "pliant/core/error.h"
 #include "pliant/forces/builtin.h"

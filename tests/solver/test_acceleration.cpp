@@ -94,7 +94,7 @@ void compare_with_textbook(Index vertices, std::size_t memory) {
     CAPTURE(i);
     const Positions r = force(q);
     CHECK(lbfgs.is_plain() == (i <= 1));
-    lbfgs.move({}, r, solve(r), q, threads);
+    lbfgs.move({}, r, solve(r), 0, q, threads);
     expected += textbook.move(force(expected), solve);
     CHECK((q - expected).norm() <= 1e-5 * force(expected).norm());
   }
@@ -117,13 +117,12 @@ TEST_CASE("L-BFGS: a move that raises the objective is taken back, for the plain
   Positions q = random.positions(vertices, 1);
   lbfgs.begin(vertices);
   LocalResult local{.inertia = 1, .elastic = 2};
-  lbfgs.move(local, force(q), force(q) / 10, q, threads);
-  local.elastic = 100;
-  CHECK_FALSE(lbfgs.has_risen(local));  // after a plain move there is nothing better to do
+  lbfgs.move(local, force(q), force(q) / 10, 0, q, threads);
+  CHECK(lbfgs.is_plain());
   local.elastic = 1;
   const Positions before = q;
   const Positions r = force(q);
-  lbfgs.move(local, r, r / 10, q, threads);
+  lbfgs.move(local, r, r / 10, 0, q, threads);
   CHECK_FALSE(same_bits(q, before + r / 10));
   CHECK_FALSE(lbfgs.has_risen(local));
   local.elastic = 1 + 1e-9;
@@ -138,10 +137,10 @@ TEST_CASE("L-BFGS: a move that raises the objective is taken back, for the plain
     Lbfgs fresh;
     Positions other = before;
     fresh.begin(vertices);
-    fresh.move(local, r, r / 10, other, threads);
+    fresh.move(local, r, r / 10, 0, other, threads);
     for (int i = 0; i < 10; ++i) {
-      lbfgs.move(local, force(q), force(q) / 10, q, threads);
-      fresh.move(local, force(other), force(other) / 10, other, threads);
+      lbfgs.move(local, force(q), force(q) / 10, 0, q, threads);
+      fresh.move(local, force(other), force(other) / 10, 0, other, threads);
       CHECK((q - other).cwiseAbs().maxCoeff() <= 1e-7);
     }
   }
@@ -155,7 +154,7 @@ TEST_CASE("L-BFGS: along no positive curvature, the move is the plain one") {
   for (int i = 0; i < 5; ++i) {  // the force grows along the way
     const Positions before = q;
     const Positions r = q;
-    lbfgs.move({}, r, r, q, threads);
+    lbfgs.move({}, r, r, 0, q, threads);
     CHECK(same_bits(q, before + r));
     CHECK(lbfgs.is_plain());
   }

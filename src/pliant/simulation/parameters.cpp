@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "pliant/collision/colliders/builtin.h"
 #include "pliant/constraints/builtin.h"
 #include "pliant/core/error.h"
 #include "pliant/forces/builtin.h"
@@ -166,6 +167,18 @@ void list_force(const Simulation& simulation, ForceId id, std::vector<Parameter>
   });
 }
 
+void list_collider(const Simulation& simulation, ColliderId id, std::vector<Parameter>& list) {
+  const std::string& name = simulation.name(id);
+  for_each_type(static_cast<BuiltinColliders*>(nullptr), [&](auto* type) {
+    const auto* options = simulation.options<std::remove_pointer_t<decltype(type)>>(id);
+    if (options != nullptr) options->visit(*options, ParameterLister{id, std::string(options->info.name), name, list});
+  });
+}
+
+void list_contact(const Simulation& simulation, std::vector<Parameter>& list) {
+  ContactSettings::visit(simulation.contact(), ParameterLister{ContactOwner{}, "contact", "contact", list});
+}
+
 /// "triangle_strain: min_stretch: -1 is out of range; give a finite number from 0".
 void check_value(const Parameter& parameter, const Vec3& value) {
   const std::string place = (parameter.type.empty() ? "settings" : parameter.type) + ": " + parameter.handle.option;
@@ -201,9 +214,11 @@ void set_of_group(Simulation& simulation, GroupId id, const Parameter& parameter
   change();
 }
 
-void set_of_force(Simulation& simulation, ForceId id, const Parameter& parameter, const Vec3& value) {
+/// Of a force or a collider, of one of the built-in types.
+template <class Types, class Id>
+void set_of_listed(Simulation& simulation, Id id, const Parameter& parameter, const Vec3& value) {
   std::function<void()> change;  // as above
-  for_each_type(static_cast<BuiltinForces*>(nullptr), [&](auto* type) {
+  for_each_type(static_cast<Types*>(nullptr), [&](auto* type) {
     using Type = std::remove_pointer_t<decltype(type)>;
     const Type* given = simulation.options<Type>(id);
     if (given == nullptr) return;
@@ -215,6 +230,13 @@ void set_of_force(Simulation& simulation, ForceId id, const Parameter& parameter
   change();
 }
 
+void set_of_contact(Simulation& simulation, const Parameter& parameter, const Vec3& value) {
+  ContactSettings settings = simulation.contact();
+  const void* changed = nullptr;
+  ContactSettings::visit(settings, ParameterSetter{parameter, value, changed});
+  simulation.set_contact(settings);
+}
+
 }  // namespace
 
 std::vector<Parameter> list_parameters(const Simulation& simulation) {
@@ -222,6 +244,8 @@ std::vector<Parameter> list_parameters(const Simulation& simulation) {
   list_settings(simulation, list);
   for (const auto& [id, group] : simulation.groups()) list_group(simulation, id, list);
   for (const auto& [id, force] : simulation.forces()) list_force(simulation, id, list);
+  for (const auto& [id, collider] : simulation.colliders()) list_collider(simulation, id, list);
+  if (!simulation.colliders().empty()) list_contact(simulation, list);
   return list;
 }
 
@@ -231,6 +255,10 @@ std::vector<Parameter> list_parameters(const Simulation& simulation, const Param
     list_group(simulation, *group, list);
   } else if (const auto* force = std::get_if<ForceId>(&owner)) {
     list_force(simulation, *force, list);
+  } else if (const auto* collider = std::get_if<ColliderId>(&owner)) {
+    list_collider(simulation, *collider, list);
+  } else if (std::holds_alternative<ContactOwner>(owner)) {
+    list_contact(simulation, list);
   } else {
     list_settings(simulation, list);
   }
@@ -252,7 +280,11 @@ void set_parameter(Simulation& simulation, const ParameterHandle& handle, const 
   if (const auto* group = std::get_if<GroupId>(&handle.owner)) {
     set_of_group(simulation, *group, meant, value);
   } else if (const auto* force = std::get_if<ForceId>(&handle.owner)) {
-    set_of_force(simulation, *force, meant, value);
+    set_of_listed<BuiltinForces>(simulation, *force, meant, value);
+  } else if (const auto* collider = std::get_if<ColliderId>(&handle.owner)) {
+    set_of_listed<BuiltinColliders>(simulation, *collider, meant, value);
+  } else if (std::holds_alternative<ContactOwner>(handle.owner)) {
+    set_of_contact(simulation, meant, value);
   } else {
     set_of_settings(simulation, meant, value);
   }

@@ -14,8 +14,13 @@
 
 namespace pliant {
 
-/// Whose option a parameter is: the settings' (std::monostate), a group's or a force's.
-using ParameterOwner = std::variant<std::monostate, GroupId, ForceId>;
+/// The settings of contact as the owner of parameters.
+struct ContactOwner {
+  friend auto operator<=>(const ContactOwner&, const ContactOwner&) = default;
+};
+
+/// Whose option a parameter is: the settings' (std::monostate), a group's, a force's, a collider's or contact's.
+using ParameterOwner = std::variant<std::monostate, GroupId, ForceId, ColliderId, ContactOwner>;
 
 /// Which parameter: of whom, and the name of the option as in scene files.
 struct ParameterHandle {
@@ -29,8 +34,8 @@ enum class ParameterKind { real, integer, choice, vector };
 
 struct Parameter {
   ParameterHandle handle;
-  std::string type;  ///< of the group or force: "triangle_strain"; of the settings: ""
-  std::string name;  ///< of the group or force; of the settings: ""
+  std::string type;  ///< of the group, force or collider: "triangle_strain"; of contact: "contact"; else ""
+  std::string name;  ///< of the group, force or collider; of contact: "contact"; else ""
   std::string unit;  ///< "": none
   std::string doc;   ///< what it does
   ParameterKind kind = ParameterKind::real;
@@ -39,10 +44,10 @@ struct Parameter {
   std::vector<std::string> choices{};  ///< of kind choice: the value is an index into it
 };
 
-/// The settings, then all groups, then all forces, each with its options in their order. An option that is a list with
-/// a number for each constraint or vertex has no parameter, and so has one that is left to the rest positions; of such
-/// stiffnesses the common factor has one. Of constraints made elsewhere the stiffness is all that there is; hard pins
-/// have none.
+/// The settings, then all groups, all forces, all colliders, and what they share, each with its options in their order.
+/// An option that is a list with a number for each constraint or vertex has no parameter, and so has one that is left
+/// to the rest positions; of such stiffnesses the common factor has one. Of constraints made elsewhere the stiffness is
+/// all that there is; hard pins have none.
 std::vector<Parameter> list_parameters(const Simulation& simulation);
 /// Those of one of them. Throws Error(input) when the simulation does not have it.
 std::vector<Parameter> list_parameters(const Simulation& simulation, const ParameterOwner& owner);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "pliant/collision/colliders/collider.h"
 #include "pliant/constraints/constraint_set.h"
 #include "pliant/forces/force_options.h"
 
@@ -13,6 +14,7 @@ namespace pliant {
 enum class BodyId : Index {};
 enum class GroupId : Index {};
 enum class ForceId : Index {};
+enum class ColliderId : Index {};
 
 /// One body. Its vertices are [first_vertex, first_vertex + mesh.vertex_count()) of the simulation.
 struct Body {
@@ -102,6 +104,15 @@ struct ForceRecord {
   std::string name;
   std::optional<BodyId> body{};                   ///< that it is on; none: all there were, or it is a user's own
   std::shared_ptr<const AnyOptions> source = {};  ///< none: it is a user's own
+};
+
+/// A collider as a user sees it. Where it is, Simulation::pose() says.
+struct ColliderRecord {
+  std::string name;
+  std::shared_ptr<const AnyOptions> source;  ///< none: it is a user's own
+  std::shared_ptr<const ColliderShape> shape;
+  Pose pose{};  ///< where it began, or was put last
+  ColliderMotion motion{};
 };
 
 /// What becomes of the anchors (targets of pins and drags, origins of lines) of a group that is replaced. `kept`: a

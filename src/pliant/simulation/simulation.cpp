@@ -49,8 +49,8 @@ void check_surplus(const State& state) {
 
 }  // namespace
 
-Simulation::Simulation(const SolverSettings& settings)
-    : settings_(settings), solver_(std::make_unique<Solver>(settings)) {
+Simulation::Simulation(const SolverSettings& settings) : solver_(std::make_unique<Solver>(settings)) {
+  settings_ = settings;
   state_.positions.resize(0, 3);
   state_.velocities.resize(0, 3);
 }
@@ -74,8 +74,10 @@ BodyId Simulation::add_body(Mesh mesh, const Mass& mass, BodyOptions options) {
   state_.previous_time_step = 0;
   state_.masses.insert(state_.masses.end(), masses.begin(), masses.end());
   if (!state_.energy_surplus.empty()) state_.energy_surplus.resize(state_.masses.size(), 0);
+  if (!state_.contact.stiffening.empty()) state_.contact.stiffening.resize(state_.masses.size(), 1);
   bodies_.push_back({std::move(options.name), std::move(mesh), first_vertex});
   groups_changed_ = true;
+  colliders_changed_ = true;
   return BodyId(static_cast<Index>(bodies_.size()) - 1);
 }
 
@@ -100,6 +102,7 @@ void Simulation::set_settings(const SolverSettings& settings) {
   if (settings.integrator == Integrator::bdf2) {
     for (const auto& [id, force] : forces_) check_under_bdf2(*force);
   }
+  check_projection(settings, !colliders_.empty());
   solver_->set_settings(settings);
   const bool new_limits = settings.time_step != settings_.time_step || settings.substeps != settings_.substeps;
   settings_ = settings;
@@ -126,6 +129,7 @@ void Simulation::update_problem() {
     check_forces();
     forces_changed_ = false;
   }
+  if (colliders_changed_) update_colliders();
 }
 
 void Simulation::set_stop(std::function<bool()> stop) {
@@ -186,6 +190,8 @@ void Simulation::set_state(const Positions& positions, const Positions& velociti
   state_.velocities = velocities;
   state_.previous_time_step = 0;
   state_.energy_surplus.clear();
+  state_.contact.memory.clear();
+  state_.contact.stiffening.clear();
   solver_->forget_prediction();
 }
 
@@ -206,6 +212,7 @@ void Simulation::restore(const State& state) {
     check_rows(state.previous_velocities, state_.vertex_count(), "restore: previous velocities");
   }
   check_surplus(state);
+  check_contact(state.contact);
   if (transaction_ != nullptr) transaction_->save_state();
   state_ = state;
   if (state_.previous_time_step == 0) {

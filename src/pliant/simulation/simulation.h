@@ -16,10 +16,10 @@
 #include <string>
 #include <vector>
 
+#include "pliant/collision/contact/contact.h"
 #include "pliant/mesh/mass.h"
+#include "pliant/simulation/colliders.h"
 #include "pliant/simulation/group_index.h"
-#include "pliant/solver/settings.h"
-#include "pliant/solver/state.h"
 #include "pliant/solver/system_info.h"
 
 namespace pliant {
@@ -27,7 +27,7 @@ namespace pliant {
 class Solver;
 class Transaction;
 
-class Simulation {
+class Simulation : public Colliders {
  public:
   /// Throws Error(input) on settings out of their range, as do all members on what they refuse.
   explicit Simulation(const SolverSettings& settings = {});
@@ -119,6 +119,13 @@ class Simulation {
   std::optional<ForceId> find_force(std::string_view name) const;
   Index vertex(BodyId id, Index vertex_of_body) const;  ///< its index among all; refuses one out of range
 
+  using Colliders::add, Colliders::name, Colliders::options, Colliders::remove, Colliders::replace;
+
+  Real contact_distance(BodyId id) const;  ///< r of its vertices [m]
+  /// What touched at the end of the last step, by vertex, then collider; valid until the next one.
+  std::span<const ContactPoint> contacts() const;
+  Wrench wrench(ColliderId id) const;  ///< what a collider felt then
+
   const SolverSettings& settings() const { return settings_; }
   void set_settings(const SolverSettings& settings);  ///< refuses BDF2 with a force that is an explicit spring
 
@@ -174,9 +181,8 @@ class Simulation {
   static void check_under_bdf2(const Force& force);
   void check_forces();
   void update_problem();
+  void update_colliders();
 
-  SolverSettings settings_;
-  State state_;
   std::vector<Body> bodies_;
   std::map<GroupId, Group> groups_;
   GroupIndex group_index_;
@@ -189,7 +195,6 @@ class Simulation {
   Index next_force_ = 0;
   bool groups_changed_ = true;
   bool forces_changed_ = true;
-  Transaction* transaction_ = nullptr;  // the innermost one under way
 };
 
 }  // namespace pliant

@@ -14,7 +14,9 @@ Transaction::Transaction(Simulation& simulation)
       warning_count_(simulation.warnings_.size()),
       warned_forces_(simulation.warned_forces_),
       next_group_(simulation.next_group_),
-      next_force_(simulation.next_force_) {
+      next_force_(simulation.next_force_),
+      next_collider_(simulation.next_collider_),
+      contact_settings_(simulation.contact_) {
   simulation_.transaction_ = this;
 }
 
@@ -49,6 +51,12 @@ void Transaction::save_state() {
   if (!state_) state_ = simulation_.state_;
 }
 
+/// With where they are, and what contact remembers of them.
+void Transaction::save_colliders() {
+  if (!colliders_) colliders_ = simulation_.colliders_;
+  if (!state_ && !contact_) contact_ = simulation_.state_.contact;
+}
+
 void Transaction::roll_back() {
   Simulation& s = simulation_;
   for (auto& [id, group] : groups_) {
@@ -80,6 +88,11 @@ void Transaction::roll_back() {
     s.state_ = *std::move(state_);
     s.solver_->forget_prediction();
   }
+  if (contact_) s.state_.contact = *std::move(contact_);
+  if (colliders_) s.colliders_ = *std::move(colliders_);
+  if (colliders_ || body_count_ != s.bodies_.size() || s.contact_ != contact_settings_) s.colliders_changed_ = true;
+  s.contact_ = contact_settings_;
+  s.next_collider_ = next_collider_;
   if (!groups_.empty() || body_count_ != s.bodies_.size()) s.groups_changed_ = true;
   if (!forces_.empty()) s.forces_changed_ = true;
   s.bodies_.resize(body_count_);
@@ -92,6 +105,8 @@ void Transaction::roll_back() {
 }
 
 void Transaction::merge_into(Transaction& outer) {
+  if (contact_ && !outer.contact_ && !outer.state_) outer.contact_ = std::move(contact_);
+  if (colliders_ && !outer.colliders_) outer.colliders_ = std::move(colliders_);
   if (state_ && !outer.state_) outer.state_ = std::move(state_);
   for (auto& [id, numbers] : numbers_) {
     if (!outer.groups_.contains(id)) outer.numbers_.emplace(id, std::move(numbers));

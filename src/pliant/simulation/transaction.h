@@ -30,6 +30,7 @@ class Transaction {
 
  private:
   friend class Simulation;
+  friend class Colliders;
 
   /// What changes without a group being another one.
   struct Numbers {
@@ -46,6 +47,7 @@ class Transaction {
   void save(GroupId id, std::optional<Group> group);
   void save(ForceId id, std::optional<SavedForce> force);
   void save_state();
+  void save_colliders();
 
   void roll_back();
   void merge_into(Transaction& outer);
@@ -60,11 +62,15 @@ class Transaction {
   std::set<ForceId> warned_forces_;
   Index next_group_;
   Index next_force_;
+  Index next_collider_;
+  ContactSettings contact_settings_;
   // As they were before their first change; none for what was not there.
   std::map<GroupId, std::optional<Group>> groups_;
   std::map<GroupId, Numbers> numbers_;
   std::map<ForceId, std::optional<SavedForce>> forces_;
   std::optional<State> state_;
+  std::optional<ContactState> contact_;  // unless the state was saved before
+  std::optional<std::map<ColliderId, ColliderRecord>> colliders_;
 };
 
 }  // namespace pliant

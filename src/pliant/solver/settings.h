@@ -21,10 +21,11 @@ constexpr std::array<std::string_view, 2> choice_names(Start) {
 }
 
 /// How a global solve becomes the next iterate. `none`: the plain algorithm. `lbfgs`: L-BFGS, with the factor as its
-/// first guess of the inverse Hessian.
-enum class Acceleration { none, lbfgs };
-constexpr std::array<std::string_view, 2> choice_names(Acceleration) {
-  return {"none", "lbfgs"};
+/// first guess of the inverse Hessian. `automatic`: L-BFGS where there are colliders, without which friction is wrong
+/// after a few iterations, else none.
+enum class Acceleration { automatic, none, lbfgs };
+constexpr std::array<std::string_view, 3> choice_names(Acceleration) {
+  return {"automatic", "none", "lbfgs"};
 }
 
 /// Which library factorizes the system matrix. `automatic`: CHOLMOD where this build has it, else Eigen.
@@ -56,7 +57,7 @@ struct SolverSettings {
   /// 1 to 1e9: local and global steps in each (sub)step; more are stiffer and livelier.
   Index iterations = 10;
   /// `lbfgs` is far nearer to convergence after the same number of iterations, each 1.2 to 1.4 times as slow.
-  Acceleration acceleration = Acceleration::none;
+  Acceleration acceleration = Acceleration::automatic;
   /// c [1/s], ≥ 0: the amplitude of vibrations decays as e^(−ct); flight and turning of a body are left alone.
   Real damping = 0;
   /// 0 to 1: share of the energy that a step would lose, by itself, that each connected body is given back.
@@ -92,7 +93,8 @@ struct SolverSettings {
           self.iterations);
     field(OptionInfo{"acceleration", "",
                      "`none`: the plain algorithm; `lbfgs`: L-BFGS, which is far nearer to convergence after the "
-                     "same number of iterations, each of them 1.2 to 1.4 times as slow"},
+                     "same number of iterations, each of them 1.2 to 1.4 times as slow; `automatic`: `lbfgs` where "
+                     "there are colliders"},
           self.acceleration);
     field(
         OptionInfo{

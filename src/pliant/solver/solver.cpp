@@ -31,7 +31,7 @@ void Solver::set_groups(Index vertex_count, std::vector<ConstraintGroup*> groups
 }
 
 StepContext Solver::context(const State& state) {
-  return {settings_, substep(), system_, forces_, threads_.pool(), state};
+  return {settings_, substep(), system_, forces_, contact_, threads_.pool(), state};
 }
 
 void Solver::prepare(const State& state, StepReport& report) {
@@ -48,7 +48,8 @@ void Solver::prepare(const State& state, StepReport& report) {
   work_.gather(state, system_.order());
   if (substep_fraction_ < 1) system_.order().gather(step_start_.positions, work_.step_begin);
   const Real step = inertia_step(settings_.integrator, substep());
-  if (system_.needs_factor(step)) {
+  const bool is_later = contact_.is_active() && state.contact.is_in_factor && system_.has_factor();
+  if (system_.needs_factor(step) && !is_later) {
     system_.factorize(work_.begin.masses, step, settings_.precision, threads_.pool(), times);
   }
   history_.clear();
@@ -80,9 +81,12 @@ Evaluation Solver::evaluate(const State& state) {
   work_.gather(state, system_.order());
   if (!is_predicted) work_.prediction = work_.begin.positions;
   system_.set_inertia(work_.begin.masses, is_predicted ? work_.predicted_step : substep());
-  const LocalResult found =
-      system_.local_step(work_.begin.positions, work_.prediction, work_.residual, threads_.pool());
-  return {found.residual, found.inertia, found.elastic};
+  work_.positions = work_.begin.positions;
+  LocalResult found = system_.local_step(work_.positions, work_.prediction, work_.residual, threads_.pool());
+  if (is_predicted && !is_new && contact_.is_active()) contact_.add(work_, found, threads_.pool());
+  Evaluation evaluation{found.residual, found.inertia, found.elastic};
+  evaluation.contact = found.contact;
+  return evaluation;
 }
 
 SystemInfo Solver::system_info(const State& state) {

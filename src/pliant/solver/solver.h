@@ -2,8 +2,8 @@
 // The solver: thesis Algorithm 1 in residual form. step.cpp has the algorithm on one screen; here is what it needs.
 #include <functional>
 
-#include "pliant/solver/acceleration/lbfgs.h"
 #include "pliant/solver/applied_forces.h"
+#include "pliant/solver/descent.h"
 #include "pliant/solver/integration/energy_projection.h"
 #include "pliant/solver/state.h"
 #include "pliant/solver/step_context.h"
@@ -25,6 +25,10 @@ class Solver {
   /// factorization, and an ordering when they connect vertices that were not connected; new forces cost nothing.
   void set_groups(Index vertex_count, std::vector<ConstraintGroup*> groups);
   void set_forces(std::vector<Force*> forces) { forces_.set(std::move(forces)); }
+  /// Colliders by number, and how near to them each vertex comes to rest [m]. They cost nothing.
+  void set_colliders(std::vector<SolverCollider> colliders, std::vector<Real> radii) {
+    contact_.set(std::move(colliders), std::move(radii));
+  }
 
   /// Asked before each iteration whether the step is to be given up; none: never.
   void set_stop(std::function<bool()> stop) { stop_ = std::move(stop); }
@@ -39,6 +43,8 @@ class Solver {
   Evaluation evaluate(const State& state);
   /// To be told when the state is another than the last step left.
   void forget_prediction() { work_.predicted_step = 0; }
+  /// What touched in the last step.
+  const Contact& contact() const { return contact_.contact(); }
   /// Elastic energy of a group at the last evaluate() [J]; 0 for a group that it did not have.
   Real elastic_energy(const ConstraintGroup& group) const { return system_.elastic_energy(group); }
 
@@ -58,7 +64,7 @@ class Solver {
  private:
   Real substep() const { return settings_.time_step / static_cast<Real>(settings_.substeps); }
   bool projects_energy() const { return settings_.energy_projection > 0; }
-  bool is_accelerated() const { return settings_.acceleration != Acceleration::none; }
+  bool is_watched() const { return settings_.acceleration == Acceleration::lbfgs || contact_.is_active(); }
   StepContext context(const State& state);
 
   void take_substeps(State& state, StepReport& report);
@@ -68,11 +74,11 @@ class Solver {
   void predict(const State& state);
   void initial_guess();
   void apply_pins();
-  LocalResult local_step(const State& state, StepReport& report);
-  void global_step(const LocalResult& local, StepReport& report);
-  void check_last_move(StepReport& report);
+  void begin_contact(const State& state);
+  LocalResult local_step(const State& state, Index iteration, StepReport& report);
+  void global_step(const State& state, const LocalResult& local, StepReport& report);
   void find_velocities();
-  void commit(State& state);
+  void commit(State& state, StepReport& report);
 
   SolverSettings settings_;
   std::function<bool()> stop_;
@@ -80,7 +86,8 @@ class Solver {
   System system_;
   AppliedForces forces_;
   WorkingState work_;
-  Lbfgs lbfgs_;
+  Descent descent_;
+  ContactSolver contact_;
   EnergyProjection energy_;
   State step_start_;           // of a step with substeps
   Real substep_fraction_ = 1;  // of the path to their targets that pinned vertices have gone at the end of the substep

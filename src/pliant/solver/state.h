@@ -1,4 +1,5 @@
 #pragma once
+#include "pliant/collision/contact/contact_state.h"
 #include "pliant/core/state_view.h"
 
 namespace pliant {
@@ -21,6 +22,9 @@ struct State {
   /// What energy projection has let components have too much and does not give them back, at one vertex of each, m
   /// numbers [J]; empty: nothing.
   std::vector<Real> energy_surplus{};
+
+  /// Where colliders are, and what friction remembers.
+  ContactState contact{};
 
   Index vertex_count() const { return static_cast<Index>(positions.rows()); }
   StateView view() const { return {positions, velocities, masses, step, time}; }
@@ -48,10 +52,20 @@ struct SetUpTimes {
   double estimate = 0;  ///< whether panels in single precision do
 };
 
+/// What a step tells about contact.
+struct ContactReport {
+  Index contacts = 0;          ///< vertices that touch a collider at its end, each with each
+  Real deepest = 0;            ///< how much nearer than r the nearest of them is [m]
+  Real friction_power = 0;     ///< that friction takes away in the last substep [W]
+  Index held_back = 0;         ///< moves of vertices that were cut at a surface
+  Index refactorizations = 0;  ///< with contact in the factor
+  double seconds = 0;
+};
+
 /// What a step tells about itself.
 struct StepReport {
   Index iterations = 0;            ///< global solves made, in all substeps
-  Index backtracks = 0;            ///< moves of acceleration that were taken back, since the objective rose
+  Index backtracks = 0;            ///< moves that were taken back or shortened, since the objective rose
   bool reached_tolerance = false;  ///< in every substep
   Real residual = 0;               ///< largest force left on a vertex [N], of the iterate before the last solve
   double seconds_local = 0;        ///< projections and the sum of the residual
@@ -59,6 +73,7 @@ struct StepReport {
   double seconds_global = 0;       ///< triangular solves, and what acceleration makes of them
   double seconds_factor = 0;       ///< assembly and factorization, when something changed
   double seconds_total = 0;
+  ContactReport contact;
   SolveTimes solves;  ///< parts of seconds_global
   SetUpTimes set_up;  ///< parts of seconds_factor
 };
@@ -69,7 +84,8 @@ struct Evaluation {
   Real inertia = 0;   ///< 1/(2h²) ‖M^½ (q − s)‖² [J], with 2h/3 for h in BDF2
   Real elastic = 0;   ///< Σ wᵢ/2 ‖zᵢ − pᵢ‖² [J]
   Real outside = 0;   ///< the same of what forces bring inside the minimization, as the wind does [J]
-  Real objective() const { return inertia + elastic + outside; }
+  Real contact = 0;   ///< of contact and its friction [J]
+  Real objective() const { return inertia + elastic + outside + contact; }
 };
 
 }  // namespace pliant

@@ -29,11 +29,13 @@ StepReport Solver::step(State& state) {
   const Stopwatch total;
   StepReport report;
   report.reached_tolerance = true;
+  contact_.begin_step(state, settings_.time_step);
   if (settings_.substeps == 1) {
     take_substep(state, report);
   } else {
     take_substeps(state, report);
   }
+  contact_.commit_step(state);
   advance_time(state, settings_.time_step);
   report.seconds_total = total.seconds();
   return report;
@@ -44,20 +46,22 @@ void Solver::take_substep(State& state, StepReport& report) {
   predict(state);                                                 // 1-2 s = a + η b + η² M⁻¹ f
   if (projects_energy()) energy_.begin(context(state), work_);    //
   initial_guess();                                                // 3   q = s or qₙ, pins at their targets
-  if (is_accelerated()) lbfgs_.begin(system_.vertex_count());     //
+  if (contact_.is_active()) begin_contact(state);                 //     and nothing inside a collider
+  descent_.begin(context(state));                                 //
   bool reached_tolerance = false;                                 //
   for (Index i = 0; i < settings_.iterations; ++i) {              // 4
-    const LocalResult local = local_step(state, report);          // 5   r = M/η² (s − q) + Σ w SᵀAᵀ (p − z)
+    const LocalResult local = local_step(state, i, report);       // 5   r = M/η² (s − q) + Σ w SᵀAᵀ (p − z)
     reached_tolerance = local.residual <= settings_.tolerance;    //
     if (reached_tolerance && i > 0) break;                        //     at least one iteration a step
-    global_step(local, report);                                   // 6   q ← q + Y⁻¹ r, or q + H r
+    global_step(state, local, report);                            // 6   q ← q + Y⁻¹ r, or q + H r
   }                                                               //
-  if (!reached_tolerance) check_last_move(report);                //     which must not have raised E either
+  if (!reached_tolerance && is_watched())                         //
+    descent_.check_last_move(context(state), work_, report);      //     which must not have raised E either
   report.reached_tolerance &= reached_tolerance;                  //
   check_finite(context(state), work_);                            //
   find_velocities();                                              // 8   v = (q − a)/η
   if (projects_energy()) energy_.project(context(state), work_);  //     onto the energy that q and v should have
-  commit(state);                                                  //     qₙ = q, vₙ = v
+  commit(state, report);                                          //     qₙ = q, vₙ = v
 }
 
 /// A step that fails in a later substep is not taken at all.
@@ -120,24 +124,28 @@ void Solver::apply_pins() {
   }
 }
 
-/// Takes back a move of acceleration that has raised E first, and makes the plain one. Throws when a residual is not
-/// finite, and when the step is to be given up.
-LocalResult Solver::local_step(const State& state, StepReport& report) {
+void Solver::begin_contact(const State& state) {
+  const Real share = 1 / static_cast<Real>(settings_.substeps);
+  contact_.begin_substep(state, substep_fraction_ - share, substep_fraction_, substep(), system_, work_,
+                         threads_.pool());
+}
+
+/// Takes back moves that have raised E, and refreshes friction when it is time. Throws when a residual is not finite,
+/// and when the step is to be given up.
+LocalResult Solver::local_step(const State& state, Index iteration, StepReport& report) {
   if (stop_ && stop_()) {
     throw Error(ErrorKind::interrupted,
                 "step " + std::to_string(state.step + 1) + ": given up in the middle; take it again to go on");
   }
   threads_.begin_iteration();
   const Stopwatch watch;
-  LocalResult local = system_.local_step(work_.positions, work_.prediction, work_.residual, threads_.pool());
-  if (is_accelerated() && lbfgs_.has_risen(local)) {
-    lbfgs_.move_plainly(work_.solution, work_.positions);
-    ++report.backtracks;
-    report.seconds_projections += local.seconds_projections;
-    local = system_.local_step(work_.positions, work_.prediction, work_.residual, threads_.pool());
+  LocalResult local = descent_.local_step(context(state), work_, report);
+  if (contact_.is_active() && contact_.refresh(iteration, settings_.iterations, local.residual <= settings_.tolerance,
+                                               work_, local, threads_.pool())) {
+    descent_.forget();
   }
   if (!std::isfinite(local.residual)) report_divergence(context(state), work_);
-  if (history_.size() < history_.capacity()) history_.push_back(local.inertia + local.elastic);
+  if (history_.size() < history_.capacity()) history_.push_back(local.objective());
   local.seconds = watch.seconds();
   report.residual = local.residual;
   report.seconds_local += local.seconds;
@@ -145,11 +153,10 @@ LocalResult Solver::local_step(const State& state, StepReport& report) {
   return local;
 }
 
-void Solver::global_step(const LocalResult& local, StepReport& report) {
+void Solver::global_step(const State& state, const LocalResult& local, StepReport& report) {
   const Stopwatch watch;
-  if (is_accelerated()) {
-    report.solves += system_.solve(work_.residual, local.residual, work_.solution, threads_.pool());
-    lbfgs_.move(local, work_.residual, work_.solution, work_.positions, threads_.pool());
+  if (is_watched()) {
+    descent_.move(local, context(state), work_, report);
   } else {
     report.solves += system_.global_step(work_.residual, local.residual, work_.positions, threads_.pool());
   }
@@ -157,20 +164,6 @@ void Solver::global_step(const LocalResult& local, StepReport& report) {
   const double seconds = watch.seconds();
   report.seconds_global += seconds;
   threads_.end_iteration(local.seconds + seconds);
-}
-
-/// A move of acceleration is known to be good once the objective was seen where it led; a plain one always is.
-void Solver::check_last_move(StepReport& report) {
-  if (!is_accelerated() || lbfgs_.is_plain()) return;
-  const Stopwatch watch;
-  const LocalResult last = system_.local_step(work_.positions, work_.prediction, work_.residual, threads_.pool());
-  if (lbfgs_.has_risen(last)) {
-    lbfgs_.move_plainly(work_.solution, work_.positions);
-    work_.residual.setZero();  // it was that of a place which has been left
-    ++report.backtracks;
-  }
-  report.seconds_projections += last.seconds_projections;
-  report.seconds_local += watch.seconds();
 }
 
 void Solver::find_velocities() {
@@ -182,7 +175,7 @@ void Solver::find_velocities() {
 
 /// Velocities that are damped as e^(-2ch) a step make the amplitude of an oscillation decay as e^(-ct), besides what
 /// the integrator takes. Those before, from which BDF2 goes on, are then a step further away.
-void Solver::commit(State& state) {
+void Solver::commit(State& state, StepReport& report) {
   if (!projects_energy()) work_.energy_surplus.clear();
   work_.predicted_step = IntegratorCoefficients(work_.begin, settings_.integrator, substep()).inertia_step();
   const Real factor = std::exp(-2 * settings_.damping * substep());
@@ -193,6 +186,7 @@ void Solver::commit(State& state) {
   if (settings_.damping > 0 && settings_.integrator == Integrator::bdf2) {
     damp(work_.begin.positions, work_.begin.velocities);
   }
+  if (contact_.is_active()) contact_.commit_substep(system_, work_, state, report.contact);
   work_.scatter(system_.order(), settings_.integrator, substep(), state);
 }
 

@@ -2,6 +2,7 @@
 // What the parts of a step outside the solver need of it.
 #include "pliant/core/thread_pool.h"
 #include "pliant/solver/applied_forces.h"
+#include "pliant/solver/contact_solver.h"
 #include "pliant/solver/system.h"
 
 namespace pliant {
@@ -11,6 +12,7 @@ struct StepContext {
   Real time_step;  ///< of the substep [s]
   System& system;
   AppliedForces& forces;
+  ContactSolver& contact;
   ThreadPool& threads;
   const State& state;  ///< that the substep began with, in the order of the simulation
 };

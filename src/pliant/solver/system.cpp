@@ -49,7 +49,7 @@ void System::set_factorization(std::unique_ptr<Factorization> factorization) {
 void System::begin_step(const State& state, Integrator integrator, Real h) {
   StateView view = state.view();
   const bool is_bdf2 = integrator == Integrator::bdf2 && has_history(state, h);
-  view.inertia_step = is_bdf2 ? inertia_step(Integrator::bdf2, h) : h;
+  view.inertia_step = is_bdf2 ? pliant::inertia_step(Integrator::bdf2, h) : h;
   if (is_bdf2) view.previous_positions = &state.previous_positions;
   for (ConstraintGroup* group : simulation_groups_) group->begin_step(view, h);
 }
@@ -113,6 +113,7 @@ void System::find_pinned() {
 }
 
 void System::set_inertia(std::span<const Real> masses, Real step) {
+  inertia_step_ = step;
   inertia_weights_.resize(masses.size());
   for (std::size_t i = 0; i < masses.size(); ++i) inertia_weights_[i] = is_pinned_[i] ? 0 : masses[i] / (step * step);
   translation_weights_ = inertia_weights_;
@@ -122,7 +123,7 @@ void System::set_inertia(std::span<const Real> masses, Real step) {
 }
 
 bool System::needs_factor(Real step) const {
-  if (factor_step_ != step) return true;
+  if (factor_step_ != step || is_of_more_) return true;
   for (std::size_t g = 0; g < simulation_groups_.size(); ++g) {
     if (simulation_groups_[g]->stiffness() != stamps_[g].stiffness) return true;
   }
@@ -131,17 +132,40 @@ bool System::needs_factor(Real step) const {
 
 void System::factorize(std::span<const Real> masses, Real step, Precision precision, ThreadPool& threads,
                        SetUpTimes& times) {
-  Stopwatch watch;
+  const Stopwatch watch;
+  set_inertia(masses, step);
+  sum(masses, step);
+  times.assembly = watch.seconds();
+  factorize_sum(precision, threads, times);
+  is_of_more_ = false;
+  factor_step_ = step;
+}
+
+void System::factorize_with(std::span<const Real> diagonal, std::span<const Real> masses, Real step,
+                            Precision precision, ThreadPool& threads, SetUpTimes& times) {
+  const Stopwatch watch;
+  sum(masses, step);
+  matrix_.add_diagonal(diagonal);
+  for (std::size_t i = 0; i < diagonal.size(); ++i) translation_weights_[i] += diagonal[i];
+  times.assembly = watch.seconds();
+  factorize_sum(precision, threads, times);
+  is_of_more_ = true;
+  factor_step_ = step;
+}
+
+void System::sum(std::span<const Real> masses, Real step) {
   for (std::size_t g = 0; g < simulation_groups_.size(); ++g) stamps_[g].stiffness = simulation_groups_[g]->stiffness();
   factor_step_ = 0;  // until this succeeds
-  set_inertia(masses, step);
   matrix_.assemble(masses, step, groups(), is_pinned_);
-  times.assembly = watch.lap();
+  matrix_.copy_diagonal(diagonal_);
+}
+
+void System::factorize_sum(Precision precision, ThreadPool& threads, SetUpTimes& times) {
+  const Stopwatch watch;
   if (!is_analyzed_) global_step_.analyze(matrix_.matrix());
   is_analyzed_ = true;
-  times.symbolic = watch.lap();
+  times.symbolic = watch.seconds();
   global_step_.factorize(matrix_.matrix(), precision, translation_weights_, free_components_, threads, times);
-  factor_step_ = step;
 }
 
 LocalResult System::local_step(const Positions& q, const Positions& s, Positions& r, ThreadPool& threads) {

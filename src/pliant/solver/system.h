@@ -25,6 +25,7 @@ class System {
   /// Another back end or ordering: the next factor is analyzed anew.
   void set_factorization(std::unique_ptr<Factorization> factorization);
   bool has_factorization() const { return global_step_.has_factorization(); }
+  bool has_factor() const { return factor_step_ > 0; }
   /// The next step factorizes, whatever else has changed.
   void forget_factor() { factor_step_ = 0; }
 
@@ -41,10 +42,14 @@ class System {
 
   /// Masses [kg] of the vertices, and η of a step [s].
   void set_inertia(std::span<const Real> masses, Real step);
-  /// Whether the factor is of another η or of other stiffnesses.
+  /// Whether the factor is of another η, of other stiffnesses, or not of Y alone.
   bool needs_factor(Real step) const;
   /// Sums Y and factorizes it. Throws Error(input) where it is not positive definite.
   void factorize(std::span<const Real> masses, Real step, Precision precision, ThreadPool& threads, SetUpTimes& times);
+  /// Factorizes Y + D instead, D a number for each vertex [N/m], of the same η as Y before: until needs_factor(), which
+  /// is at the next step.
+  void factorize_with(std::span<const Real> diagonal, std::span<const Real> masses, Real step, Precision precision,
+                      ThreadPool& threads, SetUpTimes& times);
 
   /// r = M/η² (s − q) + Σ w SᵀAᵀ (p − z), zero at pinned vertices.
   LocalResult local_step(const Positions& q, const Positions& s, Positions& r, ThreadPool& threads);
@@ -67,6 +72,10 @@ class System {
   std::span<const char> is_pinned() const { return is_pinned_; }
   /// M/η² [N/m], 0 at pinned vertices.
   std::span<const Real> inertia_weights() const { return inertia_weights_; }
+  /// η of those [s].
+  Real inertia_step() const { return inertia_step_; }
+  /// Of Y, as it was summed last [N/m].
+  std::span<const Real> diagonal() const { return diagonal_; }
   std::size_t slot_count() const { return local_step_.slot_count(); }
   const GlobalStep& factor() const { return global_step_; }
   const LocalStep& projections() const { return local_step_; }
@@ -82,6 +91,8 @@ class System {
     Real stiffness;
   };
 
+  void sum(std::span<const Real> masses, Real step);
+  void factorize_sum(Precision precision, ThreadPool& threads, SetUpTimes& times);
   void choose_order();
   void find_pinned();
 
@@ -101,11 +112,14 @@ class System {
   Positions shape_;  // in the order of the simulation
 
   std::vector<Real> inertia_weights_;
+  Real inertia_step_ = 0;
   std::vector<Real> no_weights_;
   std::vector<Real> translation_weights_;  // with what forces' groups add: Y as a translation of a component feels it
   SystemMatrix matrix_;
+  std::vector<Real> diagonal_;
   GlobalStep global_step_;
-  Real factor_step_ = 0;  // η of the matrix that was factorized; 0: there is no factor
+  Real factor_step_ = 0;     // η of the matrix that was factorized; 0: there is no factor
+  bool is_of_more_ = false;  // than Y
   bool is_analyzed_ = false;
 };
 

@@ -59,12 +59,12 @@ class StraightPath final : public Path {
   Real share_ = 0;  // scratch
 };
 
-using Pose = Eigen::Matrix<Real, 6, 1>;  // translation and rotation vector
+using Displacement = Eigen::Matrix<Real, 6, 1>;  // translation and rotation vector
 
 struct Key {
   Real time;
-  Pose pose;
-  Pose velocity = Pose::Zero();
+  Displacement pose;
+  Displacement velocity = Displacement::Zero();
 };
 
 class RigidPath final : public Path {
@@ -75,8 +75,8 @@ class RigidPath final : public Path {
     for (std::size_t i = 1; i + 1 < keys_.size(); ++i) {
       const Real before = keys_[i].time - keys_[i - 1].time;
       const Real after = keys_[i + 1].time - keys_[i].time;
-      const Pose slope_before = (keys_[i].pose - keys_[i - 1].pose) / before;
-      const Pose slope_after = (keys_[i + 1].pose - keys_[i].pose) / after;
+      const Displacement slope_before = (keys_[i].pose - keys_[i - 1].pose) / before;
+      const Displacement slope_after = (keys_[i + 1].pose - keys_[i].pose) / after;
       keys_[i].velocity = (after * slope_before + before * slope_after) / (before + after);
     }
   }
@@ -94,7 +94,7 @@ class RigidPath final : public Path {
   }
 
   void go_to(const Simulation&, const MotionNumbers& numbers, Real elapsed) override {
-    const Pose pose = pose_at(elapsed);
+    const Displacement pose = pose_at(elapsed);
     const Vec3 turn = pose.tail<3>();
     const Real angle = turn.norm();
     rotation_ = angle > 0 ? Eigen::AngleAxis<Real>(angle, turn / angle).toRotationMatrix() : Mat3(Mat3::Identity());
@@ -107,7 +107,7 @@ class RigidPath final : public Path {
   }
 
  private:
-  Pose pose_at(Real elapsed) const {
+  Displacement pose_at(Real elapsed) const {
     const auto next = std::ranges::find_if(keys_, [&](const Key& key) { return key.time > elapsed; });
     if (next == keys_.end()) return keys_.back().pose;
     if (next == keys_.begin()) return keys_.front().pose;
@@ -153,7 +153,7 @@ std::shared_ptr<Path> rigid_path(std::vector<Keyframe> keys, std::optional<Vec3>
   if (keys.empty()) fail_input("keyframes: the list is empty; give one or more");
   if (center) check_points(Points(*center));
   std::vector<Key> poses;
-  if (keys.front().time > 0) poses.push_back({0, Pose::Zero()});
+  if (keys.front().time > 0) poses.push_back({0, Displacement::Zero()});
   for (std::size_t i = 0; i < keys.size(); ++i) {
     const Real time = keys[i].time;
     if (!(time >= 0) || !std::isfinite(time) || (i > 0 && time <= keys[i - 1].time)) {
@@ -162,7 +162,7 @@ std::shared_ptr<Path> rigid_path(std::vector<Keyframe> keys, std::optional<Vec3>
     }
     check_points(Points(keys[i].translate));
     const Vec3 turn = keys[i].rotate.vector();
-    Pose pose;
+    Displacement pose;
     pose << keys[i].translate, turn;
     poses.push_back({time, pose});
   }

@@ -69,24 +69,42 @@ void Lbfgs::begin(Index vertex_count) {
   is_plain_ = true;
 }
 
+void Lbfgs::forget() {
+  pair_count_ = 0;
+  has_moved_ = false;
+}
+
 bool Lbfgs::has_risen(const LocalResult& now) const {
   constexpr Real rounding = 1e-12;
-  const Real before = local_before_.inertia + local_before_.elastic;
-  return !is_plain_ && !(now.inertia + now.elastic <= before + rounding * before);
+  const Real before = local_before_.objective();
+  return !(now.objective() <= before + rounding * before);
 }
 
 void Lbfgs::move_plainly(const Positions& x, Positions& q) {
-  q = positions_before_ + x;
-  std::swap(solutions_[0], solutions_[pair_count_]);
-  moves_[0] = solutions_[0];
-  last_.solutions[0] = last_.solutions[pair_count_];
-  last_.moves[0] = last_.solutions[0];
-  pair_count_ = 0;
+  if (has_moved_) {
+    std::swap(solutions_[0], solutions_[pair_count_]);
+    last_.solutions[0] = last_.solutions[pair_count_];
+    pair_count_ = 0;
+  }
   is_plain_ = true;
+  length_ = 1;
+  shorten(plain_length(), x, q);
 }
 
-void Lbfgs::move(const LocalResult& local, const Positions& r, const Positions& x, Positions& q, ThreadPool& threads) {
+void Lbfgs::shorten(Real share, const Positions& x, Positions& q) {
+  length_ *= share;
+  q = positions_before_ + length_ * x;
+  if (!has_moved_) return;
+  const Kept factor = static_cast<Kept>(length_);
+  std::ranges::transform(solutions_[0], moves_[0].begin(), [factor](Kept each) { return factor * each; });
+  last_.moves[0] = length_ * last_.solutions[0];
+}
+
+void Lbfgs::move(const LocalResult& local, const Positions& r, const Positions& x, Real curvature, Positions& q,
+                 ThreadPool& threads) {
   Numbers now = products(r, x, threads);
+  descent_ = now.solutions[last_solution()];
+  curvature_ = curvature;
   if (has_moved_) complete_pair(now);
   has_moved_ = false;
   Numbers factors = coefficients(now);
@@ -94,14 +112,18 @@ void Lbfgs::move(const LocalResult& local, const Positions& r, const Positions& 
   if (!(descent > 0)) {
     forget_pairs(now);
     factors = coefficients(now);
-    descent = now.solutions[0];
+  }
+  is_plain_ = pair_count_ == 0;
+  if (is_plain_) {
+    length_ = plain_length();
+    factors.solutions[0] = length_;
+    descent = length_ * now.solutions[0];
   }
   add_up(factors, x, q, threads);
   last_ = now;
   last_.moves[pair_count_] = descent;
   local_before_ = local;
   has_moved_ = true;
-  is_plain_ = pair_count_ == 0;
   if (pair_count_ == memory_) forget_oldest_pair();
 }
 

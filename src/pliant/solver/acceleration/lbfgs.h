@@ -26,13 +26,20 @@ class Lbfgs {
   /// Forgets all pairs: the objective of a new step is another. Allocates when the number of vertices has changed.
   void begin(Index vertex_count);
 
-  /// Whether the last move was not a plain one and has raised the objective, by more than rounding does, or it is NaN.
+  /// Forgets all pairs in the middle of a step, and that the last move makes one: it did not end where it led.
+  void forget();
+  /// Whether the last move has raised the objective, by more than rounding does, or it is NaN.
   bool has_risen(const LocalResult& now) const;
   /// Takes the last move back, makes the plain one in its place, with the x that it was made from, and forgets the
   /// pairs.
   void move_plainly(const Positions& x, Positions& q);
-  /// q ← q + H r. local, r [N]: what the local step found at q; x = Y⁻¹ r [m].
-  void move(const LocalResult& local, const Positions& r, const Positions& x, Positions& q, ThreadPool& threads);
+  /// Makes the plain move `share` times as long.
+  void shorten(Real share, const Positions& x, Positions& q);
+  /// q ← q + H r. local, r [N]: what the local step found at q; x = B⁻¹ r [m] with the matrix B that was factorized.
+  /// A plain move is q ← q + α x, α = xᵀr / (xᵀr + c): the minimum of a quadratic objective with the matrix B + C and
+  /// c = xᵀ C x, `curvature` [N m].
+  void move(const LocalResult& local, const Positions& r, const Positions& x, Real curvature, Positions& q,
+            ThreadPool& threads);
   bool is_plain() const { return is_plain_; }
 
  private:
@@ -54,6 +61,10 @@ class Lbfgs {
   /// Forgets everything but the newest solution, which becomes the first.
   void forget_pairs(Numbers& products);
   void forget_oldest_pair();
+  Real plain_length() const {
+    const Real resistance = descent_ + curvature_;
+    return descent_ > 0 && resistance > 0 ? descent_ / resistance : 1;
+  }
   std::size_t last_solution() const { return pair_count_ + (has_moved_ ? 1 : 0); }
 
   // Oldest first: pair i is move i, and solution i less solution i + 1. After a move there is one of each besides,
@@ -68,6 +79,9 @@ class Lbfgs {
   Table move_products_ = {};                    // sᵢᵀ yⱼ, j ≥ i
   Table solution_products_ = {};                // yᵢᵀ Y⁻¹ yⱼ, j ≥ i
 
+  Real descent_ = 0;            // xᵀr of the last solution [N m]
+  Real curvature_ = 0;          // that was given with it
+  Real length_ = 1;             // α of the last plain move
   LocalResult local_before_;    // found just before the last move
   Positions positions_before_;  // from where it went
   std::vector<Numbers> chunk_products_;

@@ -122,4 +122,13 @@ void SystemMatrix::assemble(std::span<const Real> masses, Real time_step,
   });
 }
 
+void SystemMatrix::add_diagonal(std::span<const Real> diagonal) {
+  for (std::size_t i = 0; i < diagonal.size(); ++i) matrix_.values[at(matrix_.column_starts[i])] += diagonal[i];
+}
+
+void SystemMatrix::copy_diagonal(std::vector<Real>& diagonal) const {
+  diagonal.resize(at(matrix_.size()));
+  for (std::size_t i = 0; i < diagonal.size(); ++i) diagonal[i] = matrix_.values[at(matrix_.column_starts[i])];
+}
+
 }  // namespace pliant

@@ -37,6 +37,11 @@ class SystemMatrix {
   void assemble(std::span<const Real> masses, Real time_step, std::span<const ConstraintGroup* const> groups,
                 std::span<const char> is_pinned);
 
+  /// Adds D, a number for each vertex [N/m], until the next assemble().
+  void add_diagonal(std::span<const Real> diagonal);
+  /// Writes the diagonal [N/m].
+  void copy_diagonal(std::vector<Real>& diagonal) const;
+
   const LowerMatrix& matrix() const { return matrix_; }
 
  private:

@@ -18,8 +18,10 @@ struct LocalResult {
   Real residual = 0;  ///< largest |r| of a vertex that is not pinned [N]
   Real inertia = 0;   ///< 1/(2h²) ‖M^½ (q − s)‖² [J]
   Real elastic = 0;   ///< Σ wᵢ/2 ‖zᵢ − pᵢ‖² [J]
+  Real contact = 0;   ///< of contact, which the solver adds [J]
   double seconds_projections = 0;
   double seconds = 0;
+  Real objective() const { return inertia + elastic + contact; }
 };
 
 class LocalStep {

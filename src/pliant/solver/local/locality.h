@@ -28,6 +28,10 @@ class LocalGroups {
   std::span<ConstraintGroup* const> in_use() const { return in_use_; }
   /// The vertex of the simulation, for one of the groups in use.
   Index vertex(Index local) const { return is_reordered() ? order_.vertices[static_cast<std::size_t>(local)] : local; }
+  /// That of each vertex; empty: they have the order of the simulation.
+  std::span<const Index> vertices() const {
+    return is_reordered() ? std::span<const Index>(order_.vertices) : std::span<const Index>();
+  }
   /// The constraint of the group of the simulation, for one of the group in use.
   Index constraint(std::size_t group, Index local) const;
   bool is_reordered() const { return !copies_.empty(); }

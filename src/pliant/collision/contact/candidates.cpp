@@ -1,0 +1,190 @@
+// Which vertices may touch which colliders in a substep, and how they are kept outside.
+#include <algorithm>
+#include <limits>
+#include <tuple>
+
+#include "pliant/collision/contact/contact.h"
+
+namespace pliant {
+namespace {
+
+/// k in units of m/η².
+constexpr Real stiffness_ratio = 50;
+/// Of r: the least distance that a move leaves.
+constexpr Real least_gap = 0.05;
+/// Cosine between the normals where a way goes in and where it ends, below which it goes on to another side.
+constexpr Real same_side = 0.866;
+constexpr int most_sweeps = 4;
+
+/// Where a straight way in the frame of a convex shape goes in first, if it does: steps as long as the distance.
+std::optional<Vec3> entry(const ColliderShape& shape, const Vec3& from, const Vec3& to, Real precision) {
+  const Vec3 way = to - from;
+  const Real length = way.stableNorm();
+  Real gone = 0;
+  for (int i = 0; i < 64; ++i) {
+    const Vec3 point = from + gone / length * way;
+    const Real distance = shape.distance(point).distance;
+    if (distance <= precision) return point;
+    gone += distance;
+    if (gone >= length) return std::nullopt;
+  }
+  return from + gone / length * way;
+}
+
+}  // namespace
+
+void Contact::begin_substep(const ContactStep& step, const ContactState& state, Positions& q, ThreadPool& threads) {
+  step_.emplace(step);
+  stiffening_ = state.stiffening;
+  held_back_ = 0;
+  const auto count = static_cast<Index>(q.rows());
+  reference_.resize(count, 3);
+  margins_.resize(at(count));
+  chunks_.resize(at((count + vertices_of_chunk - 1) / vertices_of_chunk));
+  for_each_chunk(threads, [&](Chunk& chunk, Index begin, Index end) {
+    chunk.candidates.clear();
+    find_candidates(chunk, begin, end, q);
+    hold_back(chunk, begin, end, q);
+    for (Candidate& each : chunk.candidates) recall(state, q, each);
+  });
+}
+
+HeldBack Contact::hold_back(Positions& q, ThreadPool& threads) {
+  for_each_chunk(threads, [&](Chunk& chunk, Index begin, Index end) {
+    if (!is_current(begin, end, q)) find_candidates(chunk, begin, end, q);
+    hold_back(chunk, begin, end, q);
+  });
+  HeldBack sum;
+  for (const Chunk& chunk : chunks_) {
+    sum.has_moved |= chunk.done.has_moved;
+    sum.has_new_potential |= chunk.done.has_new_potential;
+    held_back_ += chunk.held_back;
+  }
+  return sum;
+}
+
+bool Contact::is_current(Index begin, Index end, const Positions& q) const {
+  for (Index i = begin; i < end; ++i) {
+    const Real margin = margins_[at(i)];
+    if (!((q.row(i) - reference_.row(i)).squaredNorm() <= margin * margin)) return false;
+  }
+  return true;
+}
+
+/// All that were candidates before stay. With the distances a and b from a shape at both ends, a way of length l can
+/// meet it only where a + b ≤ l.
+void Contact::find_candidates(Chunk& chunk, Index begin, Index end, const Positions& q) {
+  std::swap(chunk.before, chunk.candidates);
+  chunk.candidates.clear();
+  auto old = chunk.before.begin();
+  for (Index i = begin; i < end; ++i) {
+    reference_.row(i) = q.row(i);
+    Real& margin = margins_[at(i)];
+    margin = std::numeric_limits<Real>::infinity();
+    if (step_->is_pinned[at(i)]) continue;
+    const Real radius = step_->radii[at(i)];
+    const Vec3 from = row(step_->begin, i);
+    const Vec3 to = row(q, i);
+    const Real slack = 2 * radius + (to - from).norm() / 2;
+    for (Index c = 0; c < count_of(colliders_); ++c) {
+      if (old != chunk.before.end() && old->vertex == i && old->collider == c) {
+        chunk.candidates.push_back(*old++);
+        continue;
+      }
+      const ContactCollider& collider = colliders_[at(c)];
+      const Vec3 first = collider.begin.to_frame(from);
+      const Vec3 last = collider.end.to_frame(to);
+      const Real a = collider.shape->distance(first).distance;
+      const Real b = collider.shape->distance(last).distance;
+      const Real reach = std::min(b - radius, (a + b - (last - first).norm()) / 2);
+      if (reach >= slack) {
+        margin = std::min(margin, reach);
+      } else {
+        chunk.candidates.push_back(make_candidate(i, c, a));
+      }
+    }
+  }
+}
+
+/// A vertex that begins inside is led out by one contact distance a step, and no move may lead it further in.
+Contact::Candidate Contact::make_candidate(Index vertex, Index collider, Real begin_distance) const {
+  const Real radius = step_->radii[at(vertex)];
+  const auto number = at(number_of(vertex));
+  Candidate made;
+  made.vertex = vertex;
+  made.collider = collider;
+  made.begin_distance = begin_distance;
+  made.radius = std::min(radius, begin_distance + radius);
+  made.floor = std::min(least_gap * radius, begin_distance);
+  made.stiffness = stiffness_ratio * step_->masses[at(vertex)] / (step_->inertia_step * step_->inertia_step);
+  if (!stiffening_.empty()) made.stiffness *= stiffening_[number];
+  return made;
+}
+
+/// What the last step has left of a contact.
+void Contact::recall(const ContactState& state, const Positions& q, Candidate& candidate) const {
+  const ContactCollider& collider = colliders_[at(candidate.collider)];
+  const std::pair key{number_of(candidate.vertex), collider.number};
+  const auto found = std::ranges::lower_bound(state.memory, key, {}, [](const ContactMemory& each) {
+    return std::pair{each.vertex, each.collider};
+  });
+  if (found == state.memory.end() || std::pair{found->vertex, found->collider} != key) return;
+  candidate.has_anchor = true;
+  candidate.anchor = carried(candidate, found->anchor);
+  candidate.load = found->load;
+  candidate.friction_normal = distance(candidate, row(q, candidate.vertex)).normal;
+}
+
+SignedDistance Contact::distance(const Candidate& candidate, const Vec3& x) const {
+  if (candidate.is_guarded) {
+    return {candidate.guard_normal.dot(x - candidate.guard_point), candidate.guard_normal};
+  }
+  const ContactCollider& collider = colliders_[at(candidate.collider)];
+  const SignedDistance found = collider.shape->distance(collider.end.to_frame(x));
+  return {found.distance, collider.end.rotation * found.normal};
+}
+
+/// Makes the collider a half-space to a vertex whose way to x leads through it.
+bool Contact::guard(Candidate& candidate, const Vec3& x) const {
+  if (candidate.is_guarded || candidate.begin_distance < 0) return false;
+  const ContactCollider& collider = colliders_[at(candidate.collider)];
+  const ColliderShape& shape = *collider.shape;
+  const Vec3 from = collider.begin.to_frame(row(step_->begin, candidate.vertex));
+  const Vec3 to = collider.end.to_frame(x);
+  const SignedDistance last = shape.distance(to);
+  if (candidate.begin_distance + last.distance > (to - from).norm()) return false;
+  if (shape.distance(from).normal.dot(last.normal) >= same_side) return false;
+  const std::optional<Vec3> place = entry(shape, from, to, least_gap * least_gap * step_->radii[at(candidate.vertex)]);
+  if (!place) return false;
+  const Vec3 normal = shape.distance(*place).normal;
+  if (normal.dot(last.normal) >= same_side) return false;
+  candidate.is_guarded = true;
+  candidate.guard_point = collider.end.to_space(*place);
+  candidate.guard_normal = collider.end.rotation * normal;
+  return true;
+}
+
+/// Where a vertex is held back from one collider it may get too near to another: a few sweeps.
+void Contact::hold_back(Chunk& chunk, Index begin, Index end, Positions& q) {
+  chunk.done = {};
+  chunk.held_back = 0;
+  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+    bool has_moved = false;
+    for (Candidate& each : chunk.candidates) {
+      const Vec3 x = row(q, each.vertex);
+      chunk.done.has_new_potential |= guard(each, x);
+      const SignedDistance found = distance(each, x);
+      if (!(found.distance < each.floor)) continue;
+      const Vec3 held = x + (each.floor - found.distance) * found.normal;
+      if (held == x) continue;
+      q.row(each.vertex) = held.transpose();
+      has_moved = true;
+      ++chunk.held_back;
+    }
+    if (!has_moved) return;
+    chunk.done.has_moved = true;
+    if (!is_current(begin, end, q)) find_candidates(chunk, begin, end, q);
+  }
+}
+
+}  // namespace pliant

@@ -1,0 +1,177 @@
+#pragma once
+// Contact with colliders, all that the solver knows of it. A vertex at the signed distance d < r from a collider has
+//
+//     E = k/2 (r − d)² + H(u),        k = κ 50 m/η²,
+//
+// with the slide u over the collider's surface in the step, added to what friction has let slide before, and Huber's
+// function H, whose limit μλ has the normal force λ of an earlier iterate. λ and the normal that u is across are
+// frozen between refreshes, so that all of it is a potential. η is the inertia step of the integrator.
+//
+// No vertex passes a collider: where the straight way of a vertex from its place at the beginning of the substep, in
+// the frame of the collider, goes in at one side and on towards another, the collider is to it, for this substep, the
+// half-space behind its tangent plane where the way goes in. After each move no vertex is deeper than a twentieth of r
+// outside the surface: what would be is held back there.
+//
+// All vertices are in the order of the solver, but in what State and ContactPoint have.
+#include <algorithm>
+#include <span>
+
+#include "pliant/collision/contact/contact_state.h"
+#include "pliant/core/thread_pool.h"
+
+namespace pliant {
+
+/// A collider in a substep.
+struct ContactCollider {
+  Index number = 0;
+  const ColliderShape* shape = nullptr;
+  Vec3 surface_velocity = Vec3::Zero();  ///< in its frame [m/s]
+  Real friction = 0;                     ///< μ
+  Pose begin{}, end{};                   ///< of the substep
+};
+
+/// What contact is told of a substep. Must outlive it.
+struct ContactStep {
+  const Positions& begin;           ///< qₙ [m]
+  std::span<const Real> masses;     ///< [kg]
+  std::span<const Real> radii;      ///< r of each vertex [m], > 0
+  std::span<const char> is_pinned;  ///< pinned vertices touch nothing
+  std::span<const Index> vertices;  ///< of the simulation; empty: the same
+  Real inertia_step = 0;            ///< η [s]
+  Real time_step = 0;               ///< [s]
+};
+
+/// A vertex that touches a collider at the end of a step.
+struct ContactPoint {
+  Index vertex = 0;
+  Index collider = 0;
+  Vec3 point = Vec3::Zero();    ///< on the surface [m]
+  Vec3 normal = Vec3::UnitZ();  ///< away from the collider
+  Real distance = 0;            ///< d [m]
+  Vec3 force = Vec3::Zero();    ///< on the vertex, normal and friction [N]
+  Real friction_power = 0;      ///< that friction takes away [W]
+};
+
+/// What a collider feels.
+struct Wrench {
+  Vec3 force = Vec3::Zero();   ///< [N]
+  Vec3 torque = Vec3::Zero();  ///< about its position [N m]
+};
+
+/// What adding up the contacts has found.
+struct ContactSums {
+  Real energy = 0;            ///< [J]
+  Real squared_residual = 0;  ///< largest |r|² of a vertex, with its contacts [N²]
+};
+
+/// What holding back has done.
+struct HeldBack {
+  bool has_moved = false;          ///< a vertex
+  bool has_new_potential = false;  ///< a vertex meets a half-space from now on
+};
+
+class Contact {
+ public:
+  void set_colliders(std::vector<ContactCollider> colliders) { colliders_ = std::move(colliders); }
+  std::span<ContactCollider> colliders() { return colliders_; }
+  bool is_active() const { return !colliders_.empty(); }
+
+  /// A substep begins at the iterate q, which is held back.
+  void begin_substep(const ContactStep& step, const ContactState& state, Positions& q, ThreadPool& threads);
+
+  /// Holds back what is too deep in q.
+  HeldBack hold_back(Positions& q, ThreadPool& threads);
+  /// Adds the forces at q to r [N].
+  ContactSums add(const Positions& q, Positions& r, ThreadPool& threads);
+  /// After add() at the same q: freezes the loads of friction that are there, and mends r. Returns the new sums.
+  ContactSums refresh(const Positions& q, Positions& r, ThreadPool& threads);
+
+  /// pᵀ C p [N m] with the curvature C at the last add().
+  Real curvature(const Positions& p) const;
+  /// Adds D ⪰ C of each vertex at the last add() [N/m].
+  void add_diagonal(std::span<Real> diagonal) const;
+  /// The same, of those alone that are far stiffer than at first, κ > 4.
+  Real stiffened_curvature(const Positions& p) const;
+
+  /// What stays when the substep has ended at q. diagonal: of Y [N/m].
+  void commit(const Positions& q, std::span<const Real> diagonal, ContactState& state);
+
+  /// Of the last substep, by vertex of the simulation, then collider.
+  std::span<const ContactPoint> points() const { return points_; }
+  Wrench wrench(Index collider) const;
+  /// Vertices that were held back in the substep, each as often as it was.
+  Index held_back() const { return held_back_; }
+
+ private:
+  static constexpr Index vertices_of_chunk = 256;
+
+  /// A vertex that may touch a collider in the substep.
+  struct Candidate {
+    Index vertex = 0;
+    Index collider = 0;       // place in the list
+    Real begin_distance = 0;  // at the beginning of the substep
+    Real radius = 0;          // r, or less where the vertex begins inside
+    Real floor = 0;           // least distance that a move may leave
+    Real stiffness = 0;       // k [N/m]
+    bool is_guarded = false;
+    bool has_anchor = false;
+    Vec3 guard_point = Vec3::Zero();  // in space, at the end of the substep
+    Vec3 guard_normal = Vec3::UnitZ();
+    Vec3 anchor = Vec3::Zero();  // in space, at the end of the substep
+    Vec3 friction_normal = Vec3::UnitZ();
+    Real load = 0;
+    // At the last add().
+    Real distance = 0;
+    Vec3 normal = Vec3::UnitZ();
+    Real normal_force = 0;
+    Real normal_curvature = 0;
+    Vec3 friction = Vec3::Zero();  // force
+    Real friction_curvature = 0;
+    Real friction_energy = 0;
+  };
+  /// Some vertices in a row, and those of them that may touch something, by vertex, then collider.
+  struct Chunk {
+    std::vector<Candidate> candidates;
+    std::vector<Candidate> before;  // scratch
+    ContactSums sums;
+    Index held_back = 0;
+    HeldBack done;
+  };
+
+  bool is_current(Index begin, Index end, const Positions& q) const;
+  void find_candidates(Chunk& chunk, Index begin, Index end, const Positions& q);
+  Candidate make_candidate(Index vertex, Index collider, Real begin_distance) const;
+  void recall(const ContactState& state, const Positions& q, Candidate& candidate) const;
+  SignedDistance distance(const Candidate& candidate, const Vec3& x) const;
+  bool guard(Candidate& candidate, const Vec3& x) const;
+  void hold_back(Chunk& chunk, Index begin, Index end, Positions& q);
+  static Real curvature(const Candidate& candidate, const Vec3& way);
+  void add_friction(Candidate& candidate, const Vec3& x) const;
+  void freeze(Candidate& candidate) const;
+  Vec3 carried(const Candidate& candidate, const Vec3& point) const;
+  void stiffen(const Candidate& candidate, std::span<const Real> diagonal, ContactState& state) const;
+  ContactMemory memory_of(const Candidate& candidate, const Vec3& x) const;
+  ContactPoint point_of(const Candidate& candidate, const Vec3& x) const;
+  ContactSums total() const;
+  Index number_of(Index vertex) const { return step_->vertices.empty() ? vertex : step_->vertices[at(vertex)]; }
+  /// Calls visit(chunk, first vertex, vertex behind the last).
+  template <class Visit>
+  void for_each_chunk(ThreadPool& threads, Visit&& visit) {
+    const auto count = static_cast<Index>(step_->begin.rows());
+    threads.parallel_for(count_of(chunks_), [&](Index i) {
+      const Index begin = i * vertices_of_chunk;
+      visit(chunks_[at(i)], begin, std::min(count, begin + vertices_of_chunk));
+    });
+  }
+
+  std::vector<ContactCollider> colliders_;
+  std::optional<ContactStep> step_;
+  std::vector<Real> stiffening_;  // κ, in the order of the simulation; empty: 1
+  std::vector<Chunk> chunks_;
+  Positions reference_;        // where the candidates were looked for
+  std::vector<Real> margins_;  // how far from there each vertex may go before others matter [m]
+  std::vector<ContactPoint> points_;
+  Index held_back_ = 0;
+};
+
+}  // namespace pliant

@@ -1,0 +1,32 @@
+#pragma once
+// What contact keeps from step to step: a part of State.
+#include "pliant/collision/colliders/collider.h"
+
+namespace pliant {
+
+/// Where a collider is.
+struct ColliderState {
+  Index collider = 0;            ///< its number (ColliderId)
+  Pose pose{};                   ///< at tₙ
+  std::optional<Pose> target{};  ///< where the next step takes it; none: as its velocities do
+};
+
+/// A vertex that touches a collider.
+struct ContactMemory {
+  Index vertex = 0;
+  Index collider = 0;          ///< its number (ColliderId)
+  Vec3 anchor = Vec3::Zero();  ///< where friction holds it, in the frame of the collider [m]
+  Real load = 0;               ///< λ, the normal force that friction goes by [N]
+};
+
+struct ContactState {
+  std::vector<ColliderState> colliders;  ///< by number
+  std::vector<ContactMemory> memory;     ///< by vertex, then collider
+  /// κ of each vertex, from 1: by how much its contacts are stiffer than 50 m/η²; empty: 1 for all.
+  std::vector<Real> stiffening;
+  /// Whether the factor has contact in it, and for how many steps it would have done without.
+  bool is_in_factor = false;
+  Index light_steps = 0;
+};
+
+}  // namespace pliant

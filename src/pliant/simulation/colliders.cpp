@@ -1,0 +1,196 @@
+// Colliders that come, move and go.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "pliant/mesh/topology.h"
+#include "pliant/simulation/transaction.h"
+#include "pliant/solver/solver.h"
+
+namespace pliant {
+namespace {
+
+/// Of the edges of a body, from the shortest on, the place whose length its contact distance goes by, and the share of
+/// that length which it is.
+constexpr Real short_edge = 0.05;
+constexpr Real share_of_edge = 0.25;
+/// Of a body without an edge [m].
+constexpr Real distance_without_edges = 0.005;
+
+Real contact_distance_of(const Mesh& mesh) {
+  std::vector<Real> lengths;
+  for (const Edge& edge : unique_edges(mesh)) {
+    const Real length = (mesh.vertices.row(edge[0]) - mesh.vertices.row(edge[1])).norm();
+    if (length > 0) lengths.push_back(length);
+  }
+  if (lengths.empty()) return distance_without_edges;
+  const auto place = lengths.begin() + static_cast<std::ptrdiff_t>(short_edge * static_cast<Real>(lengths.size()));
+  std::ranges::nth_element(lengths, place);
+  return share_of_edge * *place;
+}
+
+[[noreturn]] void fail_no_collider(ColliderId id) {
+  fail_input("collider " + std::to_string(static_cast<Index>(id)) +
+             " does not exist; give one that was added and not removed");
+}
+
+void check_pose(const Pose& pose, std::string_view where) {
+  const Real length = pose.rotation.norm();
+  if (!pose.position.allFinite() || !(std::abs(length - 1) < 1e-6)) {
+    fail_input(std::string(where) + ": give a finite position and a rotation of length 1");
+  }
+}
+
+void check_motion(const ColliderMotion& motion, std::string_view where) {
+  for (const Vec3& velocity : {motion.velocity, motion.angular_velocity, motion.surface_velocity}) {
+    if (!velocity.allFinite()) fail_input(std::string(where) + ": a velocity is not finite; give finite numbers");
+  }
+  if (motion.friction && !(*motion.friction >= 0 && std::isfinite(*motion.friction))) {
+    fail_input(std::string(where) + ": friction is out of range; give a finite number from 0");
+  }
+}
+
+}  // namespace
+
+void Colliders::check_projection(const SolverSettings& settings, bool has_colliders) {
+  if (!has_colliders || !(settings.energy_projection > 0)) return;
+  fail_input("energy_projection: it does not know the work of contact yet; set it to 0, or remove the colliders");
+}
+
+ColliderId Colliders::add_collider(std::shared_ptr<const ColliderShape> shape, const Pose& pose,
+                                   const ColliderMotion& motion, std::string name) {
+  if (shape == nullptr) fail_input("collider: there is no shape; give one");
+  check_pose(pose, shape->type());
+  check_motion(motion, shape->type());
+  return add_collider({std::move(name), nullptr, std::move(shape), pose, motion});
+}
+
+ColliderId Colliders::add_collider(ColliderRecord record) {
+  check_projection(settings_, true);
+  if (transaction_ != nullptr) transaction_->save_colliders();
+  if (record.name.empty()) {
+    record.name = record.shape->type();
+    for (int i = 2; find_collider(record.name); ++i) {
+      record.name = std::string(record.shape->type()) + " " + std::to_string(i);
+    }
+  }
+  const ColliderId id{next_collider_++};
+  state_.contact.colliders.push_back({static_cast<Index>(id), record.pose});
+  colliders_.emplace(id, std::move(record));
+  colliders_changed_ = true;
+  return id;
+}
+
+void Colliders::exchange_collider(ColliderId id, ColliderRecord record) {
+  if (transaction_ != nullptr) transaction_->save_colliders();
+  ColliderRecord& place = colliders_.at(id);
+  if (!(record.pose == place.pose)) state_.contact.colliders[place_in_state(id)].target = record.pose;
+  place = std::move(record);
+  colliders_changed_ = true;
+}
+
+void Colliders::remove(ColliderId id) {
+  collider(id);
+  if (transaction_ != nullptr) transaction_->save_colliders();
+  colliders_.erase(id);  // found above
+  const auto number = static_cast<Index>(id);
+  ContactState& contact = state_.contact;
+  std::erase_if(contact.colliders, [&](const ColliderState& each) { return each.collider == number; });
+  std::erase_if(contact.memory, [&](const ContactMemory& each) { return each.collider == number; });
+  if (colliders_.empty()) contact = {};
+  colliders_changed_ = true;
+}
+
+const ColliderRecord& Colliders::collider(ColliderId id) const {
+  const auto found = colliders_.find(id);
+  if (found == colliders_.end()) fail_no_collider(id);
+  return found->second;
+}
+
+std::optional<ColliderId> Colliders::find_collider(std::string_view name) const {
+  const auto found =
+      std::ranges::find(colliders_, name, [](const auto& entry) -> std::string_view { return entry.second.name; });
+  return found == colliders_.end() ? std::nullopt : std::optional(found->first);
+}
+
+/// Of a collider in the state.
+std::size_t Colliders::place_in_state(ColliderId id) const {
+  const auto& states = state_.contact.colliders;
+  const auto found = std::ranges::find(states, static_cast<Index>(id), &ColliderState::collider);
+  if (found == states.end()) fail_no_collider(id);
+  return static_cast<std::size_t>(found - states.begin());
+}
+
+const Pose& Colliders::pose(ColliderId id) const {
+  return state_.contact.colliders[place_in_state(id)].pose;
+}
+
+void Colliders::set_target(ColliderId id, const Pose& target) {
+  check_pose(target, "target of the collider '" + name(id) + "'");
+  if (transaction_ != nullptr) transaction_->save_colliders();
+  state_.contact.colliders[place_in_state(id)].target = target;
+}
+
+void Colliders::set_contact(const ContactSettings& settings) {
+  check_options("contact", settings);
+  contact_ = settings;
+  colliders_changed_ = true;
+}
+
+Real Simulation::contact_distance(BodyId id) const {
+  return contact_.distance > 0 ? contact_.distance : contact_distance_of(body(id).mesh);
+}
+
+std::span<const ContactPoint> Simulation::contacts() const {
+  return solver_->contact().points();
+}
+
+Wrench Simulation::wrench(ColliderId id) const {
+  collider(id);
+  return solver_->contact().wrench(static_cast<Index>(id));
+}
+
+void Simulation::update_colliders() {
+  std::vector<SolverCollider> colliders;
+  std::vector<Real> radii;
+  for (const auto& [id, record] : colliders_) {
+    const Vec3 surface_velocity = record.pose.rotation.conjugate() * record.motion.surface_velocity;
+    colliders.push_back({static_cast<Index>(id), record.shape, record.motion, surface_velocity,
+                         record.motion.friction.value_or(contact_.friction)});
+  }
+  for (std::size_t i = 0; !colliders.empty() && i < bodies_.size(); ++i) {
+    const BodyId id{static_cast<Index>(i)};
+    radii.resize(radii.size() + at(bodies_[i].mesh.vertex_count()), contact_distance(id));
+  }
+  solver_->set_colliders(std::move(colliders), std::move(radii));
+  colliders_changed_ = false;
+}
+
+/// Refuses what is not of this simulation.
+void Colliders::check_contact(const ContactState& contact) const {
+  const auto fail = [](const std::string& what) {
+    fail_input("restore: " + what + "; give a state that state() has returned");
+  };
+  if (!std::ranges::equal(contact.colliders, colliders_, {}, &ColliderState::collider,
+                          [](const auto& entry) { return static_cast<Index>(entry.first); })) {
+    fail("its colliders are others");
+  }
+  for (const ColliderState& each : contact.colliders) {
+    check_pose(each.pose, "restore: collider");
+    if (each.target) check_pose(*each.target, "restore: collider");
+  }
+  const auto key = [](const ContactMemory& each) { return std::pair{each.vertex, each.collider}; };
+  if (!std::ranges::is_sorted(contact.memory, {}, key)) fail("the contacts are not in order");
+  for (const ContactMemory& each : contact.memory) {
+    const bool is_known =
+        each.vertex >= 0 && each.vertex < state_.vertex_count() && colliders_.contains(ColliderId{each.collider});
+    if (!is_known) fail("a contact is of a vertex or a collider that there is not");
+    if (!each.anchor.allFinite() || !(each.load >= 0 && std::isfinite(each.load))) fail("a contact is not finite");
+  }
+  const auto is_factor = [](Real factor) { return factor >= 1 && std::isfinite(factor); };
+  const bool fits = contact.stiffening.empty() || contact.stiffening.size() == state_.masses.size();
+  if (!fits || !std::ranges::all_of(contact.stiffening, is_factor)) fail("a stiffness of contacts is out of range");
+}
+
+}  // namespace pliant

@@ -1,0 +1,83 @@
+#pragma once
+// What bodies meet. The part of Simulation that has colliders, with the state that says where they are.
+//
+//     const ColliderId ball = simulation.add(SphereCollider{.center = {0, 0, 1}, .radius = 0.3, .friction = 0.4});
+//     simulation.add(PlaneCollider{});
+//     simulation.set_target(ball, {{0, 0, 0.99}});  // where the next step takes it
+#include <map>
+#include <optional>
+#include <string>
+
+#include "pliant/collision/contact/contact_settings.h"
+#include "pliant/simulation/records.h"
+#include "pliant/solver/settings.h"
+#include "pliant/solver/state.h"
+
+namespace pliant {
+
+class Transaction;
+
+class Colliders {
+ public:
+  /// Adds a built-in collider, or any other with a ColliderInfo `info`, `visit` and a `build(options)`: bodies meet it
+  /// from the next step on. Default name: the type, with the first free number from 2 behind where that is taken.
+  /// Throws Error(input) on what it refuses, as all of these do, and while energy is projected.
+  template <describes_collider Options>
+  ColliderId add(const Options& options, std::string name = {}) {
+    PlacedShape placed = build(options);
+    return add_collider(
+        {std::move(name), source_of(options), std::move(placed.shape), placed.pose, motion_of(options)});
+  }
+  /// Adds a collider of a user's own.
+  ColliderId add_collider(std::shared_ptr<const ColliderShape> shape, const Pose& pose,
+                          const ColliderMotion& motion = {}, std::string name = {});
+  /// Makes a collider anew from other options under its id and name. It stays where it is, unless the options put it
+  /// elsewhere than before: then the next step takes it there.
+  template <describes_collider Options>
+  void replace(ColliderId id, const Options& options) {
+    PlacedShape placed = build(options);
+    exchange_collider(id, {name(id), source_of(options), std::move(placed.shape), placed.pose, motion_of(options)});
+  }
+  /// What a collider was made of; null for one of another type.
+  template <describes_collider Options>
+  const Options* options(ColliderId id) const {
+    return options_in<Options>(collider(id));
+  }
+  void remove(ColliderId id);
+  const std::map<ColliderId, ColliderRecord>& colliders() const { return colliders_; }
+  const ColliderRecord& collider(ColliderId id) const;
+  const std::string& name(ColliderId id) const { return collider(id).name; }
+  /// The collider of that name; of several, the one that was added first.
+  std::optional<ColliderId> find_collider(std::string_view name) const;
+
+  /// Where a collider is now.
+  const Pose& pose(ColliderId id) const;
+  /// Where the next step takes it, whatever its velocities; it goes on with these afterwards.
+  void set_target(ColliderId id, const Pose& target);
+
+  const ContactSettings& contact() const { return contact_; }
+  /// From the next step on.
+  void set_contact(const ContactSettings& settings);
+
+ protected:
+  static void check_projection(const SolverSettings& settings, bool has_colliders);
+  /// Refuses a state of contact that is not of these colliders and so many vertices.
+  void check_contact(const ContactState& contact) const;
+
+  SolverSettings settings_;
+  State state_;
+  std::map<ColliderId, ColliderRecord> colliders_;
+  ContactSettings contact_;
+  Index next_collider_ = 0;
+  bool colliders_changed_ = true;
+  Transaction* transaction_ = nullptr;  // the innermost one under way
+
+ private:
+  friend class Transaction;
+
+  ColliderId add_collider(ColliderRecord record);
+  void exchange_collider(ColliderId id, ColliderRecord record);
+  std::size_t place_in_state(ColliderId id) const;
+};
+
+}  // namespace pliant

@@ -1,0 +1,45 @@
+#pragma once
+// From iterate to iterate where a plain global step does not do: with acceleration, which must be watched, and with
+// contact, to which the factor is no bound. Of each move the objective is seen where it led; one that has raised it is
+// taken back, made plainly, and then shortened.
+#include "pliant/solver/acceleration/lbfgs.h"
+#include "pliant/solver/step_context.h"
+
+namespace pliant {
+
+class Descent {
+ public:
+  /// A substep begins.
+  void begin(const StepContext& context);
+  /// What the local step finds at the iterate, after moves have been taken back that must be.
+  LocalResult local_step(const StepContext& context, WorkingState& work, StepReport& report);
+  /// The objective is another one from here on.
+  void forget() { lbfgs_.forget(); }
+  /// q ← q + α p, not into a collider.
+  void move(const LocalResult& local, const StepContext& context, WorkingState& work, StepReport& report);
+  /// Judges the last move, once it is known to be the last.
+  void check_last_move(const StepContext& context, WorkingState& work, StepReport& report);
+
+ private:
+  static constexpr Index most_cuts = 5;
+  static constexpr Real cut = 0.4;
+
+  LocalResult evaluate(const StepContext& context, WorkingState& work) const;
+  bool must_go_back(const LocalResult& local) const;
+  void go_back(Index cuts, const StepContext& context, WorkingState& work);
+  Real solve(const LocalResult& local, const StepContext& context, WorkingState& work, StepReport& report);
+  bool judge_contact(const StepContext& context, WorkingState& work);
+  Real in_factor(const WorkingState& work) const;
+  void factorize(const StepContext& context, WorkingState& work, StepReport& report);
+  void hold_back(const StepContext& context, WorkingState& work);
+
+  Lbfgs lbfgs_;
+  bool is_accelerated_ = false;
+  bool checks_plain_moves_ = false;  // contact: the factor is no bound
+  bool has_moved_ = false;           // and the objective is still the one that the move was made for
+  bool is_first_ = true;             // of the moves of a substep
+  bool is_contact_in_factor_ = false;
+  std::vector<Real> diagonal_;  // D of the factor, if so [N/m]
+};
+
+}  // namespace pliant
