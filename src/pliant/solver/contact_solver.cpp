@@ -8,7 +8,7 @@ namespace pliant {
 namespace {
 
 /// Of the iterations, after which friction is refreshed.
-constexpr std::array<Real, 2> refreshed_after = {0.3, 0.6};
+constexpr std::array<Real, 2> refreshed_after = {0.3, 0.8};
 
 }  // namespace
 

@@ -22,6 +22,11 @@ Vec3 across(const Vec3& v, const Vec3& normal) {
 
 }  // namespace
 
+void Contact::set_colliders(std::vector<ContactCollider> colliders) {
+  colliders_ = std::move(colliders);
+  if (colliders_.empty()) points_.clear();
+}
+
 ContactSums Contact::add(const Positions& q, Positions& r, ThreadPool& threads) {
   for_each_chunk(threads, [&](Chunk& chunk, Index begin, Index end) {
     chunk.sums = {};

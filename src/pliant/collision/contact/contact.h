@@ -72,7 +72,7 @@ struct HeldBack {
 
 class Contact {
  public:
-  void set_colliders(std::vector<ContactCollider> colliders) { colliders_ = std::move(colliders); }
+  void set_colliders(std::vector<ContactCollider> colliders);
   std::span<ContactCollider> colliders() { return colliders_; }
   bool is_active() const { return !colliders_.empty(); }
 
