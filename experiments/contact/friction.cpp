@@ -67,7 +67,10 @@ Ways slide(const ExperimentContext& context, const ContactMethod& method, pliant
   return {slope.way(), point.way()};
 }
 
-std::vector<std::string> row_of(const std::string& name, Index side, const std::array<Ways, 3>& ways) {
+/// At 16, 17 and 30 degrees.
+using ThreeWays = std::array<Ways, 3>;
+
+std::vector<std::string> row_of(const std::string& name, Index side, const ThreeWays& ways) {
   return {name,
           fmt::format("{0} x {0}", side),
           fmt::format("{:.2g}", 1e3 * ways[0].sheet),
@@ -79,12 +82,19 @@ std::vector<std::string> row_of(const std::string& name, Index side, const std::
           fmt::format("{:.1e}", ways[2].error())};
 }
 
-std::array<Ways, 3> slides(const ExperimentContext& context, const ContactMethod& method,
-                           pliant::Acceleration acceleration, Index side) {
-  std::array<Ways, 3> ways;
+ThreeWays slides(const ExperimentContext& context, const ContactMethod& method, pliant::Acceleration acceleration,
+                 Index side) {
+  context.say(fmt::format("slope, {}, {} x {} vertices", method.name, side, side));
   const std::array<double, 3> angles = {16, 17, 30};
+  ThreeWays ways;
   for (std::size_t i = 0; i < 3; ++i) ways[i] = slide(context, method, acceleration, side, angles[i], 0, 60);
   return ways;
+}
+
+pliant_report::Claim claim_of(const std::string& name, const ThreeWays& ways) {
+  return claim(fmt::format("A sheet slides down a slope as far as Coulomb's law says, within a thousandth: {}", name),
+               "", ways[1].error() < 1e-3 && ways[2].error() < 1e-3,
+               fmt::format("off by {:.1e} at 17° and {:.1e} at 30°", ways[1].error(), ways[2].error()));
 }
 
 }  // namespace
@@ -93,34 +103,31 @@ void measure_slope(const ExperimentContext& context, Chapter& chapter) {
   Table table{
       "Way of a sheet down a slope in 1 s, friction 0.3 (limit 16.7°), and of a point that slides in the same steps: "
       "for "
-      "implicit Euler h² n(n+1)/2 g (sin θ − μ cos θ).",
+      "implicit Euler h² n(n+1)/2 g (sin θ − μ cos θ). That the sheet sinks into its contact by 0.06 mm at first makes "
+      "its way longer by 0.018 mm, which is 7e-4 of the way at 17°.",
       {"integrator", "vertices", "16° [mm]", "17° [m]", "point [m]", "error", "30° [m]", "point [m]", "error"},
       {}};
+  const ContactMethod& euler = contact_methods().front();
   double drift = 0;
-  double error = 0;
   const auto add = [&](const ContactMethod& method, Index side) {
-    context.say(fmt::format("slope, {}, {} x {} vertices", method.name, side, side));
-    const std::array<Ways, 3> ways = slides(context, method, pliant::Acceleration::automatic, side);
+    const ThreeWays ways = slides(context, method, pliant::Acceleration::automatic, side);
+    const std::string name = side == 16 ? method.name : fmt::format("{0}, {1} x {1} vertices", method.name, side);
     table.rows.push_back(row_of(method.name, side, ways));
+    chapter.claims.push_back(claim_of(name, ways));
     drift = std::max(drift, std::abs(ways[0].sheet));
-    error = std::max({error, ways[1].error(), ways[2].error()});
   };
   for (const ContactMethod& method : contact_methods()) add(method, 16);
-  add(contact_methods().front(), 40);
-  const ContactMethod& euler = contact_methods().front();
-  context.say("slope, without acceleration");
-  const std::array<Ways, 3> plain = slides(context, euler, pliant::Acceleration::none, 16);
+  add({.name = "BDF2, 20 iterations", .integrator = pliant::Integrator::bdf2, .iterations = 20}, 16);
+  add(euler, 40);
+  const ThreeWays plain = slides(context, euler, pliant::Acceleration::none, 16);
   table.rows.push_back(row_of("implicit Euler, acceleration none", 16, plain));
   context.say("slope, one minute");
   const Ways minute = slide(context, euler, pliant::Acceleration::automatic, 16, 16, 0, 3600);
-
-  chapter.claims.push_back(
-      claim("A sheet slides down a slope as far as Coulomb's law says, within a thousandth", "", error < 1e-3,
-            fmt::format("at 17° and 30°, in three integrators and two meshes: {:.1e} at most", error)));
   chapter.claims.push_back(
       claim("Below the angle of friction it sticks: less than 0.1 mm in 1 s and in 60 s", "",
             drift < 1e-4 && std::abs(minute.sheet) < 1e-4,
-            fmt::format("at 16° {:.2g} mm at most in 1 s, {:.2g} mm in 60 s", 1e3 * drift, 1e3 * minute.sheet)));
+            fmt::format("at 16° {:.2g} mm at most in 1 s, all of these; {:.2g} mm in 60 s with implicit Euler",
+                        1e3 * drift, 1e3 * minute.sheet)));
   chapter.claims.push_back(
       reported("Without acceleration ten iterations are too few for friction, hence “automatic”", "",
                fmt::format("acceleration none: {:.3f} m at 30° instead of {:.3f}, {:.1f} mm at 16° instead of none",

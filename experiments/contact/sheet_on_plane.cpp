@@ -20,6 +20,7 @@ pliant::SolverSettings contact_settings(const ContactMethod& method) {
   pliant::SolverSettings settings;
   settings.integrator = method.integrator;
   settings.substeps = method.substeps;
+  settings.iterations = method.iterations;
   settings.threads = 1;
   return settings;
 }

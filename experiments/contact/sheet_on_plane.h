@@ -10,6 +10,7 @@ struct ContactMethod {
   std::string name;
   pliant::Integrator integrator = pliant::Integrator::implicit_euler;
   pliant::Index substeps = 1;
+  pliant::Index iterations = 10;
   int color = 0;
 };
 
