@@ -112,7 +112,7 @@ void show_throws(const ExperimentContext& context, Chapter& chapter) {
   for (const std::size_t i : {1, 2, 3}) {
     pliant::Scene scene = thrown_sheet(obstacles()[i], 10, 120);
     scene.view.size = {400, 400};
-    scene.view.camera.position = Vec3(1.6, -2.4, 1.1);
+    scene.view.camera.position = Vec3(1.1, -1.65, 0.75);
     scene.view.camera.target = Vec3(0, 0, -0.2);
     scene.view.ground = false;
     context.step(scene, 12);
