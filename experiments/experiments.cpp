@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "contact/contact.h"
 #include "convergence/convergence.h"
 #include "damping/damping.h"
 #include "explicit_euler/explicit_euler.h"
@@ -33,6 +34,7 @@ std::span<const Experiment> experiments() {
       Experiment{"resolution", "One cloth in four resolutions and two orientations", run_resolution},
       Experiment{"iterations", "Dependence on the iterations, against XPBD", run_iterations},
       Experiment{"integrators", "Less damping, and more: integrators on the same factor", run_integrators},
+      Experiment{"contact", "Contact: friction, impacts, convergence and cost", run_contact},
   };
   return list;
 }

@@ -11,7 +11,7 @@ PLIANT = os.environ["PLIANT"]
 # OpenGL's drivers keep memory to the end of the program.
 ENVIRONMENT = os.environ | {"ASAN_OPTIONS": "detect_leaks=0"}
 ALL = ["wind", "explicit_euler", "torus", "damping", "sheet_metal", "hand", "torque", "start", "performance",
-       "convergence", "resolution", "iterations", "integrators"]
+       "convergence", "resolution", "iterations", "integrators", "contact"]
 # Those that are compared with the figures of an independent program and take a few seconds.
 QUICK = ["damping", "sheet_metal", "torque"]
 

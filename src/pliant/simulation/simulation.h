@@ -119,14 +119,12 @@ class Simulation : public Colliders {
   std::optional<ForceId> find_force(std::string_view name) const;
   Index vertex(BodyId id, Index vertex_of_body) const;  ///< its index among all; refuses one out of range
 
-  using Colliders::add, Colliders::name, Colliders::options, Colliders::remove, Colliders::replace,
-      Colliders::set_target;
-
+  using Colliders::add, Colliders::name, Colliders::options, Colliders::remove, Colliders::replace;
+  using Colliders::set_target;
   Real contact_distance(BodyId id) const;  ///< r of its vertices [m]
   /// What touched at the end of the last step, by vertex, then collider; valid until the next one.
   std::span<const ContactPoint> contacts() const;
   Wrench wrench(ColliderId id) const;  ///< what a collider felt then
-
   const SolverSettings& settings() const { return settings_; }
   void set_settings(const SolverSettings& settings);  ///< refuses BDF2 with a force that is an explicit spring
 
