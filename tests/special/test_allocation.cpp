@@ -6,7 +6,9 @@
 #include <new>
 
 #include "../simulation/everything.h"
+#include "pliant/collision/colliders/builtin.h"
 #include "pliant/core/error.h"
+#include "pliant/mesh/shapes.h"
 #include "pliant/timeline/timeline.h"
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -94,6 +96,29 @@ long allocations_of(const SolverSettings& settings) {
   return allocations - before;
 }
 
+/// Allocations in steps of a cloth that falls on colliders, once its contacts have been what they can be: the third
+/// time that it does so.
+long allocations_of_contact(Index threads) {
+  Simulation simulation({.threads = threads});
+  Mesh mesh = grid({.columns = 24, .rows = 24, .plane = Plane::xy});
+  mesh.vertices.rowwise() += Eigen::RowVector3d(-0.48, -0.51, 0.25);
+  const BodyId cloth = simulation.add_body(std::move(mesh), Mass::area_density(0.2));
+  simulation.add(cloth, TriangleStrain{});
+  simulation.add(Gravity{});
+  simulation.add(SphereCollider{.radius = 0.2, .angular_velocity = {0, 0, 1}});
+  simulation.add(PlaneCollider{.position = {0, 0, -0.2}});
+  const State start = simulation.state();
+  long count = 0;
+  for (int time = 0; time < 3; ++time) {
+    simulation.restore(start);
+    simulation.step();
+    const long before = allocations;
+    for (int i = 0; i < 60; ++i) simulation.step();
+    count = allocations - before;
+  }
+  return count;
+}
+
 /// Prints what went wrong; true when nothing did.
 bool passes(const SolverSettings& settings) {
   try {
@@ -134,6 +159,11 @@ int main() {
         all_pass = passes(settings) && all_pass;
       }
     }
+  }
+  for (const Index threads : {1, 2}) {
+    const long count = allocations_of_contact(threads);
+    if (count > 0) std::printf("%ld allocations with contact, %d threads\n", count, threads);
+    all_pass = all_pass && count == 0;
   }
   return all_pass ? 0 : 1;
 }

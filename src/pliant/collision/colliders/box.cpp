@@ -19,7 +19,7 @@ class BoxShape final : public ColliderShape {
     const Real most = beyond.maxCoeff(&face);
     if (most <= 0) return {most - rounding_, sign[face] * Vec3::Unit(face)};
     const Vec3 outside = beyond.cwiseMax(0);
-    const Real length = outside.stableNorm();
+    const Real length = outside.norm();
     return {length - rounding_, sign.cwiseProduct(outside / length)};
   }
 

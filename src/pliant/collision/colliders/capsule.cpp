@@ -14,7 +14,7 @@ class CapsuleShape final : public ColliderShape {
   SignedDistance distance(const Vec3& point) const override {
     Vec3 from_axis = point;
     from_axis.z() -= std::clamp(point.z(), -half_length_, half_length_);
-    const Real length = from_axis.stableNorm();
+    const Real length = from_axis.norm();
     return {length - radius_, length > 0 ? Vec3(from_axis / length) : Vec3(Vec3::UnitX())};
   }
 

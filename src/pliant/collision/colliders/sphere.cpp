@@ -9,7 +9,7 @@ class SphereShape final : public ColliderShape {
 
   std::string_view type() const override { return SphereCollider::info.name; }
   SignedDistance distance(const Vec3& point) const override {
-    const Real length = point.stableNorm();
+    const Real length = point.norm();
     return {length - radius_, length > 0 ? Vec3(point / length) : Vec3(Vec3::UnitZ())};
   }
 

@@ -132,58 +132,82 @@ void Contact::recall(const ContactState& state, const Positions& q, Candidate& c
   candidate.has_anchor = true;
   candidate.anchor = carried(candidate, found->anchor);
   candidate.load = found->load;
-  candidate.friction_normal = distance(candidate, row(q, candidate.vertex)).normal;
+  look_at(candidate, row(q, candidate.vertex));
+  candidate.friction_normal = candidate.normal;
 }
 
-SignedDistance Contact::distance(const Candidate& candidate, const Vec3& x) const {
+/// Its distance and normal at x, unless they are known.
+void Contact::look_at(Candidate& candidate, const Vec3& x) const {
+  if (candidate.place == x) return;
+  candidate.place = x;
   if (candidate.is_guarded) {
-    return {candidate.guard_normal.dot(x - candidate.guard_point), candidate.guard_normal};
+    candidate.distance = candidate.guard_normal.dot(x - candidate.guard_point);
+    candidate.normal = candidate.guard_normal;
+    return;
   }
   const ContactCollider& collider = colliders_[at(candidate.collider)];
   const SignedDistance found = collider.shape->distance(collider.end.to_frame(x));
-  return {found.distance, collider.end.rotation * found.normal};
+  candidate.distance = found.distance;
+  candidate.normal = collider.end.rotation * found.normal;
 }
 
-/// Makes the collider a half-space to a vertex whose way to x leads through it.
+/// Makes the collider a half-space to a vertex whose way to x, which was looked at, leads through it.
 bool Contact::guard(Candidate& candidate, const Vec3& x) const {
   if (candidate.is_guarded || candidate.begin_distance < 0) return false;
   const ContactCollider& collider = colliders_[at(candidate.collider)];
   const ColliderShape& shape = *collider.shape;
   const Vec3 from = collider.begin.to_frame(row(step_->begin, candidate.vertex));
   const Vec3 to = collider.end.to_frame(x);
-  const SignedDistance last = shape.distance(to);
-  if (candidate.begin_distance + last.distance > (to - from).norm()) return false;
-  if (shape.distance(from).normal.dot(last.normal) >= same_side) return false;
+  if (candidate.begin_distance + candidate.distance > (to - from).norm()) return false;
+  const Vec3 last_normal = collider.end.rotation.conjugate() * candidate.normal;
+  if (shape.distance(from).normal.dot(last_normal) >= same_side) return false;
   const std::optional<Vec3> place = entry(shape, from, to, least_gap * least_gap * step_->radii[at(candidate.vertex)]);
   if (!place) return false;
   const Vec3 normal = shape.distance(*place).normal;
-  if (normal.dot(last.normal) >= same_side) return false;
+  if (normal.dot(last_normal) >= same_side) return false;
   candidate.is_guarded = true;
   candidate.guard_point = collider.end.to_space(*place);
   candidate.guard_normal = collider.end.rotation * normal;
+  candidate.place.setConstant(std::numeric_limits<Real>::quiet_NaN());
+  look_at(candidate, x);
   return true;
 }
 
-/// Where a vertex is held back from one collider it may get too near to another: a few sweeps.
+/// A vertex that has gone far may meet what it could not meet where it was.
 void Contact::hold_back(Chunk& chunk, Index begin, Index end, Positions& q) {
   chunk.done = {};
   chunk.held_back = 0;
+  for (int round = 0; round < most_sweeps; ++round) {
+    const Index before = chunk.held_back;
+    auto first = chunk.candidates.begin();
+    while (first != chunk.candidates.end()) {
+      const auto last = std::find_if(first, chunk.candidates.end(),
+                                     [&](const Candidate& other) { return other.vertex != first->vertex; });
+      hold_back({first, last}, chunk, q);
+      first = last;
+    }
+    if (chunk.held_back == before || is_current(begin, end, q)) return;
+    find_candidates(chunk, begin, end, q);
+  }
+}
+
+/// Where it is held back from one collider it may get too near to another: a few sweeps.
+void Contact::hold_back(std::span<Candidate> of_vertex, Chunk& chunk, Positions& q) const {
   for (int sweep = 0; sweep < most_sweeps; ++sweep) {
     bool has_moved = false;
-    for (Candidate& each : chunk.candidates) {
+    for (Candidate& each : of_vertex) {
       const Vec3 x = row(q, each.vertex);
+      look_at(each, x);
       chunk.done.has_new_potential |= guard(each, x);
-      const SignedDistance found = distance(each, x);
-      if (!(found.distance < each.floor)) continue;
-      const Vec3 held = x + (each.floor - found.distance) * found.normal;
+      if (!(each.distance < each.floor)) continue;
+      const Vec3 held = x + (each.floor - each.distance) * each.normal;
       if (held == x) continue;
       q.row(each.vertex) = held.transpose();
       has_moved = true;
       ++chunk.held_back;
     }
-    if (!has_moved) return;
-    chunk.done.has_moved = true;
-    if (!is_current(begin, end, q)) find_candidates(chunk, begin, end, q);
+    chunk.done.has_moved |= has_moved;
+    if (!has_moved || of_vertex.size() == 1) return;
   }
 }
 

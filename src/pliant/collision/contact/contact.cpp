@@ -32,15 +32,13 @@ ContactSums Contact::add(const Positions& q, Positions& r, ThreadPool& threads) 
     chunk.sums = {};
     for (Candidate& each : chunk.candidates) {
       const Vec3 x = row(q, each.vertex);
-      const SignedDistance found = distance(each, x);
-      const Potential push = normal_potential(each.stiffness, each.radius, found.distance);
-      each.distance = found.distance;
-      each.normal = found.normal;
+      look_at(each, x);
+      const Potential push = normal_potential(each.stiffness, each.radius, each.distance);
       each.normal_force = push.force;
       each.normal_curvature = push.curvature;
       add_friction(each, x);
       chunk.sums.energy += push.energy + each.friction_energy;
-      r.row(each.vertex) += (push.force * found.normal + each.friction).transpose();
+      r.row(each.vertex) += (push.force * each.normal + each.friction).transpose();
     }
     for (Index i = begin; i < end; ++i) {
       chunk.sums.squared_residual = std::max(chunk.sums.squared_residual, r.row(i).squaredNorm());
@@ -155,11 +153,9 @@ void Contact::commit(const Positions& q, std::span<const Real> diagonal, Contact
   for (Chunk& chunk : chunks_) {
     for (Candidate& each : chunk.candidates) {
       const Vec3 x = row(q, each.vertex);
-      const SignedDistance found = distance(each, x);
-      each.distance = found.distance;
-      each.normal = found.normal;
+      look_at(each, x);
       stiffen(each, diagonal, state);
-      each.normal_force = normal_potential(each.stiffness, each.radius, found.distance).force;
+      each.normal_force = normal_potential(each.stiffness, each.radius, each.distance).force;
       add_friction(each, x);
       if (!(each.normal_force > 0) && each.friction.isZero(0)) continue;
       points_.push_back(point_of(each, x));

@@ -14,6 +14,7 @@
 //
 // All vertices are in the order of the solver, but in what State and ContactPoint have.
 #include <algorithm>
+#include <limits>
 #include <span>
 
 #include "pliant/collision/contact/contact_state.h"
@@ -120,9 +121,11 @@ class Contact {
     Vec3 anchor = Vec3::Zero();  // in space, at the end of the substep
     Vec3 friction_normal = Vec3::UnitZ();
     Real load = 0;
-    // At the last add().
+    // Where the vertex was looked at last.
+    Vec3 place = Vec3::Constant(std::numeric_limits<Real>::quiet_NaN());
     Real distance = 0;
     Vec3 normal = Vec3::UnitZ();
+    // At the last add().
     Real normal_force = 0;
     Real normal_curvature = 0;
     Vec3 friction = Vec3::Zero();  // force
@@ -142,9 +145,10 @@ class Contact {
   void find_candidates(Chunk& chunk, Index begin, Index end, const Positions& q);
   Candidate make_candidate(Index vertex, Index collider, Real begin_distance) const;
   void recall(const ContactState& state, const Positions& q, Candidate& candidate) const;
-  SignedDistance distance(const Candidate& candidate, const Vec3& x) const;
+  void look_at(Candidate& candidate, const Vec3& x) const;
   bool guard(Candidate& candidate, const Vec3& x) const;
   void hold_back(Chunk& chunk, Index begin, Index end, Positions& q);
+  void hold_back(std::span<Candidate> of_vertex, Chunk& chunk, Positions& q) const;
   static Real curvature(const Candidate& candidate, const Vec3& way);
   void add_friction(Candidate& candidate, const Vec3& x) const;
   void freeze(Candidate& candidate) const;
