@@ -109,7 +109,7 @@ Impact throw_at(const ExperimentContext& context, const Obstacle& obstacle, doub
 
 void show_throws(const ExperimentContext& context, Chapter& chapter) {
   std::vector<pliant_render::Image> pictures;
-  for (const std::size_t i : {1, 2, 3}) {
+  for (std::size_t i = 1; i < obstacles().size(); ++i) {
     pliant::Scene scene = thrown_sheet(obstacles()[i], 10, 120);
     scene.view.size = {400, 400};
     scene.view.camera.position = Vec3(1.1, -1.65, 0.75);

@@ -7,7 +7,7 @@ namespace pliant_experiments {
 
 /// How steps are taken; all else is as the library has it, on one thread.
 struct ContactMethod {
-  std::string name;
+  std::string name{};
   pliant::Integrator integrator = pliant::Integrator::implicit_euler;
   pliant::Index substeps = 1;
   pliant::Index iterations = 10;
