@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "pliant/core/error.h"
 #include "pliant_io/checkpoint/checkpoint.h"
@@ -51,6 +52,43 @@ constexpr std::string_view busy_scene = R"({
     {"step": 52, "stop": "hand"}]
 })";
 
+/// Colliders of every kind, of which all that may happen to a collider happens while bodies touch them.
+constexpr std::string_view scene_with_colliders = R"({
+  "pliant": 1,
+  "steps": 60,
+  "settings": {"iterations": 6, "threads": 1},
+  "bodies": [
+    {"name": "sheet", "mesh": {"shape": "grid", "columns": 9, "rows": 9, "plane": "xy"},
+     "mass": {"area_density": 0.3},
+     "constraints": [{"type": "triangle_strain", "name": "stretch", "stiffness": 400},
+                     {"type": "hinge", "name": "bend", "stiffness": 0.001}]},
+    {"name": "block", "mesh": {"shape": "bar", "cells": [2, 2, 2], "size": [0.2, 0.2, 0.2]},
+     "transform": {"translate": [0.4, 0.4, 0.02]}, "mass": {"total": 4},
+     "constraints": [{"type": "tetrahedron_strain", "name": "flesh", "stiffness": 50000}]}],
+  "contact": {"friction": 0.5},
+  "colliders": [
+    {"type": "sphere", "name": "ball", "center": [0.5, 0.5, -0.32], "radius": 0.3, "angular_velocity": [0, 0, 1]},
+    {"type": "plane", "name": "floor", "position": [0, 0, -0.4], "surface_velocity": [0.3, 0, 0], "friction": 0.2}],
+  "moves": [{"group": "ball", "step": 6, "offset": [0.1, 0, 0.1], "over": 0.4, "ease": "smooth"}],
+  "events": [
+    {"step": 12, "change": "ball", "radius": 0.28, "friction": 1},
+    {"step": 15, "add": {"type": "capsule", "name": "pole", "from": [0.1, 0, -0.3], "to": [0.1, 1, -0.3]}},
+    {"step": 17, "move": "pole", "keyframes": [{"time": 0.1, "translate": [0.1, 0, 0]},
+                                               {"time": 0.5, "rotate": {"axis": [0, 0, 1], "degrees": 70}}]},
+    {"step": 25, "contact": {"friction": 0.1}},
+    {"step": 33, "add": {"type": "box", "name": "step", "center": [0.9, 0.5, -0.4], "size": [0.3, 0.3, 0.3]}},
+    {"step": 38, "move": "ball", "target": [0.4, 0.5, -0.3]},
+    {"step": 41, "remove": "pole"},
+    {"step": 44, "follow": "step", "body": "block", "vertices": 0},
+    {"step": 52, "stop": "step"}]
+})";
+
+std::vector<Pose> poses(const State& state) {
+  std::vector<Pose> poses;
+  for (const ColliderState& each : state.contact.colliders) poses.push_back(each.pose);
+  return poses;
+}
+
 /// Runs to the end, with a checkpoint at every tenth step, and takes each of them up.
 void check_resume(Scene scene) {
   const TemporaryFolder folder;
@@ -75,6 +113,7 @@ void check_resume(Scene scene) {
       const State& expected = states[static_cast<std::size_t>(i)];
       REQUIRE(state.positions == expected.positions);
       REQUIRE(state.velocities == expected.velocities);
+      REQUIRE(poses(state) == poses(expected));
       REQUIRE(state.step == expected.step);
       REQUIRE(state.time == expected.time);
       if (i == scene.steps) break;
@@ -135,6 +174,84 @@ TEST_CASE("resume at every tenth step: the same bits") {
     CHECK(std::ranges::any_of(surplus, [](Real energy) { return energy > 0; }));
     check_resume(builtin("bar", {.steps = 60, .set = set}));
   }
+  SUBCASE("colliders that move, with what friction remembers") {
+    Scene scene = parse_scene(scene_with_colliders, {}, "colliders.json");
+    Index contacts = 0;
+    for (int i = 0; i < 60; ++i) contacts += scene.step().contact.contacts;
+    CHECK(contacts > 500);
+    CHECK(!scene.simulation.state().contact.memory.empty());
+    check_resume(parse_scene(scene_with_colliders, {}, "colliders.json"));
+    const std::vector<std::string> set = {"settings.integrator=bdf2", "settings.substeps=2"};
+    check_resume(parse_scene(scene_with_colliders, {}, "colliders.json", {.set = set}));
+  }
+  SUBCASE("contact in the factor") {
+    const std::vector<std::string> set = {"bodies[block].mass.total=100", "settings.iterations=3"};
+    Scene scene = parse_scene(scene_with_colliders, {}, "colliders.json", {.set = set});
+    bool was_in_factor = false;
+    for (int i = 0; i < 60; ++i) {
+      scene.step();
+      was_in_factor |= scene.simulation.state().contact.is_in_factor;
+    }
+    CHECK(was_in_factor);
+    check_resume(parse_scene(scene_with_colliders, {}, "colliders.json", {.set = set}));
+  }
+}
+
+TEST_CASE("contact that no run can have left is refused by name") {
+  const TemporaryFolder folder;
+  Scene scene = parse_scene(scene_with_colliders, {}, "colliders.json");
+  for (int i = 0; i < 20; ++i) scene.step();
+  write_checkpoint(folder.path() / "c.pliant", scene);
+  const auto content = nlohmann::json::from_cbor(TemporaryFolder::read(folder.path() / "c.pliant").substr(24), true,
+                                                 true, nlohmann::json::cbor_tag_handler_t::ignore);
+  const auto refused = [&](auto&& spoil) {
+    nlohmann::json changed = content;
+    spoil(changed);
+    std::string bytes;
+    nlohmann::json::to_cbor(changed, bytes);
+    return refusal(pliant_tests::checkpoint_bytes(bytes, 3));
+  };
+  const auto numbers = [](const std::vector<Real>& list) {
+    const auto* begin = reinterpret_cast<const std::uint8_t*>(list.data());  // NOLINT: bytes of numbers
+    return nlohmann::json::binary(std::vector<std::uint8_t>(begin, begin + sizeof(Real) * list.size()));
+  };
+  REQUIRE(refused([](auto&) {}) == "(taken)");
+  using Json = nlohmann::json;
+  const auto check = [&](const std::string& what, auto&& spoil) {
+    const std::string message = refused([&](Json& json) { spoil(json["state"]["contact"]); });
+    CAPTURE(message);
+    CHECK(message.starts_with("run.pliant: state"));
+    CHECK(message.find(what) != std::string::npos);
+  };
+  check("its colliders are others", [](Json& contact) { contact["colliders"].erase(0); });
+  check("its colliders are others", [](Json& contact) { contact["colliders"][0]["collider"] = 7; });
+  check("a rotation of length 1", [&](Json& contact) {
+    contact["colliders"][1]["pose"]["rotation"] = numbers({0, 0, 0, 2});
+  });
+  check("not finite", [&](Json& contact) { contact["colliders"][0]["pose"]["position"] = numbers({0, 1 / 0.0, 0}); });
+  check("3 numbers belong here", [&](Json& contact) { contact["colliders"][0]["pose"]["position"] = numbers({0}); });
+  check("a contact is of a vertex or a collider", [](Json& contact) { contact["vertices"].back() = 100000; });
+  check("a contact is of a vertex or a collider", [](Json& contact) { contact["touched"].back() = 9; });
+  check("the contacts are not in order", [](Json& contact) { contact["vertices"][0] = 120; });
+  check("one a contact", [](Json& contact) { contact["touched"].erase(0); });
+  check("numbers belong here", [&](Json& contact) { contact["anchors_and_loads"] = numbers({1}); });
+  check("numbers belong here", [&](Json& contact) { contact["stiffening"] = numbers({1, 1}); });
+  check("a stiffness of contacts is out of range", [&](Json& contact) {
+    contact["stiffening"] = numbers(std::vector<Real>(scene.simulation.state().masses.size(), 0.5));
+  });
+  check("light_steps", [](Json& contact) { contact["light_steps"] = -1; });
+  check("light_steps", [](Json& contact) { contact["light_steps"] = 2000000000; });
+  check("its colliders are others", [](Json& contact) { contact = Json(); });
+  const auto check_motion = [&](const std::string& what, auto&& spoil) {
+    const std::string message = refused([&](Json& json) { spoil(json["timeline"]["collider_motions"]); });
+    CAPTURE(message);
+    CHECK(message.starts_with("run.pliant: timeline"));
+    CHECK(message.find(what) != std::string::npos);
+  };
+  check_motion("motion 5 of event", [](Json& motions) { motions[0]["order"] = 5; });
+  check_motion("one position and a rotation", [](Json& motions) { motions[0]["points"] = Json::array(); });
+  check_motion("one position and a rotation", [&](Json& motions) { motions[0]["rotation"] = numbers({0, 0, 0, 0}); });
+  check_motion("'rotation' is missing", [](Json& motions) { motions[0].erase("rotation"); });
 }
 
 TEST_CASE("a checkpoint says how far to go, and can be asked to go further") {
