@@ -1,5 +1,7 @@
 // A run taken up from a checkpoint has the bits of the run without a stop; a checkpoint that was changed is refused.
 #include <algorithm>
+#include <functional>
+#include <limits>
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -15,6 +17,7 @@ namespace test_checkpoint {
 
 using namespace pliant;
 using pliant_tests::TemporaryFolder;
+using Json = nlohmann::json;
 
 namespace {
 
@@ -185,7 +188,7 @@ TEST_CASE("resume at every tenth step: the same bits") {
     check_resume(parse_scene(scene_with_colliders, {}, "colliders.json", {.set = set}));
   }
   SUBCASE("contact in the factor") {
-    const std::vector<std::string> set = {"bodies[block].mass.total=100", "settings.iterations=3"};
+    const std::vector<std::string> set = {"bodies[sheet].mass.area_density=0.01", "settings.time_step=0.1"};
     Scene scene = parse_scene(scene_with_colliders, {}, "colliders.json", {.set = set});
     bool was_in_factor = false;
     for (int i = 0; i < 60; ++i) {
@@ -197,61 +200,85 @@ TEST_CASE("resume at every tenth step: the same bits") {
   }
 }
 
-TEST_CASE("contact that no run can have left is refused by name") {
-  const TemporaryFolder folder;
-  Scene scene = parse_scene(scene_with_colliders, {}, "colliders.json");
-  for (int i = 0; i < 20; ++i) scene.step();
-  write_checkpoint(folder.path() / "c.pliant", scene);
-  const auto content = nlohmann::json::from_cbor(TemporaryFolder::read(folder.path() / "c.pliant").substr(24), true,
-                                                 true, nlohmann::json::cbor_tag_handler_t::ignore);
-  const auto refused = [&](auto&& spoil) {
-    nlohmann::json changed = content;
+/// A checkpoint of colliders in full swing, to be spoiled.
+class Spoiled {
+ public:
+  Spoiled() {
+    const TemporaryFolder folder;
+    Scene scene = parse_scene(scene_with_colliders, {}, "colliders.json");
+    for (int i = 0; i < 20; ++i) scene.step();
+    write_checkpoint(folder.path() / "c.pliant", scene);
+    content_ = Json::from_cbor(TemporaryFolder::read(folder.path() / "c.pliant").substr(24));
+    vertex_count = scene.simulation.state().masses.size();
+    REQUIRE(refusal_of([](Json&) {}) == "(taken)");
+  }
+
+  std::string refusal_of(const std::function<void(Json&)>& spoil) const {
+    Json changed = content_;
     spoil(changed);
     std::string bytes;
-    nlohmann::json::to_cbor(changed, bytes);
+    Json::to_cbor(changed, bytes);
     return refusal(pliant_tests::checkpoint_bytes(bytes, 3));
-  };
-  const auto numbers = [](const std::vector<Real>& list) {
-    const auto* begin = reinterpret_cast<const std::uint8_t*>(list.data());  // NOLINT: bytes of numbers
-    return nlohmann::json::binary(std::vector<std::uint8_t>(begin, begin + sizeof(Real) * list.size()));
-  };
-  REQUIRE(refused([](auto&) {}) == "(taken)");
-  using Json = nlohmann::json;
-  const auto check = [&](const std::string& what, auto&& spoil) {
-    const std::string message = refused([&](Json& json) { spoil(json["state"]["contact"]); });
+  }
+  void check_contact(const std::string& what, const std::function<void(Json&)>& spoil) const {
+    check(what, "run.pliant: state", [&](Json& json) { spoil(json["state"]["contact"]); });
+  }
+  void check_motions(const std::string& what, const std::function<void(Json&)>& spoil) const {
+    check(what, "run.pliant: timeline", [&](Json& json) { spoil(json["timeline"]["collider_motions"]); });
+  }
+
+  std::size_t vertex_count = 0;
+
+ private:
+  void check(const std::string& what, const std::string& start, const std::function<void(Json&)>& spoil) const {
+    const std::string message = refusal_of(spoil);
     CAPTURE(message);
-    CHECK(message.starts_with("run.pliant: state"));
+    CHECK(message.starts_with(start));
     CHECK(message.find(what) != std::string::npos);
-  };
-  check("its colliders are others", [](Json& contact) { contact["colliders"].erase(0); });
-  check("its colliders are others", [](Json& contact) { contact["colliders"][0]["collider"] = 7; });
-  check("a rotation of length 1", [&](Json& contact) {
-    contact["colliders"][1]["pose"]["rotation"] = numbers({0, 0, 0, 2});
+  }
+
+  Json content_;
+};
+
+Json bytes_of(const std::vector<Real>& numbers) {
+  const auto* begin = reinterpret_cast<const std::uint8_t*>(numbers.data());  // NOLINT: bytes of numbers
+  return Json::binary(std::vector<std::uint8_t>(begin, begin + sizeof(Real) * numbers.size()));
+}
+
+TEST_CASE("contact that no run can have left is refused by name") {
+  const Spoiled file;
+  file.check_contact("found null; give an object", [](Json& contact) { contact = Json(); });
+  file.check_contact("its colliders are others", [](Json& contact) { contact["colliders"].erase(0); });
+  file.check_contact("its colliders are others", [](Json& contact) { contact["colliders"][0]["collider"] = 7; });
+  file.check_contact("a rotation of length 1", [](Json& contact) {
+    contact["colliders"][1]["pose"]["rotation"] = bytes_of({0, 0, 0, 2});
   });
-  check("not finite", [&](Json& contact) { contact["colliders"][0]["pose"]["position"] = numbers({0, 1 / 0.0, 0}); });
-  check("3 numbers belong here", [&](Json& contact) { contact["colliders"][0]["pose"]["position"] = numbers({0}); });
-  check("a contact is of a vertex or a collider", [](Json& contact) { contact["vertices"].back() = 100000; });
-  check("a contact is of a vertex or a collider", [](Json& contact) { contact["touched"].back() = 9; });
-  check("the contacts are not in order", [](Json& contact) { contact["vertices"][0] = 120; });
-  check("one a contact", [](Json& contact) { contact["touched"].erase(0); });
-  check("numbers belong here", [&](Json& contact) { contact["anchors_and_loads"] = numbers({1}); });
-  check("numbers belong here", [&](Json& contact) { contact["stiffening"] = numbers({1, 1}); });
-  check("a stiffness of contacts is out of range", [&](Json& contact) {
-    contact["stiffening"] = numbers(std::vector<Real>(scene.simulation.state().masses.size(), 0.5));
+  file.check_contact("not finite", [](Json& contact) {
+    contact["colliders"][0]["pose"]["position"] = bytes_of({0, std::numeric_limits<Real>::infinity(), 0});
   });
-  check("light_steps", [](Json& contact) { contact["light_steps"] = -1; });
-  check("light_steps", [](Json& contact) { contact["light_steps"] = 2000000000; });
-  check("its colliders are others", [](Json& contact) { contact = Json(); });
-  const auto check_motion = [&](const std::string& what, auto&& spoil) {
-    const std::string message = refused([&](Json& json) { spoil(json["timeline"]["collider_motions"]); });
-    CAPTURE(message);
-    CHECK(message.starts_with("run.pliant: timeline"));
-    CHECK(message.find(what) != std::string::npos);
-  };
-  check_motion("motion 5 of event", [](Json& motions) { motions[0]["order"] = 5; });
-  check_motion("one position and a rotation", [](Json& motions) { motions[0]["points"] = Json::array(); });
-  check_motion("one position and a rotation", [&](Json& motions) { motions[0]["rotation"] = numbers({0, 0, 0, 0}); });
-  check_motion("'rotation' is missing", [](Json& motions) { motions[0].erase("rotation"); });
+  file.check_contact("3 numbers belong here",
+                     [](Json& contact) { contact["colliders"][0]["pose"]["position"] = bytes_of({0}); });
+  const std::string unknown = "a contact is of a vertex or a collider";
+  file.check_contact(unknown, [](Json& contact) { contact["vertices"].back() = 100000; });
+  file.check_contact(unknown, [](Json& contact) { contact["touched"].back() = 9; });
+  file.check_contact("the contacts are not in order", [](Json& contact) { contact["vertices"][0] = 100000; });
+  file.check_contact("one a contact", [](Json& contact) { contact["touched"].erase(0); });
+  file.check_contact("numbers belong here", [](Json& contact) { contact["anchors_and_loads"] = bytes_of({1}); });
+  file.check_contact("numbers belong here", [](Json& contact) { contact["stiffening"] = bytes_of({1, 1}); });
+  file.check_contact("a stiffness of contacts is out of range", [&](Json& contact) {
+    contact["stiffening"] = bytes_of(std::vector<Real>(file.vertex_count, 0.5));
+  });
+  file.check_contact("light_steps", [](Json& contact) { contact["light_steps"] = -1; });
+  file.check_contact("light_steps", [](Json& contact) { contact["light_steps"] = 2000000000; });
+}
+
+TEST_CASE("motions of colliders that have not begun are refused by name") {
+  const Spoiled file;
+  const std::string unsound = "one position and a rotation of length 1";
+  file.check_motions("motion 5 of event", [](Json& motions) { motions[0]["order"] = 5; });
+  file.check_motions(unsound, [](Json& motions) { motions[0]["points"] = Json::array(); });
+  file.check_motions(unsound, [](Json& motions) { motions[0]["rotation"] = bytes_of({0, 0, 0, 0}); });
+  file.check_motions("'rotation' is missing", [](Json& motions) { motions[0].erase("rotation"); });
 }
 
 TEST_CASE("a checkpoint says how far to go, and can be asked to go further") {

@@ -234,16 +234,16 @@ TEST_CASE("names are followed through the events in the order in which they act,
   // A longer step brings a time before a step.
   check_refused(R"({"time": 1, "remove": "pins"}, {"step": 2, "settings": {"time_step": 1}},
     {"step": 4, "remove": "pins"})",
-                "events[2].remove: no group and no force");
+                "events[2].remove: no group, force or collider");
   check_refused(R"({"step": 4, "add": {"body": "sheet", "name": "skin", "type": "hinge"}})",
                 "events[0].add.name: the name 'skin' is another group's");
   check_refused(R"({"step": 1, "remove": "skin"}, {"step": 1, "remove": "skin"})",
-                "events[1].remove: no group and no force");
+                "events[1].remove: no group, force or collider");
 }
 
 TEST_CASE("what is wrong with an event is said with its place") {
   check_refused(R"({"step": 1})",
-                "events[0]: no key says which it is; give one of the keys change, settings, gravity, add,");
+                "events[0]: no key says which it is; give one of the keys change, settings, contact, gravity, add,");
   check_refused(R"({"change": "skin", "stiffness": 1})",
                 "events[0]: no key says which it is; give one of the keys step, time");
   check_refused(R"({"step": 1, "time": 2, "remove": "skin"})", "events[0]: has both 'step' and 'time'");

@@ -304,10 +304,12 @@ Scene restore_scene(std::string_view bytes, std::string_view name, const fs::pat
 
   Simulation& simulation = scene.simulation;
   const Node timeline = root.require("timeline");
-  timeline.locate([&] { scene.timeline.replay(simulation, read_timeline(timeline)); });
+  const TimelineState timeline_state = read_timeline(timeline);
+  timeline.locate([&] { scene.timeline.replay(simulation, timeline_state); });
   restore_groups(root.require("groups"), simulation);
-  const Node state = root.require("state");
-  state.locate([&] { simulation.restore(read_state(state, simulation.state())); });
+  const Node node = root.require("state");
+  const State state = read_state(node, simulation.state());
+  node.locate([&] { simulation.restore(state); });
   if (scene.steps < simulation.state().step) {
     fail_input(fmt::format("{}: {} steps in all were asked for, but {} have been taken; ask for more", name,
                            scene.steps, simulation.state().step));
