@@ -164,6 +164,16 @@ Json describe_groups(const Simulation& simulation) {
   return groups;
 }
 
+Json describe_colliders(const Simulation& simulation) {
+  Json colliders = Json::array();
+  for (const auto& [id, collider] : simulation.colliders()) {
+    colliders.push_back({{"name", collider.name},
+                         {"type", collider.shape->type()},
+                         {"friction", collider.motion.friction.value_or(simulation.contact().friction)}});
+  }
+  return colliders;
+}
+
 Json describe(Scene& scene) {
   Simulation& simulation = scene.simulation;
   const SystemInfo info = pliant::at_place(scene.place(), [&] { return simulation.system_info(); });
@@ -189,6 +199,7 @@ Json describe(Scene& scene) {
       {"constraints", pliant::count_constraints(simulation)},
       {"groups", describe_groups(simulation)},
       {"forces", std::move(forces)},
+      {"colliders", describe_colliders(simulation)},
       {"events", scene.timeline.event_count()},
       {"files", std::move(files)},
       {"vertices", {{"all", vertices}, {"pinned", info.pinned_vertices}, {"free", vertices - info.pinned_vertices}}},
@@ -233,6 +244,16 @@ void print_bodies(const Json& json) {
   }
 }
 
+void print_colliders(const Json& colliders) {
+  if (colliders.empty()) return;
+  fmt::print("colliders:");
+  for (const Json& each : colliders) {
+    fmt::print("{} {} ({}, friction {:.4g})", &each == &colliders.front() ? "" : ",", text_of(each["name"]),
+               text_of(each["type"]), each["friction"].get<Real>());
+  }
+  fmt::print("\n");
+}
+
 void print_text(const Json& json) {
   const auto megabytes = [](const Json& bytes) { return bytes.get<Real>() * 1e-6; };
   fmt::print("{}: {}\n", text_of(json["scene"]), text_of(json["description"]));
@@ -242,6 +263,7 @@ void print_text(const Json& json) {
   fmt::print("forces:");
   for (const Json& force : json["forces"]) fmt::print(" {}", text_of(force));
   fmt::print("{}; events: {}\n", json["forces"].empty() ? " none" : "", json["events"].get<std::size_t>());
+  print_colliders(json["colliders"]);
   const Json& vertices = json["vertices"];
   fmt::print("vertices: {}, of which {} free and {} pinned\n", vertices["all"].get<Index>(),
              vertices["free"].get<Index>(), vertices["pinned"].get<Index>());

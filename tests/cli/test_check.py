@@ -38,6 +38,21 @@ class Check(unittest.TestCase):
                 self.assertGreaterEqual(info["system"]["factor_entries"], info["system"]["matrix_entries"])
         self.assertEqual(list(self.folder.iterdir()), [])
 
+    def test_colliders_are_listed(self):
+        scene = self.folder / "s.json"
+        scene.write_text(json.dumps({
+            "pliant": 1, "bodies": [{"mesh": {"shape": "grid", "columns": 3, "rows": 3}, "mass": {"total": 1}}],
+            "contact": {"friction": 0.25},
+            "colliders": [{"type": "sphere", "name": "ball", "center": [0, 0, -2], "friction": 0.5},
+                          {"type": "plane", "position": [0, 0, -3]}]}))
+        info = json.loads(self.pliant("check", scene, "--json").stdout)
+        self.assertEqual(info["colliders"], [{"name": "ball", "type": "sphere", "friction": 0.5},
+                                             {"name": "plane", "type": "plane", "friction": 0.25}])
+        text = self.pliant("check", scene, "--set", "contact.friction=0.1").stdout
+        self.assertIn("\ncolliders: ball (sphere, friction 0.5), plane (plane, friction 0.1)\n", text)
+        self.assertNotIn("colliders", self.pliant("check", "curtain").stdout)
+        self.assertEqual(json.loads(self.pliant("check", "curtain", "--json").stdout)["colliders"], [])
+
     def test_numbers_of_a_small_scene(self):
         scene = self.folder / "s.json"
         scene.write_text(json.dumps({

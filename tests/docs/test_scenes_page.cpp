@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 
+#include "pliant/collision/colliders/builtin.h"
 #include "pliant/constraints/builtin.h"
 #include "pliant/forces/builtin.h"
 #include "pliant/mesh/shapes.h"
@@ -141,6 +142,8 @@ TEST_CASE("the tables list every option") {
   check_rows<RampOptions>();
   check_types(static_cast<BuiltinConstraints*>(nullptr));
   check_types(static_cast<BuiltinForces*>(nullptr));
+  check_types(static_cast<BuiltinColliders*>(nullptr));
+  check_rows<ContactSettings>("\n### `contact`\n");
 }
 
 }  // namespace

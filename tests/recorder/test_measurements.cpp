@@ -8,6 +8,7 @@
 
 #include <doctest/doctest.h>
 
+#include "pliant/collision/colliders/builtin.h"
 #include "pliant/constraints/edge_spring.h"
 #include "pliant/constraints/position.h"
 #include "pliant/constraints/triangle_strain.h"
@@ -206,6 +207,41 @@ TEST_CASE("groups that come and go have columns from the start, and 0 where they
   CHECK(of_skin[1] == 0);
   CHECK(of_skin[2] > 0);
   CHECK(of_skin[3] == 0);
+}
+
+TEST_CASE("colliders have columns of contact, and the forces on them add up to those on the bodies") {
+  const TemporaryFolder folder;
+  Simulation simulation({.time_step = 0.01, .iterations = 100});
+  const BodyId body = simulation.add_body(grid({.columns = 3, .rows = 3, .plane = Plane::xy}), Mass::total(2));
+  simulation.add(body, EdgeSpring{.stiffness = 50}, "springs");
+  simulation.add(Gravity{});
+  simulation.add(PlaneCollider{.position = {0, 0, -0.01}, .friction = 0.5}, "floor, flat");
+  Recorder recorder(folder.path(), nullptr, 1, simulation.group_names(), 0, {"floor, flat", "ball"});
+  recorder.record(simulation, {});
+  for (int i = 0; i < 300; ++i) recorder.record(simulation, simulation.step());
+  const ColliderId ball = simulation.add(SphereCollider{.center = {5, 5, 5}}, "ball");
+  recorder.record(simulation, simulation.step());
+  simulation.remove(ball);
+  recorder.record(simulation, simulation.step());
+  std::string text = TemporaryFolder::read(folder.path() / "measurements.csv");
+  const std::string header = text.substr(0, text.find('\n'));
+  CHECK(header.find("ms_total,contacts,deepest,friction_power,held_back,backtracks,refactorizations,ms_contact,"
+                    "\"force_x_floor, flat\",") != std::string::npos);
+  CHECK(header.ends_with(",force_x_ball,force_y_ball,force_z_ball,torque_x_ball,torque_y_ball,torque_z_ball"));
+  for (std::size_t at = 0; (at = text.find("\"", at)) != text.npos;) text.erase(at, 1);
+  for (std::size_t at = 0; (at = text.find("floor, flat", at)) != text.npos;) text.replace(at, 11, "floor");
+  const auto columns = read_columns(text);
+  const auto last = [&](const char* name) { return columns.at(name).back(); };
+  CHECK(last("contacts") == 9);
+  CHECK(last("deepest") > 0);
+  CHECK(last("ms_contact") > 0);
+  CHECK(last("ms_contact") < last("ms_total"));
+  CHECK(columns.at("force_z_floor").front() == 0);
+  CHECK(std::abs(last("force_z_floor") + 2 * 9.81) < 1e-3);  // it carries the sheet
+  Vec3 force = Vec3::Zero();
+  for (const ContactPoint& point : simulation.contacts()) force += point.force;
+  CHECK(std::abs(force.z() + last("force_z_floor")) < 1e-12 * force.norm());
+  CHECK(columns.at("force_z_ball") == std::vector<Real>(columns.at("step").size(), 0));
 }
 
 }  // namespace

@@ -1,8 +1,11 @@
 // A run taken up from a checkpoint has the bits of the run without a stop; a checkpoint that was changed is refused.
 #include <algorithm>
+#include <functional>
+#include <limits>
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "pliant/core/error.h"
 #include "pliant_io/checkpoint/checkpoint.h"
@@ -14,6 +17,7 @@ namespace test_checkpoint {
 
 using namespace pliant;
 using pliant_tests::TemporaryFolder;
+using Json = nlohmann::json;
 
 namespace {
 
@@ -51,6 +55,43 @@ constexpr std::string_view busy_scene = R"({
     {"step": 52, "stop": "hand"}]
 })";
 
+/// Colliders of every kind, of which all that may happen to a collider happens while bodies touch them.
+constexpr std::string_view scene_with_colliders = R"({
+  "pliant": 1,
+  "steps": 60,
+  "settings": {"iterations": 6, "threads": 1},
+  "bodies": [
+    {"name": "sheet", "mesh": {"shape": "grid", "columns": 9, "rows": 9, "plane": "xy"},
+     "mass": {"area_density": 0.3},
+     "constraints": [{"type": "triangle_strain", "name": "stretch", "stiffness": 400},
+                     {"type": "hinge", "name": "bend", "stiffness": 0.001}]},
+    {"name": "block", "mesh": {"shape": "bar", "cells": [2, 2, 2], "size": [0.2, 0.2, 0.2]},
+     "transform": {"translate": [0.4, 0.4, 0.02]}, "mass": {"total": 4},
+     "constraints": [{"type": "tetrahedron_strain", "name": "flesh", "stiffness": 50000}]}],
+  "contact": {"friction": 0.5},
+  "colliders": [
+    {"type": "sphere", "name": "ball", "center": [0.5, 0.5, -0.32], "radius": 0.3, "angular_velocity": [0, 0, 1]},
+    {"type": "plane", "name": "floor", "position": [0, 0, -0.4], "surface_velocity": [0.3, 0, 0], "friction": 0.2}],
+  "moves": [{"group": "ball", "step": 6, "offset": [0.1, 0, 0.1], "over": 0.4, "ease": "smooth"}],
+  "events": [
+    {"step": 12, "change": "ball", "radius": 0.28, "friction": 1},
+    {"step": 15, "add": {"type": "capsule", "name": "pole", "from": [0.1, 0, -0.3], "to": [0.1, 1, -0.3]}},
+    {"step": 17, "move": "pole", "keyframes": [{"time": 0.1, "translate": [0.1, 0, 0]},
+                                               {"time": 0.5, "rotate": {"axis": [0, 0, 1], "degrees": 70}}]},
+    {"step": 25, "contact": {"friction": 0.1}},
+    {"step": 33, "add": {"type": "box", "name": "step", "center": [0.9, 0.5, -0.4], "size": [0.3, 0.3, 0.3]}},
+    {"step": 38, "move": "ball", "target": [0.4, 0.5, -0.3]},
+    {"step": 41, "remove": "pole"},
+    {"step": 44, "follow": "step", "body": "block", "vertices": 0},
+    {"step": 52, "stop": "step"}]
+})";
+
+std::vector<Pose> poses(const State& state) {
+  std::vector<Pose> poses;
+  for (const ColliderState& each : state.contact.colliders) poses.push_back(each.pose);
+  return poses;
+}
+
 /// Runs to the end, with a checkpoint at every tenth step, and takes each of them up.
 void check_resume(Scene scene) {
   const TemporaryFolder folder;
@@ -75,6 +116,7 @@ void check_resume(Scene scene) {
       const State& expected = states[static_cast<std::size_t>(i)];
       REQUIRE(state.positions == expected.positions);
       REQUIRE(state.velocities == expected.velocities);
+      REQUIRE(poses(state) == poses(expected));
       REQUIRE(state.step == expected.step);
       REQUIRE(state.time == expected.time);
       if (i == scene.steps) break;
@@ -135,6 +177,108 @@ TEST_CASE("resume at every tenth step: the same bits") {
     CHECK(std::ranges::any_of(surplus, [](Real energy) { return energy > 0; }));
     check_resume(builtin("bar", {.steps = 60, .set = set}));
   }
+  SUBCASE("colliders that move, with what friction remembers") {
+    Scene scene = parse_scene(scene_with_colliders, {}, "colliders.json");
+    Index contacts = 0;
+    for (int i = 0; i < 60; ++i) contacts += scene.step().contact.contacts;
+    CHECK(contacts > 500);
+    CHECK(!scene.simulation.state().contact.memory.empty());
+    check_resume(parse_scene(scene_with_colliders, {}, "colliders.json"));
+    const std::vector<std::string> set = {"settings.integrator=bdf2", "settings.substeps=2"};
+    check_resume(parse_scene(scene_with_colliders, {}, "colliders.json", {.set = set}));
+  }
+  SUBCASE("contact in the factor") {
+    const std::vector<std::string> set = {"bodies[sheet].mass.area_density=0.01", "settings.time_step=0.1"};
+    Scene scene = parse_scene(scene_with_colliders, {}, "colliders.json", {.set = set});
+    bool was_in_factor = false;
+    for (int i = 0; i < 60; ++i) {
+      scene.step();
+      was_in_factor |= scene.simulation.state().contact.is_in_factor;
+    }
+    CHECK(was_in_factor);
+    check_resume(parse_scene(scene_with_colliders, {}, "colliders.json", {.set = set}));
+  }
+}
+
+/// A checkpoint of colliders in full swing, to be spoiled.
+class Spoiled {
+ public:
+  Spoiled() {
+    const TemporaryFolder folder;
+    Scene scene = parse_scene(scene_with_colliders, {}, "colliders.json");
+    for (int i = 0; i < 20; ++i) scene.step();
+    write_checkpoint(folder.path() / "c.pliant", scene);
+    content_ = Json::from_cbor(TemporaryFolder::read(folder.path() / "c.pliant").substr(24));
+    vertex_count = scene.simulation.state().masses.size();
+    REQUIRE(refusal_of([](Json&) {}) == "(taken)");
+  }
+
+  std::string refusal_of(const std::function<void(Json&)>& spoil) const {
+    Json changed = content_;
+    spoil(changed);
+    std::string bytes;
+    Json::to_cbor(changed, bytes);
+    return refusal(pliant_tests::checkpoint_bytes(bytes, 3));
+  }
+  void check_contact(const std::string& what, const std::function<void(Json&)>& spoil) const {
+    check(what, "run.pliant: state", [&](Json& json) { spoil(json["state"]["contact"]); });
+  }
+  void check_motions(const std::string& what, const std::function<void(Json&)>& spoil) const {
+    check(what, "run.pliant: timeline", [&](Json& json) { spoil(json["timeline"]["collider_motions"]); });
+  }
+
+  std::size_t vertex_count = 0;
+
+ private:
+  void check(const std::string& what, const std::string& start, const std::function<void(Json&)>& spoil) const {
+    const std::string message = refusal_of(spoil);
+    CAPTURE(message);
+    CHECK(message.starts_with(start));
+    CHECK(message.find(what) != std::string::npos);
+  }
+
+  Json content_;
+};
+
+Json bytes_of(const std::vector<Real>& numbers) {
+  const auto* begin = reinterpret_cast<const std::uint8_t*>(numbers.data());  // NOLINT: bytes of numbers
+  return Json::binary(std::vector<std::uint8_t>(begin, begin + sizeof(Real) * numbers.size()));
+}
+
+TEST_CASE("contact that no run can have left is refused by name") {
+  const Spoiled file;
+  file.check_contact("found null; give an object", [](Json& contact) { contact = Json(); });
+  file.check_contact("its colliders are others", [](Json& contact) { contact["colliders"].erase(0); });
+  file.check_contact("its colliders are others", [](Json& contact) { contact["colliders"][0]["collider"] = 7; });
+  file.check_contact("a rotation of length 1", [](Json& contact) {
+    contact["colliders"][1]["pose"]["rotation"] = bytes_of({0, 0, 0, 2});
+  });
+  file.check_contact("not finite", [](Json& contact) {
+    contact["colliders"][0]["pose"]["position"] = bytes_of({0, std::numeric_limits<Real>::infinity(), 0});
+  });
+  file.check_contact("3 numbers belong here",
+                     [](Json& contact) { contact["colliders"][0]["pose"]["position"] = bytes_of({0}); });
+  const std::string unknown = "a contact is of a vertex or a collider";
+  file.check_contact(unknown, [](Json& contact) { contact["vertices"].back() = 100000; });
+  file.check_contact(unknown, [](Json& contact) { contact["touched"].back() = 9; });
+  file.check_contact("the contacts are not in order", [](Json& contact) { contact["vertices"][0] = 100000; });
+  file.check_contact("one a contact", [](Json& contact) { contact["touched"].erase(0); });
+  file.check_contact("numbers belong here", [](Json& contact) { contact["anchors_and_loads"] = bytes_of({1}); });
+  file.check_contact("numbers belong here", [](Json& contact) { contact["stiffening"] = bytes_of({1, 1}); });
+  file.check_contact("a stiffness of contacts is out of range", [&](Json& contact) {
+    contact["stiffening"] = bytes_of(std::vector<Real>(file.vertex_count, 0.5));
+  });
+  file.check_contact("light_steps", [](Json& contact) { contact["light_steps"] = -1; });
+  file.check_contact("light_steps", [](Json& contact) { contact["light_steps"] = 2000000000; });
+}
+
+TEST_CASE("motions of colliders that have not begun are refused by name") {
+  const Spoiled file;
+  const std::string unsound = "one position and a rotation of length 1";
+  file.check_motions("motion 5 of event", [](Json& motions) { motions[0]["order"] = 5; });
+  file.check_motions(unsound, [](Json& motions) { motions[0]["points"] = Json::array(); });
+  file.check_motions(unsound, [](Json& motions) { motions[0]["rotation"] = bytes_of({0, 0, 0, 0}); });
+  file.check_motions("'rotation' is missing", [](Json& motions) { motions[0].erase("rotation"); });
 }
 
 TEST_CASE("a checkpoint says how far to go, and can be asked to go further") {
@@ -212,12 +356,14 @@ TEST_CASE("checkpoints of other versions are refused by name") {
   const Scene scene = small_chain();
   write_checkpoint(folder.path() / "c.pliant", scene);
   const std::string content = TemporaryFolder::read(folder.path() / "c.pliant").substr(24);
-  CHECK(refusal(pliant_tests::checkpoint_bytes(content, 2)) == "(taken)");
+  CHECK(refusal(pliant_tests::checkpoint_bytes(content, 3)) == "(taken)");
   CHECK(refusal(pliant_tests::checkpoint_bytes(content, 1)) ==
         "run.pliant: this checkpoint was written by Pliant 0.1.0, whose format this version no longer reads; resume it "
         "with Pliant 0.1.0, or run the scene from its start");
-  CHECK(refusal(pliant_tests::checkpoint_bytes(content, 3)).find("has the format 3, and this program reads 2;") !=
-        std::string::npos);
+  for (const std::uint32_t other : {2U, 4U}) {
+    CHECK(refusal(pliant_tests::checkpoint_bytes(content, other))
+              .find(fmt::format("has the format {}, and this program reads 3;", other)) != std::string::npos);
+  }
 }
 
 TEST_CASE("a mesh that was changed since is named") {

@@ -228,22 +228,22 @@ TEST_CASE("names are followed through the events in the order in which they act,
   CHECK(std::ranges::count(scene.group_names, "skin") == 1);
   check_refused(R"({"step": 2, "change": "extra", "stiffness": 4}, {"step": 3, "add": {"body": "sheet", "name": "extra",
     "type": "hinge"}})",
-                "events[0].change: no group and no force is called 'extra' then", "known: ");
+                "events[0].change: no group, force or collider is called 'extra' then", "known: ");
   check_refused(R"({"step": 5, "move": "pins", "offset": [0, 0, 1]}, {"step": 3, "remove": "pins"})",
                 "events[0].move: unknown group 'pins'");
   // A longer step brings a time before a step.
   check_refused(R"({"time": 1, "remove": "pins"}, {"step": 2, "settings": {"time_step": 1}},
     {"step": 4, "remove": "pins"})",
-                "events[2].remove: no group and no force");
+                "events[2].remove: no group, force or collider");
   check_refused(R"({"step": 4, "add": {"body": "sheet", "name": "skin", "type": "hinge"}})",
                 "events[0].add.name: the name 'skin' is another group's");
   check_refused(R"({"step": 1, "remove": "skin"}, {"step": 1, "remove": "skin"})",
-                "events[1].remove: no group and no force");
+                "events[1].remove: no group, force or collider");
 }
 
 TEST_CASE("what is wrong with an event is said with its place") {
   check_refused(R"({"step": 1})",
-                "events[0]: no key says which it is; give one of the keys change, settings, gravity, add,");
+                "events[0]: no key says which it is; give one of the keys change, settings, contact, gravity, add,");
   check_refused(R"({"change": "skin", "stiffness": 1})",
                 "events[0]: no key says which it is; give one of the keys step, time");
   check_refused(R"({"step": 1, "time": 2, "remove": "skin"})", "events[0]: has both 'step' and 'time'");
@@ -253,7 +253,7 @@ TEST_CASE("what is wrong with an event is said with its place") {
   check_refused(R"({"step": 1, "remove": "skin", "move": "pins"})", "events[0]: has both");
   check_refused(R"(7)", "events[0]: found a number; give an object");
   check_refused(R"({"step": 1, "change": "skn", "stiffness": 1})",
-                "events[0].change: no group and no force is called 'skn' then", "did you mean 'skin'");
+                "events[0].change: no group, force or collider is called 'skn' then", "did you mean 'skin'");
   check_refused(R"({"step": 1, "change": "skin", "stifness": 1})", "events[0].stifness: unknown key",
                 "did you mean 'stiffness'");
   check_refused(R"({"step": 1, "change": "skin", "stiffness": -1})", "events[0].stiffness: -1 is out of range");
@@ -290,7 +290,7 @@ TEST_CASE("what is wrong with an event is said with its place") {
                 "events[0]: ", "is already pinned by 'pins'");
   check_refused(R"({"step": 1, "add": {"type": "wind", "body": "rope"}})", "events[0]: wind: there are no triangles");
   check_refused(R"({"step": 1, "add": {"type": "wind", "name": "gravity"}})", "events[0].add.name: the name 'gravity'");
-  check_refused(R"({"step": 1, "remove": "wnd"})", "events[0].remove: no group and no force is called 'wnd' then",
+  check_refused(R"({"step": 1, "remove": "wnd"})", "events[0].remove: no group, force or collider is called 'wnd' then",
                 "did you mean 'wind'");
   check_refused(R"({"step": 1, "release": "skin", "vertices": [0]})",
                 "events[0].release: 'skin' is a group of type triangle_strain");

@@ -35,11 +35,12 @@ Real contact_distance_of(const Mesh& mesh) {
              " does not exist; give one that was added and not removed");
 }
 
+bool is_sound(const Pose& pose) {
+  return pose.position.allFinite() && std::abs(pose.rotation.norm() - 1) < 1e-6;
+}
+
 void check_pose(const Pose& pose, std::string_view where) {
-  const Real length = pose.rotation.norm();
-  if (!pose.position.allFinite() || !(std::abs(length - 1) < 1e-6)) {
-    fail_input(std::string(where) + ": give a finite position and a rotation of length 1");
-  }
+  if (!is_sound(pose)) fail_input(std::string(where) + ": give a finite position and a rotation of length 1");
 }
 
 void check_motion(const ColliderMotion& motion, std::string_view where) {
@@ -127,9 +128,20 @@ const Pose& Colliders::pose(ColliderId id) const {
 }
 
 void Colliders::set_target(ColliderId id, const Pose& target) {
-  check_pose(target, "target of the collider '" + name(id) + "'");
+  const std::size_t place = place_in_state(id);
+  if (!is_sound(target)) check_pose(target, "target of the collider '" + name(id) + "'");
   if (transaction_ != nullptr) transaction_->save_colliders();
-  state_.contact.colliders[place_in_state(id)].target = target;
+  state_.contact.colliders[place].target = target;
+}
+
+void Colliders::clear_target(ColliderId id) {
+  const std::size_t place = place_in_state(id);
+  if (transaction_ != nullptr) transaction_->save_colliders();
+  state_.contact.colliders[place].target.reset();
+}
+
+const std::optional<Pose>& Colliders::target(ColliderId id) const {
+  return state_.contact.colliders[place_in_state(id)].target;
 }
 
 void Colliders::set_contact(const ContactSettings& settings) {

@@ -54,6 +54,8 @@ class Colliders {
   const Pose& pose(ColliderId id) const;
   /// Where the next step takes it, whatever its velocities; it goes on with these afterwards.
   void set_target(ColliderId id, const Pose& target);
+  void clear_target(ColliderId id);  ///< the next step takes it on with its velocities
+  const std::optional<Pose>& target(ColliderId id) const;
 
   const ContactSettings& contact() const { return contact_; }
   /// From the next step on.

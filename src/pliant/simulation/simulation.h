@@ -6,7 +6,6 @@
 //     simulation.add(cloth, EdgeSpring{.stiffness = 1e3});
 //     simulation.add(cloth, Position{.on = {0, 31}});
 //     simulation.add(Gravity{});
-//     simulation.add(cloth, Wind{.velocity = {0, 3, 0}});
 //     for (int i = 0; i < 60; ++i) simulation.step();
 #include <functional>
 #include <map>
@@ -25,7 +24,6 @@
 namespace pliant {
 
 class Solver;
-class Transaction;
 
 class Simulation : public Colliders {
  public:
@@ -120,7 +118,7 @@ class Simulation : public Colliders {
   Index vertex(BodyId id, Index vertex_of_body) const;  ///< its index among all; refuses one out of range
 
   using Colliders::add, Colliders::name, Colliders::options, Colliders::remove, Colliders::replace;
-  using Colliders::set_target;
+  using Colliders::set_target, Colliders::target;
   Real contact_distance(BodyId id) const;  ///< r of its vertices [m]
   /// What touched at the end of the last step, by vertex, then collider; valid until the next one.
   std::span<const ContactPoint> contacts() const;

@@ -4,11 +4,26 @@
 #include <array>
 #include <cmath>
 
+#include "pliant/core/stopwatch.h"
+
 namespace pliant {
 namespace {
 
 /// Of the iterations, after which friction is refreshed.
 constexpr std::array<Real, 2> refreshed_after = {0.3, 0.8};
+
+/// Adds the time that it lives to a sum.
+class AddedTime {
+ public:
+  explicit AddedTime(double& sum) : sum_(sum) {}
+  ~AddedTime() { sum_ += watch_.seconds(); }
+  AddedTime(const AddedTime&) = delete;
+  AddedTime& operator=(const AddedTime&) = delete;
+
+ private:
+  double& sum_;
+  Stopwatch watch_;
+};
 
 }  // namespace
 
@@ -25,6 +40,7 @@ void ContactSolver::set(std::vector<SolverCollider> colliders, std::vector<Real>
 void ContactSolver::begin_step(const State& state, Real h) {
   begin_.clear();
   end_.clear();
+  seconds_ = 0;
   for (std::size_t i = 0; i < colliders_.size(); ++i) {
     const ColliderState& now = state.contact.colliders.at(i);
     const ColliderMotion& motion = colliders_[i].motion;
@@ -35,6 +51,7 @@ void ContactSolver::begin_step(const State& state, Real h) {
 
 void ContactSolver::begin_substep(const State& state, Real begin, Real end, Real h, const System& system,
                                   WorkingState& work, ThreadPool& threads) {
+  const AddedTime timed(seconds_);
   const std::span<ContactCollider> colliders = contact_.colliders();
   for (std::size_t i = 0; i < colliders.size(); ++i) {
     colliders[i].begin = begin == 0 ? begin_[i] : interpolate(begin_[i], end_[i], begin);
@@ -55,6 +72,7 @@ void ContactSolver::begin_substep(const State& state, Real begin, Real end, Real
 }
 
 void ContactSolver::add(WorkingState& work, LocalResult& local, ThreadPool& threads) {
+  const AddedTime timed(seconds_);
   const ContactSums sums = contact_.add(work.positions, work.residual, threads);
   local.contact = sums.energy;
   local.residual = std::sqrt(sums.squared_residual);
@@ -66,6 +84,7 @@ bool ContactSolver::refresh(Index iteration, Index iterations, bool has_converge
   const Real share = refreshed_after[at(refreshes_)];
   const auto due = std::max<Index>(1, static_cast<Index>(std::lround(share * static_cast<Real>(iterations))));
   if (iteration < due && !has_converged) return false;
+  const AddedTime timed(seconds_);
   ++refreshes_;
   const ContactSums sums = contact_.refresh(work.positions, work.residual, threads);
   local.contact = sums.energy;
@@ -73,8 +92,14 @@ bool ContactSolver::refresh(Index iteration, Index iterations, bool has_converge
   return true;
 }
 
+HeldBack ContactSolver::hold_back(Positions& q, ThreadPool& threads) {
+  const AddedTime timed(seconds_);
+  return contact_.hold_back(q, threads);
+}
+
 void ContactSolver::commit_substep(const System& system, const WorkingState& work, State& state,
                                    ContactReport& report) {
+  const Stopwatch watch;
   contact_.commit(work.positions, system.diagonal(), state.contact);
   state.contact.is_in_factor = work.contact_in_factor;
   state.contact.light_steps = work.light_steps;
@@ -86,6 +111,8 @@ void ContactSolver::commit_substep(const System& system, const WorkingState& wor
     report.deepest = std::max(report.deepest, radii_[at(each.vertex)] - each.distance);
     report.friction_power += each.friction_power;
   }
+  seconds_ += watch.seconds();
+  report.seconds = seconds_;
 }
 
 void ContactSolver::commit_step(State& state) const {

@@ -33,7 +33,7 @@ class ContactSolver {
   /// converged before. Returns whether it has.
   bool refresh(Index iteration, Index iterations, bool has_converged, WorkingState& work, LocalResult& local,
                ThreadPool& threads);
-  HeldBack hold_back(Positions& q, ThreadPool& threads) { return contact_.hold_back(q, threads); }
+  HeldBack hold_back(Positions& q, ThreadPool& threads);
   void commit_substep(const System& system, const WorkingState& work, State& state, ContactReport& report);
   void commit_step(State& state) const;
 
@@ -47,6 +47,7 @@ class ContactSolver {
   std::vector<Pose> begin_, end_;  // of the step
   Contact contact_;
   Index refreshes_ = 0;  // in this substep
+  double seconds_ = 0;   // in this step
 };
 
 }  // namespace pliant

@@ -59,7 +59,7 @@ struct ContactReport {
   Real friction_power = 0;     ///< that friction takes away in the last substep [W]
   Index held_back = 0;         ///< moves of vertices that were cut at a surface
   Index refactorizations = 0;  ///< with contact in the factor
-  double seconds = 0;
+  double seconds = 0;          ///< to find them, add them up and hold back what meets a surface
 };
 
 /// What a step tells about itself.

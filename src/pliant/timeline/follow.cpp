@@ -44,9 +44,9 @@ class BodyPath final : public Path {
   BodyPath(BodyId body, std::vector<Index> vertices, Attach attach)
       : body_(body), vertices_(std::move(vertices)), attach_(attach) {}
 
-  void begin(const Simulation& simulation, GroupId group, MotionNumbers& numbers) const override {
+  void begin(const Simulation& simulation, std::optional<GroupId> group, MotionNumbers& numbers) const override {
     const Body& followed = simulation.body(body_);
-    if (simulation.groups().at(group).body == body_) {
+    if (group && simulation.groups().at(*group).body == body_) {
       fail_input("a group cannot follow the body that it holds; name another body");
     }
     const Positions x = simulation.state().positions.middleRows(followed.first_vertex, followed.mesh.vertex_count());
@@ -82,7 +82,7 @@ class AnimationPath final : public Path {
 
   Real duration() const override { return animation_->duration(); }
 
-  void begin(const Simulation&, GroupId, MotionNumbers& numbers) const override {
+  void begin(const Simulation&, std::optional<GroupId>, MotionNumbers& numbers) const override {
     Positions first;
     animation_->sample(0, first);
     attach_points(first, points_, attach_, numbers);

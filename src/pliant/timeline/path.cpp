@@ -27,7 +27,7 @@ class StraightPath final : public Path {
 
   Real duration() const override { return duration_; }
 
-  void begin(const Simulation&, GroupId, MotionNumbers& numbers) const override {
+  void begin(const Simulation&, std::optional<GroupId>, MotionNumbers& numbers) const override {
     if (!to_.each() || to_.list().size() == numbers.points.size()) return;
     fail_input(fmt::format("{} points for {} constraints; give one for all, or one each", to_.list().size(),
                            numbers.points.size()));
@@ -83,7 +83,7 @@ class RigidPath final : public Path {
 
   Real duration() const override { return keys_.back().time; }
 
-  void begin(const Simulation&, GroupId, MotionNumbers& numbers) const override {
+  void begin(const Simulation&, std::optional<GroupId>, MotionNumbers& numbers) const override {
     if (center_) {
       numbers.center = *center_;
       return;
@@ -97,7 +97,8 @@ class RigidPath final : public Path {
     const Displacement pose = pose_at(elapsed);
     const Vec3 turn = pose.tail<3>();
     const Real angle = turn.norm();
-    rotation_ = angle > 0 ? Eigen::AngleAxis<Real>(angle, turn / angle).toRotationMatrix() : Mat3(Mat3::Identity());
+    turn_ = angle > 0 ? Eigen::AngleAxis<Real>(angle, turn / angle) : Eigen::AngleAxis<Real>::Identity();
+    rotation_ = turn_.toRotationMatrix();
     center_now_ = numbers.center;
     translation_ = pose.head<3>();
   }
@@ -105,6 +106,8 @@ class RigidPath final : public Path {
   Vec3 at(const MotionPoint& point) const override {
     return center_now_ + translation_ + rotation_ * (point.from - center_now_);
   }
+
+  Quaternion rotation() const override { return Quaternion(turn_); }
 
  private:
   Displacement pose_at(Real elapsed) const {
@@ -124,6 +127,7 @@ class RigidPath final : public Path {
   std::optional<Vec3> center_;
   Ease ease_;
   // Scratch.
+  Eigen::AngleAxis<Real> turn_ = Eigen::AngleAxis<Real>::Identity();
   Mat3 rotation_ = Mat3::Identity();
   Vec3 translation_ = Vec3::Zero();
   Vec3 center_now_ = Vec3::Zero();
@@ -131,7 +135,7 @@ class RigidPath final : public Path {
 
 }  // namespace
 
-void Path::begin(const Simulation&, GroupId, MotionNumbers&) const {}
+void Path::begin(const Simulation&, std::optional<GroupId>, MotionNumbers&) const {}
 
 std::shared_ptr<Path> straight_path(MoveKind kind, Points to, Real duration, Ease ease) {
   if (!(duration >= 0) || !std::isfinite(duration)) {

@@ -31,6 +31,11 @@ struct MotionNumbers {
   std::vector<MotionPoint> points;
 };
 
+/// Whether a path of that duration is at its end: rounding of the time costs no further step.
+inline bool is_past(Real elapsed, Real duration) {
+  return elapsed >= duration * (1 - 1e-9);
+}
+
 /// A path has no state of its own but scratch: all that depends on when and where it began is in the MotionNumbers.
 class Path {
  public:
@@ -43,13 +48,15 @@ class Path {
 
   /// Of the whole path [s]; 0: a jump.
   virtual Real duration() const { return endless; }
-  /// Called once, when a motion begins; `from` of each point is then where its target is. Throws Error(input) when the
-  /// path does not fit the group.
-  virtual void begin(const Simulation& simulation, GroupId group, MotionNumbers& numbers) const;
+  /// Called once, when a motion begins; `from` of each point is then where its target is. No group: the one point is
+  /// the position of a collider. Throws Error(input) when the path does not fit.
+  virtual void begin(const Simulation& simulation, std::optional<GroupId> group, MotionNumbers& numbers) const;
   /// Called before at(): the time since the begin, at most duration(), that is asked for next.
   virtual void go_to(const Simulation& simulation, const MotionNumbers& numbers, Real elapsed) = 0;
   /// Where a point is then.
   virtual Vec3 at(const MotionPoint& point) const = 0;
+  /// How a collider is then turned, from how it was when the motion began.
+  virtual Quaternion rotation() const { return Quaternion::Identity(); }
 };
 
 /// What the points of a straight path mean: where to, or how far from where it begins.

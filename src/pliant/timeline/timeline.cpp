@@ -55,11 +55,6 @@ auto find_in(Waiting& waiting, Key key, Index event) {
   return found == last ? waiting.end() : found;
 }
 
-/// Whether a path is at its end: rounding of the time costs no further step.
-bool is_past(Real elapsed, Real duration) {
-  return elapsed >= duration * (1 - 1e-9);
-}
-
 Real stiffness_at(const StiffnessRamp& ramp, Real elapsed) {
   Real share = elapsed / ramp.duration;
   if (ramp.ease == Ease::smooth) share *= share * (3 - 2 * share);
@@ -86,6 +81,7 @@ template <class F>
 void Timeline::all_or_nothing(Simulation& simulation, F&& f) {
   Transaction transaction(simulation);
   const std::vector<Motion> motions = motions_;
+  const ColliderMotions collider_motions = collider_motions_;
   const std::map<GroupId, Ramp> ramps = ramps_;
   const std::size_t event_count = events_.size();
   const std::size_t applied_count = applied_.size();
@@ -93,6 +89,7 @@ void Timeline::all_or_nothing(Simulation& simulation, F&& f) {
     f();
   } catch (...) {
     motions_ = motions;
+    collider_motions_ = collider_motions;
     ramps_ = ramps;
     for (std::size_t i = applied_count; i < applied_.size(); ++i) wait(applied_[i]);
     applied_.resize(applied_count);
@@ -168,6 +165,11 @@ void Timeline::start(Simulation& simulation, GroupId id, std::shared_ptr<Path> p
   for (std::size_t i = 0; i < motion.indices.size(); ++i) {
     simulation.set_target(id, motion.indices[i], motion.path->at(motion.state.numbers.points[i]));
   }
+}
+
+void Timeline::start(Simulation& simulation, ColliderId collider, std::shared_ptr<Path> path) {
+  const Index order = running_ < 0 ? begun_outside_++ : begun_++;
+  collider_motions_.start(simulation, collider, std::move(path), running_, order);
 }
 
 void Timeline::leave(GroupId group, std::vector<Index> numbers) {
@@ -307,6 +309,7 @@ void Timeline::prepare(const Simulation& simulation) {
     }
   }
   for (auto& [id, ramp] : ramps_) ramp.before = *simulation.stiffness(id);
+  collider_motions_.prepare(simulation);
 }
 
 void Timeline::go_on(Simulation& simulation) {
@@ -325,6 +328,7 @@ void Timeline::go_on(Simulation& simulation) {
     ramp.has_arrived = is_past(elapsed, ramp.numbers.duration);
     simulation.set_stiffness(id, ramp.has_arrived ? ramp.numbers.to : stiffness_at(ramp.numbers, elapsed));
   }
+  collider_motions_.go_on(simulation);
 }
 
 void Timeline::go_back(Simulation& simulation) {
@@ -336,17 +340,20 @@ void Timeline::go_back(Simulation& simulation) {
   for (const auto& [id, ramp] : ramps_) {
     simulation.set_stiffness(id, ramp.before);
   }
+  collider_motions_.go_back(simulation);
 }
 
 void Timeline::end_what_arrived() {
   std::erase_if(motions_, [](const Motion& motion) { return motion.has_arrived; });
   std::erase_if(ramps_, [](const auto& entry) { return entry.second.has_arrived; });
+  collider_motions_.end_what_arrived();
 }
 
 TimelineState Timeline::state() const {
   TimelineState state;
   state.applied = applied_;
   for (const Motion& motion : motions_) state.motions.push_back(motion.state);
+  state.collider_motions = collider_motions_.numbers();
   for (const auto& [id, ramp] : ramps_) state.ramps.push_back(ramp.numbers);
   return state;
 }
@@ -376,6 +383,7 @@ void Timeline::replay(Simulation& simulation, const TimelineState& state) {
       motion.before.resize(saved.numbers.points.size());
     }
     motions_ = std::move(motions);
+    collider_motions_.restore(simulation, state.collider_motions);
     ramps_.clear();
     for (const StiffnessRamp& ramp : state.ramps) {
       check_ramp(simulation, ramp);

@@ -1,5 +1,5 @@
 #pragma once
-// What happens at given times while a simulation runs: edits of any kind, and motions of targets.
+// What happens at given times while a simulation runs: edits of any kind, motions of targets and of colliders.
 //
 //     Timeline timeline;
 //     timeline.add(When::at_time(1), [=](Simulation& s) { s.set_stiffness(skin, 500); });
@@ -12,7 +12,7 @@
 #include <string>
 #include <type_traits>
 
-#include "pliant/timeline/path.h"
+#include "pliant/timeline/collider_motions.h"
 
 namespace pliant {
 
@@ -53,6 +53,7 @@ struct TimelineState {
   };
   std::vector<Index> applied;  ///< events in the order in which they acted
   std::vector<Motion> motions;
+  std::vector<ColliderMotionNumbers> collider_motions;
   std::vector<StiffnessRamp> ramps;
 };
 
@@ -76,6 +77,11 @@ class Timeline {
   /// each step, t, targets are where the path is after t − tₙ, with tₙ from when it began. A target that is released or
   /// removed leaves its motion. Throws Error(input) when the group has no such target or the path does not fit.
   void start(Simulation& simulation, GroupId group, std::shared_ptr<Path> path, std::vector<Index> numbers = {});
+  /// Lets a collider go along a path from now on, in place of its velocities: at the end of each step it is where the
+  /// path is then, and it turns as the path does, about its position unless the path has a center. A jump is made in
+  /// one step. With the velocities that it has it goes on behind the end.
+  void start(Simulation& simulation, ColliderId collider, std::shared_ptr<Path> path);
+  void stop(const Simulation& simulation, ColliderId collider) { collider_motions_.stop(simulation, collider); }
   /// Leaves targets where they are now; without numbers all of the group, whose ramp ends as well.
   void stop(const Simulation& simulation, GroupId group, const std::vector<Index>& numbers = {});
   /// Lets the stiffness of a group go to another value in a time [s] > 0. Costs a numeric factorization each step.
@@ -98,7 +104,9 @@ class Timeline {
 
   std::size_t event_count() const { return events_.size(); }
   /// Whether something is still to come or under way.
-  bool is_over() const { return by_step_.empty() && by_time_.empty() && motions_.empty() && ramps_.empty(); }
+  bool is_over() const {
+    return by_step_.empty() && by_time_.empty() && motions_.empty() && collider_motions_.empty() && ramps_.empty();
+  }
 
   TimelineState state() const;
   /// For a timeline and a simulation just made as those were that the state was taken of: lets the same events act in
@@ -157,6 +165,7 @@ class Timeline {
   std::multimap<Real, Index> by_time_;
   std::vector<Index> applied_;
   std::vector<Motion> motions_;
+  ColliderMotions collider_motions_;
   std::map<GroupId, Ramp> ramps_;
   Index running_ = -1;  // event
   Index begun_ = 0;     // motions by it

@@ -12,9 +12,9 @@
 namespace pliant {
 
 /// Writes all that the next step depends on: the texts of the scene and what was set in place of theirs, positions,
-/// velocities, step and time, the numbers and the stiffness of every group, which events have acted, the motions under
-/// way; and of each mesh and map the size and the CRC-32. The system matrix is summed and factorized anew from these.
-/// Whole or not at all (atomic_file.h).
+/// velocities, step and time, the numbers and the stiffness of every group, where colliders are and what friction on
+/// them remembers, which events have acted, the motions under way; and of each mesh and map the size and the CRC-32.
+/// The system matrix is summed and factorized anew from these. Whole or not at all (atomic_file.h).
 /// @throws Error (output): the file cannot be written.
 void write_checkpoint(const std::filesystem::path& path, const Scene& scene);
 

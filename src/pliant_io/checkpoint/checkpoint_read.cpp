@@ -164,10 +164,20 @@ TimelineState::Motion read_motion(const Node& node) {
   return motion;
 }
 
+void read_rotation(const Node& node, Quaternion& rotation) {
+  read_numbers(node, {rotation.coeffs().data(), 4});
+}
+
 TimelineState read_timeline(const Node& node) {
   TimelineState timeline;
   for_each(node.require("applied"), [&](const Node& event) { read(event, timeline.applied.emplace_back()); });
   for_each(node.require("motions"), [&](const Node& motion) { timeline.motions.push_back(read_motion(motion)); });
+  for_each(node.require("collider_motions"), [&](const Node& entry) {
+    TimelineState::Motion motion = read_motion(entry);
+    ColliderMotionNumbers& of_collider = timeline.collider_motions.emplace_back();
+    of_collider = {motion.event, motion.order, std::move(motion.numbers)};
+    read_rotation(entry.require("rotation"), of_collider.rotation);
+  });
   for_each(node.require("ramps"), [&](const Node& entry) {
     StiffnessRamp& ramp = timeline.ramps.emplace_back();
     Index group = 0;
@@ -207,6 +217,53 @@ void read_rows(const Node& node, Positions& positions, Positions& velocities) {
   }
 }
 
+Pose read_pose(const Node& node) {
+  Pose pose;
+  read_numbers(node.require("position"), {pose.position.data(), 3});
+  read_rotation(node.require("rotation"), pose.rotation);
+  return pose;
+}
+
+/// What friction remembers, of so many contacts as the list of vertices has.
+std::vector<ContactMemory> read_memory(const Node& node) {
+  const Node vertices = node.require("vertices");
+  const Node touched = node.require("touched");
+  vertices.require_list();
+  touched.require_list(vertices.size(), "(one a contact)");
+  std::vector<Real> numbers(4 * vertices.size());
+  read_numbers(node.require("anchors_and_loads"), numbers);
+  std::vector<ContactMemory> memory(vertices.size());
+  for (std::size_t i = 0; i < memory.size(); ++i) {
+    read(vertices[i], memory[i].vertex);
+    read(touched[i], memory[i].collider);
+    memory[i].anchor = {numbers[4 * i], numbers[4 * i + 1], numbers[4 * i + 2]};
+    memory[i].load = numbers[4 * i + 3];
+  }
+  return memory;
+}
+
+/// Whether colliders and contacts are those of the simulation, Simulation::restore() says.
+ContactState read_contact(const Node& node, const State& fresh) {
+  constexpr Index most_light_steps = 1000;
+  ContactState contact;
+  for_each(node.require("colliders"), [&](const Node& entry) {
+    ColliderState& collider = contact.colliders.emplace_back();
+    read(entry.require("collider"), collider.collider);
+    collider.pose = read_pose(entry.require("pose"));
+    if (const auto target = entry.find("target")) collider.target = read_pose(*target);
+  });
+  contact.memory = read_memory(node);
+  const Node stiffening = node.require("stiffening");
+  if (!stiffening.is_bytes() || !stiffening.bytes().empty()) contact.stiffening.resize(fresh.masses.size());
+  read_numbers(stiffening, contact.stiffening);
+  read(node.require("is_in_factor"), contact.is_in_factor);
+  read(node.require("light_steps"), contact.light_steps);
+  if (contact.light_steps < 0 || contact.light_steps > most_light_steps) {
+    node.require("light_steps").fail(fmt::format("{} is out of range; take another checkpoint", contact.light_steps));
+  }
+  return contact;
+}
+
 State read_state(const Node& node, const State& fresh) {
   State state = fresh;
   read(node.require("step"), state.step);
@@ -221,6 +278,7 @@ State read_state(const Node& node, const State& fresh) {
     for (Positions* rows : {&state.previous_positions, &state.previous_velocities}) rows->resizeLike(state.positions);
     read_rows(*previous, state.previous_positions, state.previous_velocities);
   }
+  if (const auto contact = node.find("contact")) state.contact = read_contact(*contact, fresh);
   if (const auto surplus = node.find("energy_surplus")) {
     state.energy_surplus.resize(state.masses.size());
     read_numbers(*surplus, state.energy_surplus);
@@ -246,10 +304,12 @@ Scene restore_scene(std::string_view bytes, std::string_view name, const fs::pat
 
   Simulation& simulation = scene.simulation;
   const Node timeline = root.require("timeline");
-  timeline.locate([&] { scene.timeline.replay(simulation, read_timeline(timeline)); });
+  const TimelineState timeline_state = read_timeline(timeline);
+  timeline.locate([&] { scene.timeline.replay(simulation, timeline_state); });
   restore_groups(root.require("groups"), simulation);
-  const Node state = root.require("state");
-  state.locate([&] { simulation.restore(read_state(state, simulation.state())); });
+  const Node node = root.require("state");
+  const State state = read_state(node, simulation.state());
+  node.locate([&] { simulation.restore(state); });
   if (scene.steps < simulation.state().step) {
     fail_input(fmt::format("{}: {} steps in all were asked for, but {} have been taken; ask for more", name,
                            scene.steps, simulation.state().step));

@@ -74,6 +74,34 @@ Json write_files(const std::vector<SceneFile>& files) {
   return list;
 }
 
+Json write_pose(const Pose& pose) {
+  return {{"position", bytes_of(pose.position)},
+          {"rotation", bytes_of(std::span<const Real>(pose.rotation.coeffs().data(), 4))}};
+}
+
+Json write_contact(const ContactState& contact) {
+  Json colliders = Json::array();
+  for (const ColliderState& each : contact.colliders) {
+    Json& json = colliders.emplace_back(Json{{"collider", each.collider}, {"pose", write_pose(each.pose)}});
+    if (each.target) json["target"] = write_pose(*each.target);
+  }
+  std::vector<Index> vertices;
+  std::vector<Index> touched;
+  std::vector<Real> numbers;  // of each contact the anchor and the load
+  for (const ContactMemory& each : contact.memory) {
+    vertices.push_back(each.vertex);
+    touched.push_back(each.collider);
+    numbers.insert(numbers.end(), {each.anchor.x(), each.anchor.y(), each.anchor.z(), each.load});
+  }
+  return {{"colliders", std::move(colliders)},
+          {"vertices", std::move(vertices)},
+          {"touched", std::move(touched)},
+          {"anchors_and_loads", bytes_of(numbers)},
+          {"stiffening", bytes_of(contact.stiffening)},
+          {"is_in_factor", contact.is_in_factor},
+          {"light_steps", contact.light_steps}};
+}
+
 Json write_state(const State& state) {
   Json json = {{"step", state.step},
                {"time", state.time},
@@ -85,6 +113,7 @@ Json write_state(const State& state) {
                         {"positions", bytes_of(state.previous_positions)},
                         {"velocities", bytes_of(state.previous_velocities)}};
   }
+  if (!state.contact.colliders.empty()) json["contact"] = write_contact(state.contact);
   if (!state.energy_surplus.empty()) json["energy_surplus"] = bytes_of(state.energy_surplus);
   return json;
 }
@@ -114,9 +143,19 @@ Json write_motion(const TimelineState::Motion& motion) {
           {"points", std::move(points)}};
 }
 
+Json write_motion(const ColliderMotionNumbers& motion) {
+  Json json = write_motion(TimelineState::Motion{motion.event, motion.order, motion.numbers});
+  json["rotation"] = bytes_of(std::span<const Real>(motion.rotation.coeffs().data(), 4));
+  return json;
+}
+
 Json write_timeline(const TimelineState& timeline) {
   Json motions = Json::array();
   for (const TimelineState::Motion& motion : timeline.motions) motions.push_back(write_motion(motion));
+  Json collider_motions = Json::array();
+  for (const ColliderMotionNumbers& motion : timeline.collider_motions) {
+    collider_motions.push_back(write_motion(motion));
+  }
   Json ramps = Json::array();
   for (const StiffnessRamp& ramp : timeline.ramps) {
     ramps.push_back({{"group", static_cast<Index>(ramp.group)},
@@ -126,7 +165,10 @@ Json write_timeline(const TimelineState& timeline) {
                      {"duration", ramp.duration},
                      {"ease", choice_names(ramp.ease)[static_cast<std::size_t>(ramp.ease)]}});
   }
-  return {{"applied", timeline.applied}, {"motions", std::move(motions)}, {"ramps", std::move(ramps)}};
+  return {{"applied", timeline.applied},
+          {"motions", std::move(motions)},
+          {"collider_motions", std::move(collider_motions)},
+          {"ramps", std::move(ramps)}};
 }
 
 }  // namespace

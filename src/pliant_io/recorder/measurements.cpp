@@ -41,19 +41,51 @@ constexpr std::array after_elastic = {
     Column{"ms_total", [](const Measurements& row) { return 1e3 * row.report.seconds_total; }},
 };
 
+/// Where there are colliders.
+constexpr std::array of_contact = {
+    Column{"contacts", [](const Measurements& row) { return static_cast<Real>(row.report.contact.contacts); }},
+    Column{"deepest", [](const Measurements& row) { return row.report.contact.deepest; }},
+    Column{"friction_power", [](const Measurements& row) { return row.report.contact.friction_power; }},
+    Column{"held_back", [](const Measurements& row) { return static_cast<Real>(row.report.contact.held_back); }},
+    Column{"backtracks", [](const Measurements& row) { return static_cast<Real>(row.report.backtracks); }},
+    Column{"refactorizations",
+           [](const Measurements& row) { return static_cast<Real>(row.report.contact.refactorizations); }},
+    Column{"ms_contact", [](const Measurements& row) { return 1e3 * row.report.contact.seconds; }},
+};
+
+struct WrenchColumn {
+  std::string_view name;
+  Real (*value)(const Wrench&);
+};
+
+/// Of each collider.
+constexpr std::array of_wrench = {
+    WrenchColumn{"force_x", [](const Wrench& wrench) { return wrench.force.x(); }},
+    WrenchColumn{"force_y", [](const Wrench& wrench) { return wrench.force.y(); }},
+    WrenchColumn{"force_z", [](const Wrench& wrench) { return wrench.force.z(); }},
+    WrenchColumn{"torque_x", [](const Wrench& wrench) { return wrench.torque.x(); }},
+    WrenchColumn{"torque_y", [](const Wrench& wrench) { return wrench.torque.y(); }},
+    WrenchColumn{"torque_z", [](const Wrench& wrench) { return wrench.torque.z(); }},
+};
+
 /// Positions may still be finite where their energies no longer are.
 void check_finite(const Measurements& row) {
-  const auto check = [&row](const auto& columns) {
-    for (const Column& column : columns) {
-      if (std::isfinite(column.value(row))) continue;
-      throw Error(ErrorKind::diverged,
-                  fmt::format("step {} (t = {} s): `{}` is not finite; reduce masses, stiffness or velocities, or give "
-                              "a larger time step",
-                              row.step, row.time, column.name));
-    }
+  const auto check_value = [&row](Real value, std::string_view name) {
+    if (std::isfinite(value)) return;
+    throw Error(ErrorKind::diverged,
+                fmt::format("step {} (t = {} s): `{}` is not finite; reduce masses, stiffness or velocities, or give "
+                            "a larger time step",
+                            row.step, row.time, name));
+  };
+  const auto check = [&](const auto& columns) {
+    for (const Column& column : columns) check_value(column.value(row), column.name);
   };
   check(before_elastic);
   check(after_elastic);
+  check(of_contact);
+  for (const Wrench& wrench : row.wrenches) {
+    for (const WrenchColumn& column : of_wrench) check_value(column.value(wrench), column.name);
+  }
 }
 
 }  // namespace
@@ -87,17 +119,26 @@ Measurements measure(Simulation& simulation, const StepReport& report) {
     (is_gravitational ? row.gravitational : row.other_potential) += potential;
     row.total += potential;
   }
+  for (const auto& [id, collider] : simulation.colliders()) {
+    row.colliders.push_back(collider.name);
+    row.wrenches.push_back(simulation.wrench(id));
+  }
   check_finite(row);
   return row;
 }
 
 namespace {
 
-std::string column_names(const std::vector<std::string>& groups) {
+std::string column_names(const std::vector<std::string>& groups, const std::vector<std::string>& colliders) {
   std::string line = "step";
   for (const Column& column : before_elastic) line += fmt::format(",{}", column.name);
   for (const std::string& name : groups) line += ',' + csv_field("elastic_" + name);
   for (const Column& column : after_elastic) line += fmt::format(",{}", column.name);
+  if (colliders.empty()) return line + '\n';
+  for (const Column& column : of_contact) line += fmt::format(",{}", column.name);
+  for (const std::string& name : colliders) {
+    for (const WrenchColumn& column : of_wrench) line += ',' + csv_field(fmt::format("{}_{}", column.name, name));
+  }
   return line + '\n';
 }
 
@@ -130,30 +171,39 @@ OutputFile open(const std::filesystem::path& path, const std::string& names, std
 
 }  // namespace
 
-MeasurementsWriter::MeasurementsWriter(const std::filesystem::path& path, std::vector<std::string> groups,
-                                       std::int64_t kept_rows)
-    : file_(open(path, column_names(groups), kept_rows)), elastic_count_(groups.size()) {
-  for (std::size_t column = 0; column < groups.size(); ++column) elastic_of_[groups[column]].push_back(column);
+NamedColumns::NamedColumns(const std::vector<std::string>& names) : count_(names.size()) {
+  for (std::size_t column = 0; column < names.size(); ++column) columns_[names[column]].push_back(column);
 }
 
-/// The energies of the groups that have columns. Of several groups with one name, each takes the next such column.
-std::vector<Real> MeasurementsWriter::elastic_columns(const Measurements& row) const {
-  std::vector<Real> columns(elastic_count_, 0);
+std::vector<std::optional<std::size_t>> NamedColumns::places_of(const std::vector<std::string>& names) const {
+  std::vector<std::optional<std::size_t>> places(names.size());
   std::map<std::string_view, std::size_t> taken;
-  for (std::size_t i = 0; i < row.groups.size(); ++i) {
-    const auto found = elastic_of_.find(row.groups[i]);
-    if (found == elastic_of_.end()) continue;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto found = columns_.find(names[i]);
+    if (found == columns_.end()) continue;
     const std::size_t place = taken[found->first]++;
-    if (place < found->second.size()) columns[found->second[place]] = row.elastic[i];
+    if (place < found->second.size()) places[i] = found->second[place];
   }
-  return columns;
+  return places;
 }
+
+MeasurementsWriter::MeasurementsWriter(const std::filesystem::path& path, const std::vector<std::string>& groups,
+                                       std::int64_t kept_rows, const std::vector<std::string>& colliders)
+    : file_(open(path, column_names(groups, colliders), kept_rows)),
+      elastic_(groups),
+      wrenches_(colliders),
+      has_contact_(!colliders.empty()) {}
 
 void MeasurementsWriter::add(const Measurements& row) {
   std::string line = std::to_string(row.step);
-  for (const Column& column : before_elastic) line += fmt::format(",{}", column.value(row));
-  for (const Real energy : elastic_columns(row)) line += fmt::format(",{}", energy);
-  for (const Column& column : after_elastic) line += fmt::format(",{}", column.value(row));
+  const auto add_columns = [&](const auto& columns, const auto& values) {
+    for (const auto& column : columns) line += fmt::format(",{}", column.value(values));
+  };
+  add_columns(before_elastic, row);
+  for (const Real energy : elastic_.values(row.groups, row.elastic)) line += fmt::format(",{}", energy);
+  add_columns(after_elastic, row);
+  if (has_contact_) add_columns(of_contact, row);
+  for (const Wrench& wrench : wrenches_.values(row.colliders, row.wrenches)) add_columns(of_wrench, wrench);
   file_.write(line + '\n');
   file_.flush();
 }

@@ -1,6 +1,7 @@
 #pragma once
 // What a run is judged by: energies, momenta, residual and times, one row a recorded step.
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,30 +27,53 @@ struct Measurements {
   Real residual = 0;                     ///< largest force left on a vertex by the step's last iterate [N]
   Real objective = 0;                    ///< of that iterate [J]
   StepReport report;                     ///< of the step; all zero for the start
+  std::vector<std::string> colliders;    ///< names, in the order of Simulation::colliders()
+  std::vector<Wrench> wrenches;          ///< what each of these colliders felt at the end of the step
 };
 
 /// Measures the state; costs one local step.
 Measurements measure(Simulation& simulation, const StepReport& report);
 
+/// Columns of what has names, which several may share: each takes the next column of its name.
+class NamedColumns {
+ public:
+  explicit NamedColumns(const std::vector<std::string>& names);
+  /// What each column has: of these values, of so many names; a column whose name is not among them has `Value{}`.
+  template <class Value>
+  std::vector<Value> values(const std::vector<std::string>& names, const std::vector<Value>& given) const {
+    std::vector<Value> columns(count_);
+    const std::vector<std::optional<std::size_t>> places = places_of(names);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (places[i]) columns[*places[i]] = given[i];
+    }
+    return columns;
+  }
+
+ private:
+  std::vector<std::optional<std::size_t>> places_of(const std::vector<std::string>& names) const;
+
+  std::size_t count_;
+  std::map<std::string, std::vector<std::size_t>, std::less<>> columns_;
+};
+
 /// Writes measurements.csv: a line of column names, then a row for each measurement. Numbers are the shortest that read
 /// back to the same bits.
 class MeasurementsWriter {
  public:
-  /// Makes the file and writes the names of the columns; `groups` have columns: one that is not there has the energy 0,
-  /// one that is not among them counts in the total alone. Or goes on behind the first `kept_rows` rows of the file
-  /// that is there. @throws Error (output); Error (input): that file has other columns, or fewer rows
-  MeasurementsWriter(const std::filesystem::path& path, std::vector<std::string> groups, std::int64_t kept_rows = 0);
+  /// Makes the file and writes the names of the columns; `groups` and `colliders` have columns: one that is not there
+  /// has 0, a group that is not among them counts in the total alone. Without colliders there are no columns of
+  /// contact. Or goes on behind the first `kept_rows` rows of the file that is there.
+  /// @throws Error (output); Error (input): that file has other columns, or fewer rows
+  MeasurementsWriter(const std::filesystem::path& path, const std::vector<std::string>& groups,
+                     std::int64_t kept_rows = 0, const std::vector<std::string>& colliders = {});
 
   void add(const Measurements& row);
 
  private:
-  std::vector<Real> elastic_columns(const Measurements& row) const;
-
-  using ColumnsOfNames = std::map<std::string, std::vector<std::size_t>, std::less<>>;
-
   OutputFile file_;
-  std::size_t elastic_count_;
-  ColumnsOfNames elastic_of_;  // the columns of a name: several groups may have it
+  NamedColumns elastic_;
+  NamedColumns wrenches_;
+  bool has_contact_;
 };
 
 }  // namespace pliant

@@ -92,6 +92,11 @@ void write_run_info(const std::filesystem::path& path, const RunInfo& info, cons
   OrderedJson forces = OrderedJson::array();
   for (const auto& [id, force] : simulation.forces()) forces.push_back(force->type());
   json["forces"] = std::move(forces);
+  OrderedJson colliders = OrderedJson::array();
+  for (const auto& [id, collider] : simulation.colliders()) {
+    colliders.push_back({{"name", collider.name}, {"type", collider.shape->type()}});
+  }
+  json["colliders"] = std::move(colliders);
   json["warnings"] = simulation.warnings();
   json["totals"] = {{"steps", simulation.state().step},
                     {"time", simulation.state().time},

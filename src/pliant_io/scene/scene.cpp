@@ -13,9 +13,18 @@
 namespace pliant {
 namespace {
 
-const std::vector<std::string_view> top_keys = {"pliant",  "name",   "description", "settings", "steps",
-                                                "gravity", "bodies", "forces",      "moves",    "events",
-                                                "output",  "view",   "include",     "$schema"};
+const std::vector<std::string_view> top_keys = {"pliant", "name",   "description", "settings",  "steps", "gravity",
+                                                "bodies", "forces", "contact",     "colliders", "moves", "events",
+                                                "output", "view",   "include",     "$schema"};
+
+/// The names there are, and behind them those that come later, each once.
+std::vector<std::string> all_names(std::vector<std::string> names, std::vector<std::string> later) {
+  std::set<std::string> known(names.begin(), names.end());
+  for (std::string& name : later) {
+    if (known.insert(name).second) names.push_back(std::move(name));
+  }
+  return names;
+}
 
 /// What no option can tell by itself.
 void check_view(const Node& node, const ViewSettings& view) {
@@ -77,13 +86,14 @@ void read_simulation(const Node& root, Scene& scene) {
   for_each_entry(root, "bodies", [&](const Node& node) { reader.read_body(node); });
   reader.read_gravity(root.find("gravity"));
   for_each_entry(root, "forces", [&](const Node& node) { reader.read_force(node); });
+  if (const auto contact = root.find("contact")) reader.read_contact(*contact);
+  for_each_entry(root, "colliders", [&](const Node& node) { reader.read_collider(node); });
   reader.read_events(root, scene.timeline);
   std::ranges::move(reader.warnings, std::back_inserter(scene.warnings));
-  scene.group_names = scene.simulation.group_names();
-  std::set<std::string> names(scene.group_names.begin(), scene.group_names.end());
-  for (std::string& name : reader.later_groups) {
-    if (names.insert(name).second) scene.group_names.push_back(std::move(name));
-  }
+  scene.group_names = all_names(scene.simulation.group_names(), std::move(reader.later_groups));
+  std::vector<std::string> colliders;
+  for (const auto& [id, collider] : scene.simulation.colliders()) colliders.push_back(collider.name);
+  scene.collider_names = all_names(std::move(colliders), std::move(reader.later_colliders));
 }
 
 }  // namespace

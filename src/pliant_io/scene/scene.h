@@ -37,9 +37,10 @@ struct Scene {
   ViewSettings view;
   Simulation simulation;
   Timeline timeline;
-  SceneSource source;                    ///< what it was read from, for parse_scene
-  std::vector<SceneFile> files;          ///< of its meshes and maps, each once
-  std::vector<std::string> group_names;  ///< of the groups there are, and behind them those that events add
+  SceneSource source;                       ///< what it was read from, for parse_scene
+  std::vector<SceneFile> files;             ///< of its meshes and maps, each once
+  std::vector<std::string> group_names;     ///< of the groups there are, and behind them those that events add
+  std::vector<std::string> collider_names;  ///< the same of colliders
 
   std::vector<std::string> warnings;  ///< with their places: keys whose names are old, loose vertices
 

@@ -124,6 +124,8 @@ SchemaJson root_properties() {
       {"gravity", {{"anyOf", {schema_reference("vector"), {{"type", "null"}}}}, {"description", "[m/s²]; null: none"}}},
       {"bodies", list_schema(body_schema())},
       {"forces", list_schema(schema_reference("force"))},
+      {"contact", schema_reference("contact")},
+      {"colliders", list_schema(schema_reference("collider"))},
       {"moves", list_schema(schema_reference("timed_move"))},
       {"events", list_schema(schema_reference("event"))},
       {"output", object_schema(options_properties<OutputSettings>())},

@@ -15,10 +15,12 @@
 
 namespace pliant {
 
+using Quaternion = Eigen::Quaternion<Real, Eigen::DontAlign>;
+
 /// A frame in space: a point x of it is at position + rotation x.
 struct Pose {
   Vec3 position = Vec3::Zero();  ///< [m]
-  Eigen::Quaternion<Real, Eigen::DontAlign> rotation = Eigen::Quaternion<Real, Eigen::DontAlign>::Identity();
+  Quaternion rotation = Quaternion::Identity();
 
   Vec3 to_space(const Vec3& point) const { return position + rotation * point; }
   Vec3 to_frame(const Vec3& point) const { return rotation.conjugate() * (point - position); }

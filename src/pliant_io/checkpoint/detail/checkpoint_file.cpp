@@ -15,7 +15,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "numbers are written as they are in memory");
 
 constexpr std::string_view magic = "PLIANTCP";
-constexpr std::uint32_t format_version = 2;
+constexpr std::uint32_t format_version = 3;
 constexpr std::size_t version_place = 8;
 constexpr std::size_t checksum_place = 12;
 constexpr std::size_t size_place = 16;

@@ -2,7 +2,7 @@
 // The outside of a checkpoint: what makes a file that was cut, or of which a single byte changed, known as such.
 //
 //     bytes 0-7     "PLIANTCP"
-//     bytes 8-11    version of the format, 2; 1 is that of Pliant 0.1.0
+//     bytes 8-11    version of the format, 3; 1 is that of Pliant 0.1.0, 2 had no contact
 //     bytes 12-15   CRC-32 of everything behind, and of the version
 //     bytes 16-23   number of bytes behind
 //     bytes 24-     the content: CBOR (RFC 8949)

@@ -87,11 +87,16 @@ std::string SceneReader::read_new_name(const Node& node) const {
   read(node, name);
   if (name.empty()) node.fail("an empty name cannot be referred to; give one, or leave out the key");
   if (name == Gravity::info.name) node.fail("the name 'gravity' is that of the force at the top; choose another");
-  if (groups.contains(name) || forces.contains(name)) {
-    node.fail(fmt::format("the name '{}' is another {}'s; choose another", printable(name),
-                          groups.contains(name) ? "group" : "force"));
+  if (const char* owner = owner_of(name)) {
+    node.fail(fmt::format("the name '{}' is another {}'s; choose another", printable(name), owner));
   }
   return name;
+}
+
+const char* SceneReader::owner_of(std::string_view name) const {
+  if (groups.contains(name)) return "group";
+  if (forces.contains(name)) return "force";
+  return colliders.contains(name) ? "collider" : nullptr;
 }
 
 std::string SceneReader::free_name(const std::string& base) {
@@ -107,7 +112,7 @@ std::string SceneReader::group_name(const Node& node, BodyId id, std::string_vie
   return given ? read_new_name(*given) : free_name(fmt::format("{}.{}", simulation.body(id).name, type));
 }
 
-std::string SceneReader::force_name(const Node& node, std::string_view type) {
+std::string SceneReader::own_name(const Node& node, std::string_view type) {
   const auto given = node.find("name");
   return given ? read_new_name(*given) : free_name(std::string(type));
 }

@@ -1,8 +1,8 @@
 // Events are read in the order in which they act, since each may refer to what the ones before it leave.
 #include <algorithm>
-#include <cmath>
 
 #include "pliant/simulation/transaction.h"
+#include "pliant_io/scene/detail/due_order.h"
 #include "pliant_io/scene/detail/option_reader.h"
 #include "pliant_io/scene/detail/read_motion.h"
 #include "pliant_io/scene/detail/scene_reader.h"
@@ -26,6 +26,12 @@ ForceId find_force(const Simulation& simulation, const std::string& name) {
   return *found;
 }
 
+ColliderId find_collider(const Simulation& simulation, const std::string& name) {
+  const std::optional<ColliderId> found = simulation.find_collider(name);
+  if (!found) fail_input(fmt::format("the collider '{}' no longer exists; add it before", printable(name)));
+  return *found;
+}
+
 /// Reads one event as what it does, and keeps the reader's names as the event leaves them.
 class EventReader {
  public:
@@ -41,12 +47,14 @@ class EventReader {
     std::string_view key;
     Timeline::Edit (EventReader::*read)(const Node& value);
   };
-  static const std::array<Action, 9> actions;
+  static const std::array<Action, 10> actions;
 
   Timeline::Edit read_change(const Node& name);
   Timeline::Edit read_group_change(const std::string& name, GroupEntry& entry);
   Timeline::Edit read_force_change(const std::string& name, ForceEntry& entry);
+  Timeline::Edit read_collider_change(const std::string& name, ColliderOptions& options);
   Timeline::Edit read_settings(const Node& value);
+  Timeline::Edit read_contact(const Node& value);
   Timeline::Edit read_gravity(const Node& value);
   Timeline::Edit read_add(const Node& value);
   Timeline::Edit read_remove(const Node& name);
@@ -54,6 +62,10 @@ class EventReader {
   Timeline::Edit read_move(const Node& name);
   Timeline::Edit read_follow(const Node& name);
   Timeline::Edit read_stop(const Node& name);
+  /// Whether what is moved is a collider, else a group; refuses a name that neither has.
+  bool is_collider(const Node& name) const;
+  /// The same, and refuses keys that only groups have.
+  bool require_moved(const Node& name) const;
   Timeline::Edit start(const Node& name, EventPath path);
 
   Keys keys(std::string_view action, Keys more = {}) const {
@@ -72,9 +84,10 @@ class EventReader {
   std::string added_group_;
 };
 
-const std::array<EventReader::Action, 9> EventReader::actions = {{
+const std::array<EventReader::Action, 10> EventReader::actions = {{
     {"change", &EventReader::read_change},
     {"settings", &EventReader::read_settings},
+    {"contact", &EventReader::read_contact},
     {"gravity", &EventReader::read_gravity},
     {"add", &EventReader::read_add},
     {"remove", &EventReader::read_remove},
@@ -97,14 +110,18 @@ void EventReader::fail_unknown(const Node& node) const {
   Keys names;
   for (const auto& [known, entry] : scene_.groups) names.push_back(known);
   for (const auto& [known, entry] : scene_.forces) names.push_back(known);
-  node.fail(
-      fmt::format("no group and no force is called '{}' then; {}", printable(name), suggestion_text(name, names)));
+  for (const auto& [known, entry] : scene_.colliders) names.push_back(known);
+  node.fail(fmt::format("no group, force or collider is called '{}' then; {}", printable(name),
+                        suggestion_text(name, names)));
 }
 
 Timeline::Edit EventReader::read_change(const Node& node) {
   const std::string name = text_of(node);
   if (const auto group = scene_.groups.find(name); group != scene_.groups.end()) {
     return read_group_change(name, group->second);
+  }
+  if (const auto collider = scene_.colliders.find(name); collider != scene_.colliders.end()) {
+    return read_collider_change(name, collider->second);
   }
   const auto force = scene_.forces.find(name);
   if (force == scene_.forces.end()) fail_unknown(node);
@@ -160,31 +177,54 @@ Timeline::Edit EventReader::read_force_change(const std::string& name, ForceEntr
   };
 }
 
-/// Copies the options whose names are listed.
-void copy_options(const std::vector<std::string>& names, const SolverSettings& from, SolverSettings& to) {
-  SolverSettings::visit(to, [&]<class Option>(const OptionInfo& info, Option& option) {
-    if (std::ranges::find(names, info.name) == names.end()) return;
-    SolverSettings::visit(from, [&]<class Other>(const OptionInfo& other_info, const Other& other) {
-      if constexpr (std::is_same_v<Option, Other>) {
-        if (info.name == other_info.name) option = other;
-      }
-    });
-  });
+Timeline::Edit EventReader::read_collider_change(const std::string& name, ColliderOptions& options) {
+  read_changed_collider(node_, keys("change"), options);
+  if (node_.size() <= 2) node_.fail("nothing is changed; give an option of the collider with its new value");
+  return [name, changed = options](Simulation& simulation, Timeline&) {
+    replace(simulation, find_collider(simulation, name), changed);
+  };
 }
+
+/// Some of the options of settings, to be put over others.
+template <class Settings>
+class SomeSettings {
+ public:
+  explicit SomeSettings(const Node& node) {
+    read_options(node, given_);
+    Settings::visit(given_, [&](const OptionInfo& info, const auto&) {
+      if (node.has(info.name)) names_.emplace_back(info.name);
+    });
+    if (names_.empty()) node.fail("no setting is given; name one with its new value");
+  }
+
+  Settings over(Settings settings) const {
+    Settings::visit(settings, [&]<class Option>(const OptionInfo& info, Option& option) {
+      if (std::ranges::find(names_, info.name) == names_.end()) return;
+      Settings::visit(given_, [&]<class Other>(const OptionInfo& other_info, const Other& other) {
+        if constexpr (std::is_same_v<Option, Other>) {
+          if (info.name == other_info.name) option = other;
+        }
+      });
+    });
+    return settings;
+  }
+
+ private:
+  Settings given_;
+  std::vector<std::string> names_;
+};
 
 Timeline::Edit EventReader::read_settings(const Node& value) {
   node_.check_keys(keys("settings"));
-  SolverSettings given;
-  read_options(value, given);
-  std::vector<std::string> names;
-  SolverSettings::visit(given, [&](const OptionInfo& info, const auto&) {
-    if (value.has(info.name)) names.emplace_back(info.name);
-  });
-  if (names.empty()) value.fail("no setting is given; name one with its new value");
-  return [given, names](Simulation& simulation, Timeline&) {
-    SolverSettings settings = simulation.settings();
-    copy_options(names, given, settings);
-    simulation.set_settings(settings);
+  return [some = SomeSettings<SolverSettings>(value)](Simulation& simulation, Timeline&) {
+    simulation.set_settings(some.over(simulation.settings()));
+  };
+}
+
+Timeline::Edit EventReader::read_contact(const Node& value) {
+  node_.check_keys(keys("contact"));
+  return [some = SomeSettings<ContactSettings>(value)](Simulation& simulation, Timeline&) {
+    simulation.set_contact(some.over(simulation.contact()));
   };
 }
 
@@ -214,9 +254,16 @@ Timeline::Edit EventReader::read_add(const Node& value) {
   const Node type = value.require("type");
   if (is_force_type(text_of(type))) {
     const ForceEntry force = read_force_options(value, {}, scene_);
-    const std::string name = scene_.force_name(value, type_of(force));
+    const std::string name = scene_.own_name(value, type_of(force));
     scene_.forces.emplace(name, force);
     return [name, force](Simulation& simulation, Timeline&) { add(simulation, force, name); };
+  }
+  if (is_collider_type(text_of(type))) {
+    const ColliderOptions collider = read_collider_options(value);
+    const std::string name = scene_.own_name(value, type_of(collider));
+    scene_.colliders.emplace(name, collider);
+    scene_.later_colliders.push_back(name);
+    return [name, collider](Simulation& simulation, Timeline&) { add(simulation, collider, name); };
   }
   const BodyId body = scene_.read_body_name(value);
   ConstraintOptions options = read_constraint_options(value, {"name", "body"}, scene_.body(body));
@@ -237,6 +284,9 @@ Timeline::Edit EventReader::read_remove(const Node& node) {
   const std::string name = text_of(node);
   if (scene_.groups.erase(name) > 0) {
     return [name](Simulation& simulation, Timeline&) { simulation.remove(find_group(simulation, name)); };
+  }
+  if (scene_.colliders.erase(name) > 0) {
+    return [name](Simulation& simulation, Timeline&) { simulation.remove(find_collider(simulation, name)); };
   }
   if (scene_.forces.erase(name) == 0) fail_unknown(node);
   return [name](Simulation& simulation, Timeline&) { simulation.remove(find_force(simulation, name)); };
@@ -324,103 +374,72 @@ Timeline::Edit EventReader::read_release(const Node& node) {
   };
 }
 
+bool EventReader::is_collider(const Node& node) const {
+  const std::string name = text_of(node);
+  if (scene_.colliders.empty() || scene_.groups.contains(name)) return false;
+  if (scene_.colliders.contains(name)) return true;
+  Keys names;
+  for (const auto& [known, entry] : scene_.groups) names.push_back(known);
+  for (const auto& [known, entry] : scene_.colliders) names.push_back(known);
+  node.fail(fmt::format("unknown group or collider '{}'; {}", printable(name), suggestion_text(name, names)));
+}
+
 Timeline::Edit EventReader::start(const Node& node, EventPath path) {
-  scene_.group(node);
-  return [name = text_of(node), path = std::move(path)](Simulation& simulation, Timeline& timeline) {
-    timeline.start(simulation, find_group(simulation, name), path.path, path.index);
+  const std::string name = text_of(node);
+  if (!is_collider(node)) {
+    return [name, path = std::move(path)](Simulation& simulation, Timeline& timeline) {
+      timeline.start(simulation, find_group(simulation, name), path.path, path.index);
+    };
+  }
+  for (const char* key : {"target", "offset"}) {
+    const auto points = node_.find(key);
+    if (points && (*points)[0].is_list()) points->fail("a collider goes to one point; give [x, y, z]");
+  }
+  return [name, path = path.path](Simulation& simulation, Timeline& timeline) {
+    timeline.start(simulation, find_collider(simulation, name), path);
   };
 }
 
+bool EventReader::require_moved(const Node& node) const {
+  if (!is_collider(node)) {
+    scene_.group(node);
+    return false;
+  }
+  if (const auto index = node_.find("index")) {
+    index->fail("a collider has no constraints, it moves as a whole; leave out 'index'");
+  }
+  return true;
+}
+
 Timeline::Edit EventReader::read_move(const Node& node) {
-  scene_.group(node);
+  require_moved(node);
   return start(node, pliant::read_move(node_, keys("move")));
 }
 
 Timeline::Edit EventReader::read_short_move() {
-  const Node group = node_.require("group");
-  scene_.group(group);
-  return start(group, pliant::read_move(node_, keys("group")));
+  const Node moved = node_.require("group");
+  require_moved(moved);
+  return start(moved, pliant::read_move(node_, keys("group")));
 }
 
 Timeline::Edit EventReader::read_follow(const Node& node) {
-  scene_.group(node);
+  require_moved(node);
   return start(node, pliant::read_follow(node_, keys("follow"), scene_));
 }
 
 Timeline::Edit EventReader::read_stop(const Node& node) {
   node_.check_keys(keys("stop", {"index"}));
-  scene_.group(node);
+  if (require_moved(node)) {
+    return [name = text_of(node)](Simulation& simulation, Timeline& timeline) {
+      timeline.stop(simulation, find_collider(simulation, name));
+    };
+  }
   ConstraintNumbers numbers;
   read_optional(node_, "index", numbers);
   return [name = text_of(node), numbers](Simulation& simulation, Timeline& timeline) {
     timeline.stop(simulation, find_group(simulation, name), numbers);
   };
 }
-
-/// Events in the order in which they act, for a simulation that takes no steps: as if its clock ran.
-class DueOrder {
- public:
-  void add(const Node& node) {
-    const auto event = static_cast<Index>(whens_.size());
-    whens_.push_back(read_when(node));
-    if (whens_.back().is_step()) {
-      by_step_.emplace(whens_.back().step(), event);
-    } else {
-      by_time_.emplace(whens_.back().time(), event);
-    }
-  }
-  const When& when(std::size_t event) const { return whens_[event]; }
-
-  /// The events before the next step that has any, in the order of their adding; none when all have come. `time_step`
-  /// is that of the simulation until then.
-  std::vector<Index> next(Real time_step) {
-    std::vector<Index> due;
-    if (by_step_.empty() && by_time_.empty()) return due;
-    // A number of steps, which may be beyond all integers.
-    Real step = std::numeric_limits<Real>::infinity();
-    if (!by_step_.empty()) step = static_cast<Real>(by_step_.begin()->first);
-    if (!by_time_.empty()) {
-      const Real wait = std::ceil((by_time_.begin()->first - time_) / time_step - 1e-9);
-      step = std::min(step, step_ + std::max(wait, Real(0)));
-    }
-    step = std::max(step, step_);
-    time_ += (step - step_) * time_step;
-    step_ = step;
-    while (!by_step_.empty() && static_cast<Real>(by_step_.begin()->first) <= step_) take(by_step_, due);
-    while (!by_time_.empty() && is_due(by_time_.begin()->first, time_step)) take(by_time_, due);
-    if (due.empty()) take(by_time_, due);  // never for want of digits
-    std::ranges::sort(due);
-    return due;
-  }
-
- private:
-  static When read_when(const Node& node) {
-    EventTime given;
-    node.require_object();
-    const std::string_view key = node.require_one_of({"step", "time"});
-    EventTime::visit(given, OptionReader{node});
-    if (key == "step" && given.step < 0) {
-      node.fail(fmt::format("step {} is before the start; steps count from 0", given.step));
-    }
-    if (given.time < 0) node.fail(fmt::format("{} s is before the start; times count from 0", given.time));
-    return key == "step" ? When::at_step(given.step) : When::at_time(given.time);
-  }
-
-  /// With the rounding of a clock that does not count its steps one by one.
-  bool is_due(Real time, Real time_step) const { return (time - time_) / time_step <= 1e-9 * (1 + step_); }
-
-  template <class Waiting>
-  static void take(Waiting& waiting, std::vector<Index>& due) {
-    due.push_back(waiting.begin()->second);
-    waiting.erase(waiting.begin());
-  }
-
-  std::vector<When> whens_;
-  std::multimap<std::int64_t, Index> by_step_;
-  std::multimap<Real, Index> by_time_;
-  Real step_ = 0;
-  Real time_ = 0;  // [s]
-};
 
 }  // namespace
 

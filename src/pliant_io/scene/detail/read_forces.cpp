@@ -110,7 +110,7 @@ void SceneReader::read_gravity(const std::optional<Node>& node) {
 
 void SceneReader::read_force(const Node& node) {
   ForceEntry entry = read_force_options(node, {}, *this);
-  const std::string name = force_name(node, type_of(entry));
+  const std::string name = own_name(node, type_of(entry));
   node.locate([&] { add(simulation, entry, name); });
   forces.emplace(name, std::move(entry));
 }

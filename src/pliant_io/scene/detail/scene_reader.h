@@ -1,10 +1,11 @@
 #pragma once
-// The parts of a scene file that add to a simulation: bodies with their constraints, forces, events.
+// The parts of a scene file that add to a simulation: bodies with their constraints, forces, colliders, events.
 #include <map>
 #include <optional>
 #include <string>
 
 #include "pliant/timeline/timeline.h"
+#include "pliant_io/scene/detail/collider_options.h"
 #include "pliant_io/scene/detail/constraint_options.h"
 #include "pliant_io/scene/detail/force_options.h"
 
@@ -27,8 +28,10 @@ struct SceneReader {
   std::map<const Origin*, std::vector<BodyId>> bodies_of = {};  ///< by the text that they stand in
   std::map<std::string, GroupEntry, std::less<>> groups = {};
   std::map<std::string, ForceEntry, std::less<>> forces = {};
-  std::vector<std::string> later_groups = {};  ///< names of groups that events add, each time
-  std::vector<std::string> warnings = {};      ///< of what is read otherwise than one might expect, with its place
+  std::map<std::string, ColliderOptions, std::less<>> colliders = {};
+  std::vector<std::string> later_groups = {};     ///< names of groups that events add, each time
+  std::vector<std::string> later_colliders = {};  ///< of colliders
+  std::vector<std::string> warnings = {};         ///< of what is read otherwise than one might expect, with its place
 
   SceneBody body(BodyId id) const {
     const Mesh& mesh = simulation.body(id).mesh;
@@ -40,6 +43,8 @@ struct SceneReader {
   /// Its value; nothing: the default.
   void read_gravity(const std::optional<Node>& node);
   void read_force(const Node& node);
+  void read_contact(const Node& node);
+  void read_collider(const Node& node);
   /// The lists "moves" and "events". They are read in the order in which they act, each as what its predecessors leave,
   /// and tried out; the simulation is as before then. `root`: the scene.
   void read_events(const Node& root, Timeline& timeline);
@@ -57,10 +62,13 @@ struct SceneReader {
   void check_group(const Node& node, GroupId group) const;
   /// The name given, which must be new; else the type, with the body in front, and a number behind where that is taken.
   std::string group_name(const Node& node, BodyId body, std::string_view type);
-  std::string force_name(const Node& node, std::string_view type);
+  /// The same without a body, for a force or a collider.
+  std::string own_name(const Node& node, std::string_view type);
 
  private:
-  bool is_taken(std::string_view name) const { return groups.contains(name) || forces.contains(name); }
+  bool is_taken(std::string_view name) const { return owner_of(name) != nullptr; }
+  /// What has that name: "group", "force", "collider"; null: nothing.
+  const char* owner_of(std::string_view name) const;
   std::string read_new_name(const Node& node) const;
   std::string free_name(const std::string& base);
 

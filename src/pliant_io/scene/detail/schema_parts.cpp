@@ -5,6 +5,7 @@
 #include "pliant/constraints/builtin.h"
 #include "pliant/forces/builtin.h"
 #include "pliant_io/mesh/mesh_file.h"
+#include "pliant_io/scene/detail/collider_options.h"
 #include "pliant_io/scene/detail/force_options.h"
 #include "pliant_io/scene/detail/shape_options.h"
 #include "pliant_io/scene/event_options.h"
@@ -109,6 +110,28 @@ SchemaJson force_choices() {
   return choices;
 }
 
+template <class Options>
+SchemaJson collider_schema() {
+  SchemaJson properties = {{"type", {{"const", Options::info.name}}},
+                           {"name", text_schema("what events refer to it by")}};
+  properties.update(options_properties<Options>());
+  SchemaJson friction = number_schema("number", not_negative);  // one for all of its surface
+  friction["description"] = properties["friction"]["description"];
+  properties["friction"] = std::move(friction);
+  SchemaJson schema = object_schema(std::move(properties), {"type"});
+  schema["description"] = std::string(Options::info.formula);
+  return schema;
+}
+
+template <class... Options>
+SchemaJson collider_choices(std::tuple<Options...>*) {
+  return SchemaJson::array({collider_schema<Options>()...});
+}
+
+SchemaJson collider_choices() {
+  return collider_choices(static_cast<BuiltinColliders*>(nullptr));
+}
+
 /// An object of which one of the keys must be there, and no two.
 SchemaJson one_of_keys(std::initializer_list<const char*> keys) {
   SchemaJson choices = SchemaJson::array();
@@ -131,7 +154,8 @@ SchemaJson timed_move_schema(std::string_view key) {
   return schema;
 }
 
-/// Every option of a constraint or a force may be changed; which ones there are depends on what the name stands for.
+/// Every option of a constraint, a force or a collider may be changed; which ones there are depends on what the name
+/// stands for.
 SchemaJson change_schema() {
   SchemaJson names = {"change", "step", "time"};
   const auto add = [&](const SchemaJson& properties) {
@@ -143,7 +167,8 @@ SchemaJson change_schema() {
   const SchemaJson constraints = constraint_choices(static_cast<BuiltinConstraints*>(nullptr));
   for (const SchemaJson& type : constraints) add(type["properties"]);
   for (const SchemaJson& type : force_choices()) add(type["properties"]);
-  SchemaJson schema = timed_schema("change", text_schema("name of a group or a force"));
+  for (const SchemaJson& type : collider_choices()) add(type["properties"]);
+  SchemaJson schema = timed_schema("change", text_schema("name of a group, a force or a collider"));
   schema.erase("unevaluatedProperties");
   std::set<std::string> sorted(names.begin(), names.end());
   schema["propertyNames"] = {{"enum", sorted}};
@@ -152,7 +177,7 @@ SchemaJson change_schema() {
 
 SchemaJson add_schema() {
   const SchemaJson body = {{"body", text_schema("name of the body; default: the only one")}};
-  return {{"oneOf", {closed_reference("constraint", body), schema_reference("force")}}};
+  return {{"oneOf", {closed_reference("constraint", body), schema_reference("force"), schema_reference("collider")}}};
 }
 
 SchemaJson follow_schema() {
@@ -207,7 +232,9 @@ SchemaJson part_definitions() {
   return {{"mesh", mesh_choices()},
           {"mesh_part", closed_reference("mesh", part)},
           {"constraint", {{"oneOf", constraint_choices(static_cast<BuiltinConstraints*>(nullptr))}}},
-          {"force", {{"oneOf", force_choices()}}}};
+          {"force", {{"oneOf", force_choices()}}},
+          {"contact", object_schema(options_properties<ContactSettings>())},
+          {"collider", {{"oneOf", collider_choices()}}}};
 }
 
 SchemaJson event_definitions() {
@@ -217,19 +244,20 @@ SchemaJson event_definitions() {
   SchemaJson move = open_object_schema(options_properties<MoveOptions>());
   move.update(one_of_keys({"target", "offset", "rotate", "keyframes"}));
 
-  const SchemaJson name = text_schema("name of a group or a force");
+  const SchemaJson name = text_schema("name of a group, a force or a collider");
   const SchemaJson group = schema_reference("moved_group");
   const SchemaJson index = {{"index", value_schema(OptionInfo{}, ConstraintNumbers{})}};
   const SchemaJson gravity = {{"anyOf", {schema_reference("vector"), {{"type", "null"}}}}};
   SchemaJson release = timed_schema("release", group, joined(index, {{"vertices", schema_reference("selection")}}));
   release["allOf"].push_back(one_of_keys({"vertices", "index"}));
   return {{"when", std::move(when)},
-          {"moved_group", text_schema("name of a group of positions or drags")},
+          {"moved_group", text_schema("name of a group of positions or drags, or of a collider")},
           {"move", std::move(move)},
           {"timed_move", timed_move_schema("group")},
           {"event",
            {{"oneOf",
-             {change_schema(), timed_schema("settings", schema_reference("settings")), timed_schema("gravity", gravity),
+             {change_schema(), timed_schema("settings", schema_reference("settings")),
+              timed_schema("contact", schema_reference("contact")), timed_schema("gravity", gravity),
               timed_schema("add", add_schema()), timed_schema("remove", name), std::move(release),
               timed_move_schema("move"), follow_schema(), timed_schema("stop", group, index)}}}}};
 }

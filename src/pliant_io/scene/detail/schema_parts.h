@@ -11,8 +11,8 @@ SchemaJson mesh_schema();
 SchemaJson constraint_schema();
 SchemaJson mass_schema();
 
-/// Definitions: what meshes, constraints and forces there are ("mesh", "mesh_part", "constraint", "force"), and entries
-/// of "moves" and "events" ("timed_move", "event").
+/// Definitions: what meshes, constraints, forces and colliders there are ("mesh", "mesh_part", "constraint", "force",
+/// "contact", "collider"), and entries of "moves" and "events" ("timed_move", "event").
 SchemaJson part_definitions();
 SchemaJson event_definitions();
 

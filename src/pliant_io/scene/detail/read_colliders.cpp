@@ -1,0 +1,79 @@
+#include "pliant_io/scene/detail/collider_options.h"
+#include "pliant_io/scene/detail/option_reader.h"
+#include "pliant_io/scene/detail/scene_reader.h"
+
+namespace pliant {
+namespace {
+
+/// Calls f with default options of each type of collider.
+template <class... Options>
+void for_each_collider(std::tuple<Options...>*, auto&& f) {
+  (f(Options{}), ...);
+}
+
+void for_each_collider(auto&& f) {
+  for_each_collider(static_cast<BuiltinColliders*>(nullptr), f);
+}
+
+template <class Options>
+void read_collider_entry(const Node& node, std::vector<std::string_view> more_keys, Options& options) {
+  read_options(node, options, std::move(more_keys));
+  if (options.friction.each()) {
+    node.require("friction").fail("a collider has one friction for all of its surface; give a number");
+  }
+}
+
+}  // namespace
+
+bool is_collider_type(std::string_view type) {
+  bool found = false;
+  for_each_collider([&](const auto& options) { found = found || options.info.name == type; });
+  return found;
+}
+
+ColliderOptions read_collider_options(const Node& node) {
+  const Node type = node.require("type");
+  std::string name;
+  read(type, name);
+  std::optional<ColliderOptions> found;
+  std::vector<std::string_view> names;
+  for_each_collider([&](auto options) {
+    names.push_back(options.info.name);
+    if (options.info.name != name) return;
+    read_collider_entry(node, {"type", "name"}, options);
+    found = std::move(options);
+  });
+  if (found) return *std::move(found);
+  type.fail(fmt::format("unknown collider '{}'; {}", printable(name), suggestion_text(name, names)));
+}
+
+void read_changed_collider(const Node& node, std::vector<std::string_view> more_keys, ColliderOptions& options) {
+  std::visit([&](auto& of_type) { read_collider_entry(node, std::move(more_keys), of_type); }, options);
+}
+
+std::string_view type_of(const ColliderOptions& options) {
+  return std::visit([](const auto& of_type) { return of_type.info.name; }, options);
+}
+
+ColliderId add(Simulation& simulation, const ColliderOptions& options, const std::string& name) {
+  return std::visit([&](const auto& of_type) { return simulation.add(of_type, name); }, options);
+}
+
+void replace(Simulation& simulation, ColliderId collider, const ColliderOptions& options) {
+  std::visit([&](const auto& of_type) { simulation.replace(collider, of_type); }, options);
+}
+
+void SceneReader::read_contact(const Node& node) {
+  ContactSettings settings;
+  read_options(node, settings);
+  node.locate([&] { simulation.set_contact(settings); });
+}
+
+void SceneReader::read_collider(const Node& node) {
+  ColliderOptions options = read_collider_options(node);
+  const std::string name = own_name(node, type_of(options));
+  node.locate([&] { add(simulation, options, name); });
+  colliders.emplace(name, std::move(options));
+}
+
+}  // namespace pliant
