@@ -69,7 +69,25 @@ std::optional<WindAnnotation> find_wind(const pliant::Simulation& simulation) {
 
 bool is_same(const RunAnnotations::Entry& a, const RunAnnotations::Entry& b) {
   if (a.markers != b.markers || a.wind.has_value() != b.wind.has_value()) return false;
+  const auto is_alike = [](const DrawnCollider& one, const DrawnCollider& other) {
+    return one.number == other.number && one.surface == other.surface && one.pose == other.pose;
+  };
+  if (!std::ranges::equal(a.colliders, b.colliders, is_alike)) return false;
   return !a.wind || (a.wind->velocity == b.wind->velocity && a.wind->text == b.wind->text);
+}
+
+/// Takes the colliders where a step would.
+void move_colliders(pliant::Simulation& simulation, Real time_step) {
+  pliant::State state = simulation.state();
+  bool has_moved = false;
+  for (pliant::ColliderState& each : state.contact.colliders) {
+    const pliant::ColliderMotion& motion = simulation.collider(pliant::ColliderId{each.collider}).motion;
+    const pliant::Pose before = each.pose;
+    each.pose = each.target.value_or(moved_on(before, motion.velocity, motion.angular_velocity, time_step));
+    has_moved = has_moved || each.target || !(each.pose == before);
+    each.target.reset();
+  }
+  if (has_moved) simulation.restore(state);
 }
 
 std::vector<float> find_values(const pliant::Simulation& simulation, const RenderMesh& render_mesh,
@@ -102,20 +120,30 @@ std::vector<std::uint32_t> pinned_vertices(const pliant::Simulation& simulation)
   return pinned;
 }
 
-ClipFrame capture_frame(const pliant::Simulation& simulation, const RenderMesh& render_mesh, ColorBy color) {
+ClipFrame capture_frame(const pliant::Simulation& simulation, const RenderMesh& render_mesh, ColorBy color,
+                        ColliderSurfaces& surfaces) {
   ClipFrame frame;
   frame.time = simulation.state().time;
   frame.content.positions = to_floats(simulation.state().positions);
   frame.content.values = find_values(simulation, render_mesh, frame.content.positions, color);
   frame.content.markers = find_markers(simulation, simulation.state().step);
+  frame.content.colliders = surfaces.find(simulation);
   frame.wind = find_wind(simulation);
   return frame;
+}
+
+ClipFrame capture_frame(const pliant::Simulation& simulation, const RenderMesh& render_mesh, ColorBy color) {
+  ColliderSurfaces surfaces;
+  return capture_frame(simulation, render_mesh, color, surfaces);
 }
 
 Clip clip_from_scene(pliant::Scene& scene, std::int64_t every, const std::function<bool(std::int64_t)>& go_on) {
   Clip clip{make_render_mesh(scene.simulation.bodies()), scene.view, {}};
   check_size((scene.steps - scene.simulation.state().step) / every + 2, clip.render_mesh.vertex_count);
-  const auto keep = [&] { clip.frames.push_back(capture_frame(scene.simulation, clip.render_mesh, scene.view.color)); };
+  ColliderSurfaces surfaces;
+  const auto keep = [&] {
+    clip.frames.push_back(capture_frame(scene.simulation, clip.render_mesh, scene.view.color, surfaces));
+  };
   keep();
   for (std::int64_t step = scene.simulation.state().step; step < scene.steps && go_on(step);) {
     scene.step();
@@ -131,15 +159,17 @@ RunAnnotations annotate_run(pliant::Scene scene, const pliant::Animation& animat
                                    animation.cache.vertex_count()));
   }
   RunAnnotations annotations;
+  ColliderSurfaces surfaces;
   std::int64_t step = 0;
   Real time = 0;
   for (const Real frame_time : animation.times) {
     // A frame is taken at the end of a step, before what is due at the next one.
     while (time + (1 - 1e-6) * simulation.settings().time_step <= frame_time) {
       scene.timeline.act_due(simulation, step++, time);
+      if (!simulation.colliders().empty()) move_colliders(simulation, simulation.settings().time_step);
       time += simulation.settings().time_step;
     }
-    RunAnnotations::Entry entry{find_markers(simulation, step), find_wind(simulation)};
+    RunAnnotations::Entry entry{find_markers(simulation, step), find_wind(simulation), surfaces.find(simulation)};
     if (annotations.entries.empty() || !is_same(annotations.entries.back(), entry)) {
       annotations.entries.push_back(std::move(entry));
     }
@@ -169,10 +199,11 @@ ClipFrame RunFrames::frame(std::size_t i, ColorBy color) const {
   }
   pliant::Positions x;
   animation_.cache.sample(time(i), x);
-  ClipFrame frame{time(i), {to_floats(x), {}, {}}, {}};
+  ClipFrame frame{time(i), {to_floats(x), {}, {}, {}}, {}};
   if (i < annotations_.entry_of_frame.size()) {
     const RunAnnotations::Entry& entry = annotations_.entries[annotations_.entry_of_frame[i]];
     frame.content.markers = entry.markers;
+    frame.content.colliders = entry.colliders;
     frame.wind = entry.wind;
   }
   if (color == ColorBy::stretch) frame.content.values = vertex_stretch(render_mesh_, frame.content.positions);
@@ -200,7 +231,9 @@ Clip clip_from_animation(pliant::Animation animation, const pliant::ViewSettings
 Bounds bounds_of(const Clip& clip) {
   Bounds bounds;
   for (const ClipFrame& frame : clip.frames) {
-    for (const Vec3f& p : frame.content.positions) bounds.add(p);
+    const Bounds here = bounds_of(frame.content);
+    bounds.add(here.low);
+    bounds.add(here.high);
   }
   return bounds;
 }
