@@ -7,6 +7,7 @@
 #include "pliant/core/error.h"
 #include "pliant/forces/test_force.h"
 #include "pliant/forces/wind.h"
+#include "render/run_replay.h"
 #include "render/scalar_fields.h"
 
 namespace pliant_render {
@@ -76,20 +77,6 @@ bool is_same(const RunAnnotations::Entry& a, const RunAnnotations::Entry& b) {
   return !a.wind || (a.wind->velocity == b.wind->velocity && a.wind->text == b.wind->text);
 }
 
-/// Takes the colliders where a step would.
-void move_colliders(pliant::Simulation& simulation, Real time_step) {
-  pliant::State state = simulation.state();
-  bool has_moved = false;
-  for (pliant::ColliderState& each : state.contact.colliders) {
-    const pliant::ColliderMotion& motion = simulation.collider(pliant::ColliderId{each.collider}).motion;
-    const pliant::Pose before = each.pose;
-    each.pose = each.target.value_or(moved_on(before, motion.velocity, motion.angular_velocity, time_step));
-    has_moved = has_moved || each.target || !(each.pose == before);
-    each.target.reset();
-  }
-  if (has_moved) simulation.restore(state);
-}
-
 std::vector<float> find_values(const pliant::Simulation& simulation, const RenderMesh& render_mesh,
                                std::span<const Vec3f> positions, ColorBy color) {
   switch (color) {
@@ -153,28 +140,20 @@ Clip clip_from_scene(pliant::Scene& scene, std::int64_t every, const std::functi
 }
 
 RunAnnotations annotate_run(pliant::Scene scene, const pliant::Animation& animation) {
-  pliant::Simulation& simulation = scene.simulation;
+  const pliant::Simulation& simulation = scene.simulation;
   if (simulation.state().vertex_count() != animation.cache.vertex_count()) {
     pliant::fail_input(fmt::format("the scene has {} vertices, and the run {}", simulation.state().vertex_count(),
                                    animation.cache.vertex_count()));
   }
   RunAnnotations annotations;
   ColliderSurfaces surfaces;
-  std::int64_t step = 0;
-  Real time = 0;
-  for (const Real frame_time : animation.times) {
-    // A frame is taken at the end of a step, before what is due at the next one.
-    while (time + (1 - 1e-6) * simulation.settings().time_step <= frame_time) {
-      scene.timeline.act_due(simulation, step++, time);
-      if (!simulation.colliders().empty()) move_colliders(simulation, simulation.settings().time_step);
-      time += simulation.settings().time_step;
-    }
+  replay(scene, animation.times, [&](std::int64_t step) {
     RunAnnotations::Entry entry{find_markers(simulation, step), find_wind(simulation), surfaces.find(simulation)};
     if (annotations.entries.empty() || !is_same(annotations.entries.back(), entry)) {
       annotations.entries.push_back(std::move(entry));
     }
     annotations.entry_of_frame.push_back(annotations.entries.size() - 1);
-  }
+  });
   return annotations;
 }
 

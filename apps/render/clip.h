@@ -48,8 +48,7 @@ struct RunAnnotations {
   std::vector<std::size_t> entry_of_frame;  ///< empty where nothing is known
 };
 
-/// Those at the times of an animation, by the scene that its run was made from, as it was at the start: its events act
-/// again, without steps. Colliders go on with their velocities, and to where events put them.
+/// Those at the times of an animation, by the scene that its run was made from, as it was at the start (replay).
 /// @throws pliant::Error (input): another count of vertices, an event that does not act as it did
 RunAnnotations annotate_run(pliant::Scene scene, const pliant::Animation& animation);
 

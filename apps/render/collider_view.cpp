@@ -1,5 +1,7 @@
 #include "render/collider_view.h"
 
+#include <algorithm>
+
 #include "pliant/collision/colliders/plane.h"
 #include "pliant/collision/colliders/surface.h"
 
@@ -51,6 +53,16 @@ std::vector<DrawnCollider> ColliderSurfaces::find(const pliant::Simulation& simu
   }
   surfaces_ = std::move(used);
   return drawn;
+}
+
+std::optional<float> floor_height(const std::vector<DrawnCollider>& colliders) {
+  std::optional<float> height;
+  for (const DrawnCollider& each : colliders) {
+    if (!each.surface->is_plane || !(matrix_of(each.pose)(2, 2) > 0.999F)) continue;
+    const auto here = static_cast<float>(each.pose.position.z());
+    height = std::max(height.value_or(here), here);
+  }
+  return height;
 }
 
 void add_colliders(const std::vector<DrawnCollider>& colliders, Bounds& bounds) {

@@ -2,6 +2,7 @@
 // What is drawn of colliders: the surface of each shape, made once, and where it is in a frame.
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "pliant/simulation/simulation.h"
@@ -43,5 +44,8 @@ class ColliderSurfaces {
 /// Adds what the camera should see of colliders beside bodies in a box: all of each, but for what has no end, and what
 /// is so large beside the bodies that they would be lost in the picture.
 void add_colliders(const std::vector<DrawnCollider>& colliders, Bounds& bounds);
+
+/// The height of the highest plane whose normal is up [m]; none where there is none.
+std::optional<float> floor_height(const std::vector<DrawnCollider>& colliders);
 
 }  // namespace pliant_render

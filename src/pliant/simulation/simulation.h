@@ -119,7 +119,8 @@ class Simulation : public Colliders {
   std::optional<ForceId> find_force(std::string_view name) const;
   Index vertex(BodyId id, Index vertex_of_body) const;  ///< its index among all; refuses one out of range
 
-  using Colliders::add, Colliders::name, Colliders::options, Colliders::remove, Colliders::replace;
+  using Colliders::add, Colliders::name, Colliders::options, Colliders::remove, Colliders::replace,
+      Colliders::set_target;
 
   Real contact_distance(BodyId id) const;  ///< r of its vertices [m]
   /// What touched at the end of the last step, by vertex, then collider; valid until the next one.
