@@ -99,10 +99,11 @@ void ColliderPainter::draw_triangles(const Program& program, const Mat4f& frame)
   }
 }
 
-void ColliderPainter::draw_solids(const Mat4f& camera, const Lighting& lighting) const {
+void ColliderPainter::draw_solids(const Projection& projection, const Lighting& lighting) const {
   if (solids_.empty()) return;
   solid_.use();
-  solid_.set("camera", camera);
+  solid_.set("camera", projection.camera);
+  solid_.set("setback", projection.setback);
   solid_.set("to_eye", lighting.to_eye);
   solid_.set("light", lighting.to_light);
   solid_.set("front", solid_tone);
@@ -112,13 +113,14 @@ void ColliderPainter::draw_solids(const Mat4f& camera, const Lighting& lighting)
 }
 
 void ColliderPainter::draw_plane(const Mat4f& plane, const PlaneLook& look, const ShadowArea& shadow,
-                                 const Mat4f& camera, const Lighting& lighting) const {
+                                 const Projection& projection, const Lighting& lighting) const {
   const Vec3f normal = normal_of(plane);
   const float share = light_on(normal, lighting.to_light) / light_on(Vec3f::UnitZ(), lighting.to_light);
   const Vec3f from_plane = look.middle - plane.topRightCorner<3, 1>();
   const Vec3f middle = plane.topLeftCorner<3, 3>().transpose() * (from_plane - normal * normal.dot(from_plane));
   plane_.use();
-  plane_.set("camera", camera);
+  plane_.set("camera", projection.camera);
+  plane_.set("setback", projection.setback);
   plane_.set("place", plane);
   plane_.set("center", middle);
   plane_.set("extent", look.extent);

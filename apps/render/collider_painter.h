@@ -16,6 +16,12 @@ struct Lighting {
   Vec3f to_light;
 };
 
+/// How points become places in the picture.
+struct Projection {
+  Mat4f camera;
+  float setback;  ///< in the depths of OpenGL: colliders give way to what touches them
+};
+
 /// Where a shadow lies on a floor, in its frame [m].
 struct ShadowArea {
   Vec2f middle = Vec2f::Zero();
@@ -36,7 +42,7 @@ class ColliderPainter {
 
   /// Draws the triangles of all solids with a program that takes the place of each as its uniform `place`.
   void draw_triangles(const Program& program, const Mat4f& frame) const;
-  void draw_solids(const Mat4f& camera, const Lighting& lighting) const;
+  void draw_solids(const Projection& projection, const Lighting& lighting) const;
   /// A plane that fades from the middle of the scene outward; the texture bound last is the mask of its shadow.
   struct PlaneLook {
     Vec3f middle;  ///< of the scene [m]
@@ -44,7 +50,7 @@ class ColliderPainter {
     Vec3f background;
     float darkness;  ///< of the shadow
   };
-  void draw_plane(const Mat4f& plane, const PlaneLook& look, const ShadowArea& shadow, const Mat4f& camera,
+  void draw_plane(const Mat4f& plane, const PlaneLook& look, const ShadowArea& shadow, const Projection& projection,
                   const Lighting& lighting) const;
 
  private:

@@ -1,5 +1,6 @@
 #include "render/renderer.h"
 
+#include <algorithm>
 #include <cstddef>
 
 #include "render/scalar_fields.h"
@@ -53,6 +54,17 @@ void set_up_mask(const Texture& texture, const Framebuffer& target) {
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture.id(), 0);
 }
 
+/// About the distance at which bodies touch colliders [m]. Between vertices they come nearer, and so far they are drawn
+/// in front all the same; what is behind a collider is never that near to its front.
+float setback_of(std::vector<float> rest_lengths) {
+  constexpr std::size_t one_of = 20;  // is shorter
+  constexpr float share = 0.22F;
+  if (rest_lengths.empty()) return 0;
+  const auto place = rest_lengths.begin() + static_cast<std::ptrdiff_t>(rest_lengths.size() / one_of);
+  std::ranges::nth_element(rest_lengths, place);
+  return share * *place;
+}
+
 GLsizei count_of(const std::vector<std::uint32_t>& list) {
   return static_cast<GLsizei>(list.size());
 }
@@ -61,6 +73,7 @@ GLsizei count_of(const std::vector<std::uint32_t>& list) {
 
 Renderer::Renderer(RenderMesh render_mesh)
     : render_mesh_(std::move(render_mesh)),
+      setback_(setback_of(render_mesh_.rest_lengths)),
       surface_(shaders::surface_vertex, "", shaders::surface_fragment),
       flat_surface_(shaders::flat_vertex, shaders::flat_geometry, shaders::surface_fragment),
       line_(shaders::stroke_vertex, shaders::line_geometry, shaders::line_fragment),
@@ -129,19 +142,24 @@ void Renderer::draw(const pliant::ViewSettings& appearance, const DrawOptions& o
   glEnable(GL_MULTISAMPLE);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   if (colliders_.has_planes()) {
-    draw_planes(appearance, options, camera, static_cast<GLuint>(target));
+    draw_planes(appearance, options, static_cast<GLuint>(target));
   } else if (appearance.ground) {
     draw_floor(appearance, options, camera, static_cast<GLuint>(target));
   }
   glEnable(GL_BLEND);
   glEnable(GL_DEPTH_TEST);
-  colliders_.draw_solids(camera, {-options.viewpoint.forward(), light_of(appearance)});
+  colliders_.draw_solids(projection(options), {-options.viewpoint.forward(), light_of(appearance)});
   draw_surface(appearance, options, camera);
   draw_lines(appearance, options, camera, picture);
   draw_markers(options, camera, picture);
   glDisable(GL_BLEND);
   glDisable(GL_DEPTH_TEST);
   glBindVertexArray(0);
+}
+
+Projection Renderer::projection(const DrawOptions& options) const {
+  return {options.viewpoint.projection(size_.x() / size_.y()) * options.viewpoint.view(),
+          depth_shift(options.viewpoint, bounds_, setback_)};
 }
 
 void Renderer::go_to_picture(GLuint target) const {
@@ -164,8 +182,7 @@ void Renderer::draw_floor(const pliant::ViewSettings& appearance, const DrawOpti
 }
 
 /// Planes that are colliders, each with the shadow on it.
-void Renderer::draw_planes(const pliant::ViewSettings& appearance, const DrawOptions& options, const Mat4f& camera,
-                           GLuint target) {
+void Renderer::draw_planes(const pliant::ViewSettings& appearance, const DrawOptions& options, GLuint target) {
   const Vec3f light = light_of(appearance);
   const Vec3f middle = bounds_.is_empty() ? Vec3f::Zero().eval() : bounds_.center();
   const float extent = std::max(12 * bounds_.radius(), 1.0F);
@@ -182,7 +199,7 @@ void Renderer::draw_planes(const pliant::ViewSettings& appearance, const DrawOpt
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, mask_.id());
     colliders_.draw_plane(plane, {middle, extent, tone_of(appearance.background), has_shadow ? shadow_darkness : 0.0F},
-                          area, camera, {-options.viewpoint.forward(), light});
+                          area, projection(options), {-options.viewpoint.forward(), light});
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_BLEND);
   }

@@ -34,11 +34,11 @@ class Renderer {
   void set_vertex_layout() const;
   /// Both of space: from it to the frame of the floor, and where light comes from.
   ShadowArea draw_shadow(const Mat4f& to_floor, const Vec3f& light);
+  Projection projection(const DrawOptions& options) const;
   void go_to_picture(GLuint target) const;
   void draw_floor(const pliant::ViewSettings& appearance, const DrawOptions& options, const Mat4f& camera,
                   GLuint target);
-  void draw_planes(const pliant::ViewSettings& appearance, const DrawOptions& options, const Mat4f& camera,
-                   GLuint target);
+  void draw_planes(const pliant::ViewSettings& appearance, const DrawOptions& options, GLuint target);
   void blur(const Texture& from, const Framebuffer& to, const Vec2f& step) const;
   void draw_ground(const pliant::ViewSettings& appearance, const DrawOptions& options, const Mat4f& camera) const;
   void lay_shadow(const ShadowArea& area, float height, const Mat4f& camera) const;
@@ -50,6 +50,7 @@ class Renderer {
   RenderMesh render_mesh_;
   ColliderPainter colliders_;
   Bounds bounds_;
+  float setback_ = 0;    // of colliders [m]
   Vec2f size_ = {1, 1};  // of the picture [pixels]
   bool has_values_ = false;
   pliant::ColorBy map_of_ = pliant::ColorBy::none;

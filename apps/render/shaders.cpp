@@ -45,12 +45,14 @@ const std::string_view solid_vertex = R"(#version 330 core
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 uniform mat4 camera, place;
+uniform float setback;
 out vec3 normal_here;
 out float value_here;
 void main() {
   normal_here = mat3(place) * normal;
   value_here = 0.0;
   gl_Position = camera * (place * vec4(position, 1));
+  gl_Position.z += setback * gl_Position.w;
 })";
 
 // Each face by itself: its own normal at its three corners.
@@ -254,7 +256,7 @@ void main() { color = vec4(tone_here, 1); })";
 const std::string_view plane_vertex = R"(#version 330 core
 uniform mat4 camera, place;
 uniform vec3 center;
-uniform float extent;
+uniform float extent, setback;
 uniform int rings, sectors;
 out vec2 on_plane;
 out float opacity;
@@ -265,6 +267,7 @@ void main() {
   on_plane = center.xy + extent * far * vec2(cos(angle), sin(angle));
   opacity = 1.0 - smoothstep(0.12, 1.0, far);
   gl_Position = camera * (place * vec4(on_plane, 0, 1));
+  gl_Position.z += setback * gl_Position.w;
 })";
 
 const std::string_view plane_fragment = R"(#version 330 core

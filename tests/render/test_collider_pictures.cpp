@@ -122,7 +122,7 @@ TEST_CASE("what is nearer hides what is behind, colliders and bodies alike, turn
 TEST_CASE("a plane is drawn in place of the ground, with a shadow, and not from behind") {
   Stage stage;
   stage.options.appearance.camera.position = Vec3(0, -3, 1);
-  stage.options.appearance.light = Vec3(0, 0, 1);
+  stage.options.appearance.light = Vec3(0, -1, 1);
   const std::optional<Image> nothing = stage.draw();
   stage.simulation.add(pliant::PlaneCollider{.position = {0, 0, -0.3}});
   const std::optional<Image> floor = stage.draw();
@@ -141,7 +141,7 @@ TEST_CASE("a plane is drawn in place of the ground, with a shadow, and not from 
   CHECK(floor->pixels == no_second->pixels);
   std::size_t darker = 0;
   for (std::size_t i = 0; i < floor->pixels.size(); i += 3) darker += shaded->pixels[i] + 20 < floor->pixels[i];
-  CHECK(darker > 50);  // a line below the square
+  CHECK(darker > 50);  // behind the square
   CHECK(darker < 2000);
   CHECK(from_below->pixels == bare_from_below->pixels);
 }
