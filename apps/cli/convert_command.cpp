@@ -19,6 +19,7 @@
 #include "pliant_io/mesh/mesh_file.h"
 #include "pliant_io/mesh/point_cache_format.h"
 #include "pliant_io/recorder/run_files.h"
+#include "render/run_replay.h"
 #include "terminal.h"
 
 namespace pliant_cli {
@@ -193,6 +194,38 @@ std::optional<pliant::SurfaceColors> colors_of_run(const fs::path& folder) {
   }
 }
 
+/// Whether the output holds colliders beside bodies, and the input is of a scene that may have some.
+bool has_nodes(const ConvertOptions& options) {
+  const auto format = pliant::animation_format(options.out);
+  std::error_code ignored;
+  return format && format->needs == pliant::AnimationFormat::Needs::faces && !options.body &&
+         fs::is_directory(options.in, ignored);
+}
+
+/// A scene without any is not made again, which may take long.
+bool mentions_colliders(const pliant::SceneSource& source) {
+  const auto mentions = [](const std::string& text) { return text.find("collider") != text.npos; };
+  return std::ranges::any_of(source.texts, mentions, &pliant::SceneText::text) ||
+         std::ranges::any_of(source.overrides.set, mentions);
+}
+
+/// Those of the scene of a run, where it is known.
+std::vector<pliant::AnimatedCollider> colliders_of_run(const fs::path& folder, const std::vector<pliant::Real>& times) {
+  const fs::path checkpoint = folder / pliant::checkpoint_name;
+  std::error_code ignored;
+  if (!fs::exists(checkpoint, ignored)) return {};
+  try {
+    pliant::SceneSource source = pliant::read_checkpoint(checkpoint).source;
+    if (!mentions_colliders(source)) return {};
+    return pliant_render::recorded_colliders(pliant::parse_scene(std::move(source)), times);
+  } catch (const pliant::Error& error) {
+    if (error.kind() != pliant::ErrorKind::input) throw;
+    print_to_stderr("warning: the colliders of the scene are not known, so none is written: " +
+                    pliant::printable_place(error.what(), message_limit) + "\n");
+    return {};
+  }
+}
+
 /// That frames are left out is for the user to say: by an option, or when asked.
 void agree_to_thin(const fs::path& out, const pliant::ExportReport& report) {
   const std::string what =
@@ -228,6 +261,7 @@ void convert(const ConvertOptions& options) {
   }
   refuse_to_replace(options);
   Animation animation = read_animation(options);
+  if (has_nodes(options)) animation.colliders = colliders_of_run(options.in, animation.times);
   select(animation, options);
   if (!is_mesh) {
     const pliant::ExportOptions exported = complete_options(options);

@@ -7,6 +7,7 @@
 #include "pliant/core/error.h"
 #include "pliant/forces/test_force.h"
 #include "pliant/forces/wind.h"
+#include "render/run_replay.h"
 #include "render/scalar_fields.h"
 
 namespace pliant_render {
@@ -69,6 +70,10 @@ std::optional<WindAnnotation> find_wind(const pliant::Simulation& simulation) {
 
 bool is_same(const RunAnnotations::Entry& a, const RunAnnotations::Entry& b) {
   if (a.markers != b.markers || a.wind.has_value() != b.wind.has_value()) return false;
+  const auto is_alike = [](const DrawnCollider& one, const DrawnCollider& other) {
+    return one.number == other.number && one.surface == other.surface && one.pose == other.pose;
+  };
+  if (!std::ranges::equal(a.colliders, b.colliders, is_alike)) return false;
   return !a.wind || (a.wind->velocity == b.wind->velocity && a.wind->text == b.wind->text);
 }
 
@@ -102,20 +107,30 @@ std::vector<std::uint32_t> pinned_vertices(const pliant::Simulation& simulation)
   return pinned;
 }
 
-ClipFrame capture_frame(const pliant::Simulation& simulation, const RenderMesh& render_mesh, ColorBy color) {
+ClipFrame capture_frame(const pliant::Simulation& simulation, const RenderMesh& render_mesh, ColorBy color,
+                        ColliderSurfaces& surfaces) {
   ClipFrame frame;
   frame.time = simulation.state().time;
   frame.content.positions = to_floats(simulation.state().positions);
   frame.content.values = find_values(simulation, render_mesh, frame.content.positions, color);
   frame.content.markers = find_markers(simulation, simulation.state().step);
+  frame.content.colliders = surfaces.find(simulation);
   frame.wind = find_wind(simulation);
   return frame;
+}
+
+ClipFrame capture_frame(const pliant::Simulation& simulation, const RenderMesh& render_mesh, ColorBy color) {
+  ColliderSurfaces surfaces;
+  return capture_frame(simulation, render_mesh, color, surfaces);
 }
 
 Clip clip_from_scene(pliant::Scene& scene, std::int64_t every, const std::function<bool(std::int64_t)>& go_on) {
   Clip clip{make_render_mesh(scene.simulation.bodies()), scene.view, {}};
   check_size((scene.steps - scene.simulation.state().step) / every + 2, clip.render_mesh.vertex_count);
-  const auto keep = [&] { clip.frames.push_back(capture_frame(scene.simulation, clip.render_mesh, scene.view.color)); };
+  ColliderSurfaces surfaces;
+  const auto keep = [&] {
+    clip.frames.push_back(capture_frame(scene.simulation, clip.render_mesh, scene.view.color, surfaces));
+  };
   keep();
   for (std::int64_t step = scene.simulation.state().step; step < scene.steps && go_on(step);) {
     scene.step();
@@ -125,26 +140,20 @@ Clip clip_from_scene(pliant::Scene& scene, std::int64_t every, const std::functi
 }
 
 RunAnnotations annotate_run(pliant::Scene scene, const pliant::Animation& animation) {
-  pliant::Simulation& simulation = scene.simulation;
+  const pliant::Simulation& simulation = scene.simulation;
   if (simulation.state().vertex_count() != animation.cache.vertex_count()) {
     pliant::fail_input(fmt::format("the scene has {} vertices, and the run {}", simulation.state().vertex_count(),
                                    animation.cache.vertex_count()));
   }
   RunAnnotations annotations;
-  std::int64_t step = 0;
-  Real time = 0;
-  for (const Real frame_time : animation.times) {
-    // A frame is taken at the end of a step, before what is due at the next one.
-    while (time + (1 - 1e-6) * simulation.settings().time_step <= frame_time) {
-      scene.timeline.act_due(simulation, step++, time);
-      time += simulation.settings().time_step;
-    }
-    RunAnnotations::Entry entry{find_markers(simulation, step), find_wind(simulation)};
+  ColliderSurfaces surfaces;
+  replay(scene, animation.times, [&](std::int64_t step) {
+    RunAnnotations::Entry entry{find_markers(simulation, step), find_wind(simulation), surfaces.find(simulation)};
     if (annotations.entries.empty() || !is_same(annotations.entries.back(), entry)) {
       annotations.entries.push_back(std::move(entry));
     }
     annotations.entry_of_frame.push_back(annotations.entries.size() - 1);
-  }
+  });
   return annotations;
 }
 
@@ -169,10 +178,11 @@ ClipFrame RunFrames::frame(std::size_t i, ColorBy color) const {
   }
   pliant::Positions x;
   animation_.cache.sample(time(i), x);
-  ClipFrame frame{time(i), {to_floats(x), {}, {}}, {}};
+  ClipFrame frame{time(i), {to_floats(x), {}, {}, {}}, {}};
   if (i < annotations_.entry_of_frame.size()) {
     const RunAnnotations::Entry& entry = annotations_.entries[annotations_.entry_of_frame[i]];
     frame.content.markers = entry.markers;
+    frame.content.colliders = entry.colliders;
     frame.wind = entry.wind;
   }
   if (color == ColorBy::stretch) frame.content.values = vertex_stretch(render_mesh_, frame.content.positions);
@@ -200,7 +210,9 @@ Clip clip_from_animation(pliant::Animation animation, const pliant::ViewSettings
 Bounds bounds_of(const Clip& clip) {
   Bounds bounds;
   for (const ClipFrame& frame : clip.frames) {
-    for (const Vec3f& p : frame.content.positions) bounds.add(p);
+    const Bounds here = bounds_of(frame.content);
+    bounds.add(here.low);
+    bounds.add(here.high);
   }
   return bounds;
 }

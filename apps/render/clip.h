@@ -27,7 +27,9 @@ struct Clip {
 /// Vertices pinned by position constraints, ascending.
 std::vector<std::uint32_t> pinned_vertices(const pliant::Simulation& simulation);
 
-/// A frame of the current state of the simulation.
+/// A frame of the current state of the simulation. Whoever takes many keeps the surfaces of the colliders for the next.
+ClipFrame capture_frame(const pliant::Simulation& simulation, const RenderMesh& render_mesh, pliant::ColorBy color,
+                        ColliderSurfaces& surfaces);
 ClipFrame capture_frame(const pliant::Simulation& simulation, const RenderMesh& render_mesh, pliant::ColorBy color);
 
 /// Simulates the scene to its last step and keeps the start, every n-th step and the last; `go_on` gets the step and
@@ -35,18 +37,18 @@ ClipFrame capture_frame(const pliant::Simulation& simulation, const RenderMesh& 
 /// @throws pliant::Error (input) if the frames would take more than 4 GB.
 Clip clip_from_scene(pliant::Scene& scene, std::int64_t every, const std::function<bool(std::int64_t)>& go_on);
 
-/// What is drawn of pins, test forces and wind, frame by frame of a run; equal neighbors stand once.
+/// What is drawn of pins, test forces, wind and colliders, frame by frame of a run; equal neighbors stand once.
 struct RunAnnotations {
   struct Entry {
     std::vector<std::uint32_t> markers;  ///< vertices that are pinned or under a test force, ascending
     std::optional<WindAnnotation> wind;
+    std::vector<DrawnCollider> colliders;
   };
   std::vector<Entry> entries;
   std::vector<std::size_t> entry_of_frame;  ///< empty where nothing is known
 };
 
-/// Those at the times of an animation, by the scene that its run was made from, as it was at the start: its events act
-/// again, without steps.
+/// Those at the times of an animation, by the scene that its run was made from, as it was at the start (replay).
 /// @throws pliant::Error (input): another count of vertices, an event that does not act as it did
 RunAnnotations annotate_run(pliant::Scene scene, const pliant::Animation& animation);
 

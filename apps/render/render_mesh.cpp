@@ -45,6 +45,12 @@ Bounds bounds_of(std::span<const Vec3f> positions) {
   return bounds;
 }
 
+Bounds bounds_of(const FrameContent& frame) {
+  Bounds bounds = bounds_of(std::span<const Vec3f>(frame.positions));
+  add_colliders(frame.colliders, bounds);
+  return bounds;
+}
+
 std::vector<Vec3f> vertex_normals(const RenderMesh& render_mesh, std::span<const Vec3f> positions) {
   std::vector<Vec3f> normals(positions.size(), Vec3f::Zero());
   for (std::size_t t = 0; t + 2 < render_mesh.triangles.size(); t += 3) {

@@ -5,6 +5,7 @@
 
 #include "pliant/simulation/simulation.h"
 #include "render/camera.h"
+#include "render/collider_view.h"
 
 namespace pliant_render {
 
@@ -26,9 +27,12 @@ struct FrameContent {
   std::vector<Vec3f> positions;        ///< one per vertex [m]
   std::vector<float> values;           ///< one per vertex, shown as colors; or empty
   std::vector<std::uint32_t> markers;  ///< vertices with a red mark: pinned or under a test force
+  std::vector<DrawnCollider> colliders{};
 };
 
 Bounds bounds_of(std::span<const Vec3f> positions);
+/// The box around bodies and colliders that the camera should see, see add_colliders.
+Bounds bounds_of(const FrameContent& frame);
 
 /// Area-weighted mean of the triangle normals at each vertex; zero where there are no triangles.
 std::vector<Vec3f> vertex_normals(const RenderMesh& render_mesh, std::span<const Vec3f> positions);

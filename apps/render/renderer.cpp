@@ -1,5 +1,6 @@
 #include "render/renderer.h"
 
+#include <algorithm>
 #include <cstddef>
 
 #include "render/scalar_fields.h"
@@ -18,6 +19,7 @@ const Vec3f edge_color(0.10F, 0.11F, 0.14F);
 constexpr int ground_rings = 24;
 constexpr int ground_sectors = 48;
 constexpr float shadow_darkness = 0.34F;
+constexpr float least_slope_of_light = 0.05F;  // over a floor, for a shadow on it
 constexpr float lift = 1.5e-3F;  // towards the eye, of the radius of the scene, for lines on what they lie on
 
 Vec3f tone_of(const pliant::Color& color) {
@@ -52,6 +54,17 @@ void set_up_mask(const Texture& texture, const Framebuffer& target) {
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture.id(), 0);
 }
 
+/// About the distance at which bodies touch colliders [m]. Between vertices they come nearer, and so far they are drawn
+/// in front all the same; what is behind a collider is never that near to its front.
+float setback_of(std::vector<float> rest_lengths) {
+  constexpr std::size_t one_of = 20;  // is shorter
+  constexpr float share = 0.22F;
+  if (rest_lengths.empty()) return 0;
+  const auto place = rest_lengths.begin() + static_cast<std::ptrdiff_t>(rest_lengths.size() / one_of);
+  std::ranges::nth_element(rest_lengths, place);
+  return share * *place;
+}
+
 GLsizei count_of(const std::vector<std::uint32_t>& list) {
   return static_cast<GLsizei>(list.size());
 }
@@ -60,6 +73,7 @@ GLsizei count_of(const std::vector<std::uint32_t>& list) {
 
 Renderer::Renderer(RenderMesh render_mesh)
     : render_mesh_(std::move(render_mesh)),
+      setback_(setback_of(render_mesh_.rest_lengths)),
       surface_(shaders::surface_vertex, "", shaders::surface_fragment),
       flat_surface_(shaders::flat_vertex, shaders::flat_geometry, shaders::surface_fragment),
       line_(shaders::stroke_vertex, shaders::line_geometry, shaders::line_fragment),
@@ -97,7 +111,8 @@ void Renderer::set_vertex_layout() const {
 }
 
 void Renderer::set_frame(const FrameContent& frame, pliant::ColorBy color) {
-  bounds_ = bounds_of(frame.positions);
+  bounds_ = bounds_of(frame);
+  colliders_.set_frame(frame.colliders);
   has_values_ = frame.values.size() == frame.positions.size() && color != pliant::ColorBy::none;
   const std::vector<Vec3f> normals = vertex_normals(render_mesh_, frame.positions);
   vertices_.resize(frame.positions.size());
@@ -118,24 +133,22 @@ void Renderer::set_frame(const FrameContent& frame, pliant::ColorBy color) {
 void Renderer::draw(const pliant::ViewSettings& appearance, const DrawOptions& options, int width, int height) {
   GLint target = 0;
   glGetIntegerv(GL_FRAMEBUFFER_BINDING, &target);
-  const Vec2f picture(static_cast<float>(width), static_cast<float>(height));
+  const Vec2f picture = size_ = Vec2f(static_cast<float>(width), static_cast<float>(height));
   const Mat4f camera = options.viewpoint.projection(picture.x() / picture.y()) * options.viewpoint.view();
-  const Vec3f light = light_of(appearance);
-  const bool has_shadow = appearance.ground && appearance.shadow && light.z() > 0.05F && !bounds_.is_empty();
-  ShadowArea area{Vec2f::Zero(), Vec2f::Ones()};
-  if (has_shadow) area = draw_shadow(light, options.ground_height);
-
-  glBindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(target));
-  glViewport(0, 0, width, height);
+  go_to_picture(static_cast<GLuint>(target));
   const Vec3f background = tone_of(appearance.background);
   glClearColor(background.x(), background.y(), background.z(), 1);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   glEnable(GL_MULTISAMPLE);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-  if (appearance.ground) draw_ground(appearance, options, camera);
+  if (colliders_.has_planes()) {
+    draw_planes(appearance, options, static_cast<GLuint>(target));
+  } else if (appearance.ground) {
+    draw_floor(appearance, options, camera, static_cast<GLuint>(target));
+  }
   glEnable(GL_BLEND);
-  if (has_shadow) lay_shadow(area, options.ground_height, camera);
   glEnable(GL_DEPTH_TEST);
+  colliders_.draw_solids(projection(options), {-options.viewpoint.forward(), light_of(appearance)});
   draw_surface(appearance, options, camera);
   draw_lines(appearance, options, camera, picture);
   draw_markers(options, camera, picture);
@@ -144,11 +157,59 @@ void Renderer::draw(const pliant::ViewSettings& appearance, const DrawOptions& o
   glBindVertexArray(0);
 }
 
-Renderer::ShadowArea Renderer::draw_shadow(const Vec3f& light, float height) {
-  Bounds flat;
+Projection Renderer::projection(const DrawOptions& options) const {
+  return {options.viewpoint.projection(size_.x() / size_.y()) * options.viewpoint.view(),
+          depth_shift(options.viewpoint, bounds_, setback_)};
+}
+
+void Renderer::go_to_picture(GLuint target) const {
+  glBindFramebuffer(GL_FRAMEBUFFER, target);
+  glViewport(0, 0, static_cast<GLsizei>(size_.x()), static_cast<GLsizei>(size_.y()));
+}
+
+/// The ground that nothing stands on, and the shadow on it.
+void Renderer::draw_floor(const pliant::ViewSettings& appearance, const DrawOptions& options, const Mat4f& camera,
+                          GLuint target) {
+  const Vec3f light = light_of(appearance);
+  draw_ground(appearance, options, camera);
+  if (!appearance.shadow || !(light.z() > least_slope_of_light) || bounds_.is_empty()) return;
+  Mat4f to_floor = Mat4f::Identity();
+  to_floor(2, 3) = -options.ground_height;
+  const ShadowArea area = draw_shadow(to_floor, light);
+  go_to_picture(target);
+  glEnable(GL_BLEND);
+  lay_shadow(area, options.ground_height, camera);
+}
+
+/// Planes that are colliders, each with the shadow on it.
+void Renderer::draw_planes(const pliant::ViewSettings& appearance, const DrawOptions& options, GLuint target) {
+  const Vec3f light = light_of(appearance);
+  const Vec3f middle = bounds_.is_empty() ? Vec3f::Zero().eval() : bounds_.center();
+  const float extent = std::max(12 * bounds_.radius(), 1.0F);
+  for (const Mat4f& plane : colliders_.planes(options.viewpoint.eye)) {
+    const bool has_shadow =
+        appearance.shadow && plane.block<3, 1>(0, 2).dot(light) > least_slope_of_light && !bounds_.is_empty();
+    ShadowArea area;
+    if (has_shadow) {
+      area = draw_shadow(plane.inverse(), light);
+      go_to_picture(target);
+    }
+    glEnable(GL_BLEND);
+    glEnable(GL_DEPTH_TEST);
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, mask_.id());
+    colliders_.draw_plane(plane, {middle, extent, tone_of(appearance.background), has_shadow ? shadow_darkness : 0.0F},
+                          area, projection(options), {-options.viewpoint.forward(), light});
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_BLEND);
+  }
+}
+
+ShadowArea Renderer::draw_shadow(const Mat4f& to_floor, const Vec3f& light_in_space) {
+  const Vec3f light = to_floor.topLeftCorner<3, 3>() * light_in_space;
+  Bounds flat = colliders_.bounds_in(to_floor, light);
   for (const Vertex& vertex : vertices_) {
-    const Vec3f p = vertex.position - light * ((vertex.position.z() - height) / light.z());
-    flat.add({p.x(), p.y(), 0});
+    flat.add(flatten(to_floor.topLeftCorner<3, 3>() * vertex.position + to_floor.topRightCorner<3, 1>(), light));
   }
   // The blur reaches seven texels out.
   const Vec3f half = (flat.high - flat.low) / 2;
@@ -158,20 +219,25 @@ Renderer::ShadowArea Renderer::draw_shadow(const Vec3f& light, float height) {
   glViewport(0, 0, mask_size, mask_size);
   glClearColor(0, 0, 0, 0);
   glClear(GL_COLOR_BUFFER_BIT);
-  const auto flatten = [&](const Program& program, const VertexArray& array, GLenum kind, GLsizei count) {
+  const auto use = [&](const Program& program) {
     program.use();
+    program.set("place", to_floor);
     program.set("light", light);
-    program.set("height", height);
     program.set("middle", area.middle);
     program.set("reach", area.reach);
     program.set("picture", Vec2f(mask_size, mask_size));
     program.set("width", rope_shadow_width);
     program.set("lift", 0.0F);
+  };
+  const auto draw = [](const VertexArray& array, GLenum kind, GLsizei count) {
     glBindVertexArray(array.id());
     glDrawElements(kind, count, GL_UNSIGNED_INT, nullptr);
   };
-  flatten(flatten_, triangles_array_, GL_TRIANGLES, count_of(render_mesh_.triangles));
-  flatten(flatten_ropes_, ropes_array_, GL_LINES, count_of(render_mesh_.ropes));
+  use(flatten_ropes_);
+  draw(ropes_array_, GL_LINES, count_of(render_mesh_.ropes));
+  use(flatten_);
+  draw(triangles_array_, GL_TRIANGLES, count_of(render_mesh_.triangles));
+  colliders_.draw_triangles(flatten_, to_floor);
   // As wide in both directions on the ground, not in the mask.
   const float texel = 0.75F * area.reach.maxCoeff() / mask_size;
   blur(mask_, half_blurred_target_, {texel / area.reach.x(), 0});

@@ -1,5 +1,6 @@
 #pragma once
 // Draws frames of one render mesh with OpenGL 3.3 core, with or without a window.
+#include "render/collider_painter.h"
 #include "render/gl_objects.h"
 #include "render/render_mesh.h"
 
@@ -29,13 +30,15 @@ class Renderer {
     Vec3f position, normal;
     float value;
   };
-  /// The area of the ground that the shadow covers [m].
-  struct ShadowArea {
-    Vec2f middle, reach;
-  };
 
   void set_vertex_layout() const;
-  ShadowArea draw_shadow(const Vec3f& light, float height);
+  /// Both of space: from it to the frame of the floor, and where light comes from.
+  ShadowArea draw_shadow(const Mat4f& to_floor, const Vec3f& light);
+  Projection projection(const DrawOptions& options) const;
+  void go_to_picture(GLuint target) const;
+  void draw_floor(const pliant::ViewSettings& appearance, const DrawOptions& options, const Mat4f& camera,
+                  GLuint target);
+  void draw_planes(const pliant::ViewSettings& appearance, const DrawOptions& options, GLuint target);
   void blur(const Texture& from, const Framebuffer& to, const Vec2f& step) const;
   void draw_ground(const pliant::ViewSettings& appearance, const DrawOptions& options, const Mat4f& camera) const;
   void lay_shadow(const ShadowArea& area, float height, const Mat4f& camera) const;
@@ -45,7 +48,10 @@ class Renderer {
   void draw_markers(const DrawOptions& options, const Mat4f& camera, const Vec2f& picture) const;
 
   RenderMesh render_mesh_;
+  ColliderPainter colliders_;
   Bounds bounds_;
+  float setback_ = 0;    // of colliders [m]
+  Vec2f size_ = {1, 1};  // of the picture [pixels]
   bool has_values_ = false;
   pliant::ColorBy map_of_ = pliant::ColorBy::none;
   GLsizei marker_count_ = 0;

@@ -41,6 +41,20 @@ void main() {
   color = vec4(tone * pow(lit, 0.4545), 1);
 })";
 
+const std::string_view solid_vertex = R"(#version 330 core
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+uniform mat4 camera, place;
+uniform float setback;
+out vec3 normal_here;
+out float value_here;
+void main() {
+  normal_here = mat3(place) * normal;
+  value_here = 0.0;
+  gl_Position = camera * (place * vec4(position, 1));
+  gl_Position.z += setback * gl_Position.w;
+})";
+
 // Each face by itself: its own normal at its three corners.
 const std::string_view flat_vertex = R"(#version 330 core
 layout(location = 0) in vec3 position;
@@ -177,13 +191,14 @@ void main() {
 
 const std::string_view flatten_vertex = R"(#version 330 core
 layout(location = 0) in vec3 position;
+uniform mat4 place;  // to the frame of the floor, where the light is given too
 uniform vec3 light;
-uniform float height;
 uniform vec2 middle, reach;
 out float value_at;  // as line_geometry takes it
 void main() {
   value_at = 0.0;
-  vec3 p = position - light * ((position.z - height) / light.z);
+  vec3 p = (place * vec4(position, 1)).xyz;
+  p -= light * (max(p.z, 0.0) / light.z);
   gl_Position = vec4((p.xy - middle) / reach, 0, 1);
 })";
 
@@ -236,6 +251,37 @@ const std::string_view ground_fragment = R"(#version 330 core
 in vec3 tone_here;
 out vec4 color;
 void main() { color = vec4(tone_here, 1); })";
+
+// As the ground, but anywhere, and so that what is behind shows where it fades.
+const std::string_view plane_vertex = R"(#version 330 core
+uniform mat4 camera, place;
+uniform vec3 center;
+uniform float extent, setback;
+uniform int rings, sectors;
+out vec2 on_plane;
+out float opacity;
+void main() {
+  float far = float(gl_InstanceID + (gl_VertexID & 1)) / float(rings);
+  far *= far;
+  float angle = 6.2831853 * float(gl_VertexID >> 1) / float(sectors);
+  on_plane = center.xy + extent * far * vec2(cos(angle), sin(angle));
+  opacity = 1.0 - smoothstep(0.12, 1.0, far);
+  gl_Position = camera * (place * vec4(on_plane, 0, 1));
+  gl_Position.z += setback * gl_Position.w;
+})";
+
+const std::string_view plane_fragment = R"(#version 330 core
+in vec2 on_plane;
+in float opacity;
+uniform vec3 tone;
+uniform vec2 middle, reach;
+uniform float darkness;
+uniform sampler2D mask;
+out vec4 color;
+void main() {
+  float shadow = darkness * textureLod(mask, (on_plane - middle) / reach / 2.0 + 0.5, 0.0).r;
+  color = vec4((1.0 - shadow) * tone, opacity);
+})";
 
 const std::string_view shadow_vertex = R"(#version 330 core
 uniform mat4 camera;

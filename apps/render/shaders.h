@@ -29,4 +29,9 @@ extern const std::string_view ground_fragment;
 extern const std::string_view shadow_vertex;
 extern const std::string_view shadow_fragment;
 
+// Colliders: solids, and planes with the shadow on them.
+extern const std::string_view solid_vertex;
+extern const std::string_view plane_vertex;
+extern const std::string_view plane_fragment;
+
 }  // namespace pliant_render::shaders

@@ -198,12 +198,14 @@ void LiveScene::update_sliders() {
 void LiveScene::publish() {
   const pliant::Simulation& simulation = session_.simulation();
   back_.render_mesh = render_mesh_;
-  back_.frame = pliant_render::capture_frame(simulation, *render_mesh_, context_.color);
+  back_.frame = pliant_render::capture_frame(simulation, *render_mesh_, context_.color, surfaces_);
   back_.color = context_.color;
   back_.pins = pliant_render::pinned_vertices(simulation);
   back_.pull = session_.pull();
   update_sliders();
   back_.sliders = sliders_;
+  back_.wrenches.clear();
+  for (const auto& [id, collider] : simulation.colliders()) back_.wrenches[id] = simulation.wrench(id);
   back_.statistics = statistics_.means(Clock::now());
   back_.step = simulation.state().step;
   back_.single_steps = context_.single_steps;

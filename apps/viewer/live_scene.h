@@ -22,6 +22,7 @@ struct Snapshot {
   std::vector<std::uint32_t> pins;                ///< pinned vertices, which can be grabbed, ascending
   std::optional<Pull> pull;
   std::shared_ptr<const std::vector<Slider>> sliders;
+  std::map<pliant::ColliderId, pliant::Wrench> wrenches;  ///< what colliders felt in the last step
   FrameStatistics::Means statistics;
   std::int64_t step = 0;
   std::int64_t single_steps = 0;  ///< still to take while paused
@@ -106,6 +107,7 @@ class LiveScene {
   // Used by the simulation's thread alone.
   FrameStatistics statistics_;
   std::shared_ptr<const pliant_render::RenderMesh> render_mesh_;
+  pliant_render::ColliderSurfaces surfaces_;
   std::string note_;
   Clock::time_point published_{};
   std::uint64_t commands_done_ = 0;

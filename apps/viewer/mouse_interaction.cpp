@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace pliant_viewer {
 namespace {
@@ -37,7 +38,8 @@ void MouseInteraction::handle(const MouseEvent& event, const View& view) {
       }
       break;
     case MouseEvent::Kind::wheel:
-      if (pull_ || action_ == Action::move_pin) break;  // what is held keeps its depth
+      if (pull_ || action_ == Action::move_pin || action_ == Action::move_collider)
+        break;  // what is held keeps its depth
       view.camera.zoom(std::pow(zoom_a_notch, event.wheel));
       break;
   }
@@ -61,11 +63,19 @@ MouseInteraction::PickTarget MouseInteraction::pick(const Vec2f& at, const View&
   PickTarget target;
   target.point = pick_surface(*view.snapshot->render_mesh, positions, view.screen, at, rope_reach * view.unit);
   target.pin = pick_vertex(view.snapshot->pins, positions, view.screen, at, pin_reach * view.unit);
-  if (!target.pin || !target.point) return target;
+  target.collider = pick_collider(view.snapshot->frame.content.colliders, view.screen, at);
+  constexpr float none = std::numeric_limits<float>::infinity();
+  const float body_depth = target.point ? view.screen.depth_of(target.point->position(positions)) : none;
+  const float collider_depth = target.collider ? view.screen.depth_of(target.collider->position) : none;
+  if (body_depth < collider_depth) {
+    target.collider.reset();
+  } else {
+    target.point.reset();
+  }
   // A pin behind the surface is not the one the user means.
   constexpr float nearly = 1.02F;
-  const float depth = view.screen.depth_of(target.point->position(positions));
-  if (view.screen.depth_of(positions[*target.pin]) > nearly * depth) target.pin.reset();
+  const float depth = std::min(body_depth, collider_depth);
+  if (target.pin && view.screen.depth_of(positions[*target.pin]) > nearly * depth) target.pin.reset();
   return target;
 }
 
@@ -85,6 +95,13 @@ void MouseInteraction::press_left(const Vec2f& at, const View& view) {
     point_ = *aimed.point;
     depth_ = view.screen.depth_of(point_.position(positions));
     grip_ = Vec3f::Zero();
+  } else if (aimed.collider) {
+    action_ = Action::touch_collider;
+    collider_ = aimed.collider->number;
+    depth_ = view.screen.depth_of(aimed.collider->position);
+    for (const pliant_render::DrawnCollider& each : view.snapshot->frame.content.colliders) {
+      if (each.number == collider_) grip_ = each.pose.position.cast<float>() - aimed.collider->position;
+    }
   }
 }
 
@@ -112,8 +129,15 @@ void MouseInteraction::move(const Vec2f& to, const View& view) {
       last_target_ = target(to, view);
       has_moved_ = true;
       break;
+    case Action::touch_collider:
+      if (is_click) break;
+      action_ = Action::move_collider;
+      last_target_ = target(to, view);
+      has_moved_ = true;
+      break;
     case Action::pull:
     case Action::move_pin:
+    case Action::move_collider:
       has_moved_ = true;
       break;
     case Action::none:
@@ -132,7 +156,7 @@ void MouseInteraction::release(const MouseEvent& event, const View& view) {
   if (action == Action::pull) {
     pull_.reset();
     post(view, LiveScene::Kind::changes, [](Session& session) { session.let_go(); });
-  } else if (action == Action::move_pin) {
+  } else if (action == Action::move_pin || action == Action::move_collider) {
     action_ = action;
     flush(view);
     action_ = Action::none;
@@ -166,6 +190,9 @@ void MouseInteraction::flush(const View& view) {
   } else if (action_ == Action::move_pin) {
     const auto vertex = static_cast<Index>(vertex_);
     post(view, LiveScene::Kind::steers, [to, vertex](Session& session) { session.move_pin(vertex, to); });
+  } else if (action_ == Action::move_collider) {
+    post(view, LiveScene::Kind::steers,
+         [to, collider = collider_](Session& session) { session.move_collider(pliant::ColliderId{collider}, to); });
   }
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What the mouse does in the picture: moves the camera, pulls at bodies, sets pins and moves them.
+// What the mouse does in the picture: moves the camera, pulls at bodies, sets pins and moves them, moves colliders.
 #include <vector>
 
 #include "viewer/live_scene.h"
@@ -19,10 +19,11 @@ class MouseInteraction {
     float unit = 1;                ///< mouse units per unit of a layout made for the default font size
     std::optional<float> floor{};  ///< height that the camera stays above [m]
   };
-  /// What a press of the left button would grab: a pin, else a point of a body, else nothing.
+  /// What a press of the left button would grab: a pin, else a point of a body or a collider, else nothing.
   struct PickTarget {
     std::optional<std::uint32_t> pin{};
     std::optional<SurfacePoint> point{};
+    std::optional<ColliderPoint> collider{};
   };
   static PickTarget pick(const Vec2f& at, const View& view);
   void handle(const MouseEvent& event, const View& view);
@@ -46,6 +47,10 @@ class MouseInteraction {
   std::optional<GrabbedPin> grabbed_pin() const {
     return action_ == Action::move_pin ? std::optional(GrabbedPin{vertex_, last_target_}) : std::nullopt;
   }
+  /// Where the collider that the mouse is dragging shall go [m].
+  std::optional<Vec3f> collider_goal() const {
+    return action_ == Action::move_collider ? std::optional(last_target_) : std::nullopt;
+  }
   /// A vertex whose pin was set or removed by a command that has not taken effect yet.
   struct Pending {
     std::uint32_t vertex;
@@ -54,7 +59,7 @@ class MouseInteraction {
   std::vector<std::uint32_t> pending(const Snapshot& snapshot);
 
  private:
-  enum class Action { none, orbit, pan, touch_pin, touch_body, pull, move_pin };
+  enum class Action { none, orbit, pan, touch_pin, touch_body, touch_collider, pull, move_pin, move_collider };
 
   void press(const MouseEvent& event, const View& view);
   void press_left(const Vec2f& at, const View& view);
@@ -69,11 +74,13 @@ class MouseInteraction {
   MouseButton button_ = MouseButton::left;
   Vec2f pressed_ = {0, 0};
   Vec2f last_ = {0, 0};
-  float depth_ = 0;         // of what was grabbed, at mouse-down
-  Vec3f grip_ = {0, 0, 0};  // from the point under the mouse at that depth to the pin, so that the pin does not jump
+  float depth_ = 0;  // of what was grabbed, at mouse-down
+  // From the point under the mouse at that depth to the pin, or the middle of the collider, so that it does not jump.
+  Vec3f grip_ = {0, 0, 0};
   Vec3f last_target_ = {0, 0, 0};
   SurfacePoint point_;
   std::uint32_t vertex_ = 0;
+  Index collider_ = 0;
   std::optional<Pull> pull_;
   bool has_moved_ = false;  // since the last flush
   std::vector<Pending> pending_;

@@ -53,6 +53,22 @@ float undo_perspective(float share, float depth_a, float depth_b) {
   return weight_b / (weight_a + weight_b);
 }
 
+/// How far along the ray [m] a shape begins that it goes into from outside: no step is longer than the distance to the
+/// shape (Hart 1996).
+std::optional<double> reach(const pliant::ColliderShape& shape, const pliant::Vec3& origin,
+                            const pliant::Vec3& direction, double farthest) {
+  constexpr int most_steps = 256;
+  constexpr double nearly = 1e-6;  // of the way so far
+  double way = 0;
+  for (int i = 0; i < most_steps && way < farthest; ++i) {
+    const double distance = shape.distance(origin + way * direction).distance;
+    if (distance < 0 && i == 0) return {};
+    if (distance <= nearly * way) return way;
+    way += distance;
+  }
+  return {};
+}
+
 }  // namespace
 
 Screen::Ray Screen::ray(const Vec2f& place) const {
@@ -123,6 +139,23 @@ std::optional<SurfacePoint> pick_surface(const pliant_render::RenderMesh& render
     if (depth >= foremost) continue;
     foremost = depth;
     picked = SurfacePoint{{a, b, b}, {1 - share, share, 0}};
+  }
+  return picked;
+}
+
+std::optional<ColliderPoint> pick_collider(std::span<const pliant_render::DrawnCollider> colliders,
+                                           const Screen& screen, const Vec2f& place) {
+  std::optional<ColliderPoint> picked;
+  const Ray ray = screen.ray(place);
+  const pliant::Vec3 eye = ray.origin.cast<double>(), along = ray.direction.cast<double>().normalized();
+  double foremost = screen.viewpoint.far;
+  for (const pliant_render::DrawnCollider& each : colliders) {
+    if (!each.surface->shape->is_bounded()) continue;
+    const auto way =
+        reach(*each.surface->shape, each.pose.to_frame(eye), each.pose.rotation.conjugate() * along, foremost);
+    if (!way) continue;
+    foremost = *way;
+    picked = ColliderPoint{each.number, (eye + *way * along).cast<float>()};
   }
   return picked;
 }

@@ -50,4 +50,14 @@ std::optional<SurfacePoint> pick_surface(const pliant_render::RenderMesh& render
 std::optional<std::uint32_t> pick_vertex(std::span<const std::uint32_t> vertices, std::span<const Vec3f> positions,
                                          const Screen& screen, const Vec2f& place, float reach);
 
+/// A point on a collider.
+struct ColliderPoint {
+  Index number = 0;  ///< of its ColliderId
+  Vec3f position = {0, 0, 0};
+};
+
+/// The frontmost point of a collider at a place, of those that have an end.
+std::optional<ColliderPoint> pick_collider(std::span<const pliant_render::DrawnCollider> colliders,
+                                           const Screen& screen, const Vec2f& place);
+
 }  // namespace pliant_viewer

@@ -21,7 +21,9 @@ Playback::Playback(pliant_render::RunFrames frames, pliant::ViewSettings appeara
       began_at_(frames_.time(0)) {
   for (std::size_t i = 0; i < frames_.count(); ++i) {
     const pliant_render::ClipFrame frame = frames_.frame(i, pliant::ColorBy::none);
-    for (const pliant_render::Vec3f& p : frame.content.positions) bounds_.add(p);
+    const pliant_render::Bounds here = bounds_of(frame.content);
+    bounds_.add(here.low);
+    bounds_.add(here.high);
   }
   show(color_);
   refresh(began_);

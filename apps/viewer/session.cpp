@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <exception>
+#include <tuple>
 
+#include "pliant/collision/colliders/builtin.h"
 #include "pliant/constraints/drag.h"
 #include "pliant/constraints/position.h"
 #include "pliant/core/error.h"
@@ -62,9 +64,34 @@ void apply(std::map<std::string, pliant::Vec3> values, pliant::Simulation& simul
   }
 }
 
+/// The diagonal of the box around all bodies [m].
+Real size_of(const pliant::Simulation& simulation) {
+  const pliant::Positions& x = simulation.state().positions;
+  return x.rows() == 0 ? 0 : (x.colwise().maxCoeff() - x.colwise().minCoeff()).norm();
+}
+
+Real speed_of_colliders(const pliant::Simulation& simulation) {
+  constexpr Real sizes_in_a_second = 3;
+  return sizes_in_a_second * std::max<Real>(size_of(simulation), 1e-3);
+}
+
+/// Ends what a collider does by itself.
+template <class... Types>
+void stop_collider(std::tuple<Types...>*, pliant::Simulation& simulation, pliant::ColliderId id) {
+  const auto stop_as = [&]<class Type>(Type*) {
+    const auto* options = simulation.options<Type>(id);
+    if (options == nullptr || (options->velocity.isZero(0) && options->angular_velocity.isZero(0))) return;
+    Type at_rest = *options;
+    at_rest.velocity = at_rest.angular_velocity = pliant::Vec3::Zero();
+    simulation.replace(id, at_rest);
+  };
+  (stop_as(static_cast<Types*>(nullptr)), ...);
+}
+
 }  // namespace
 
-Session::Session(MakeScene make) : make_(std::move(make)), scene_(make_()) {}
+Session::Session(MakeScene make)
+    : make_(std::move(make)), scene_(make_()), collider_speed_(speed_of_colliders(scene_.simulation)) {}
 
 void Session::set_stop(std::function<bool()> stop) {
   stop_ = std::move(stop);
@@ -78,6 +105,7 @@ void Session::set_threads(Index threads) {
 }
 
 pliant::StepReport Session::step() {
+  steer_colliders();
   try {
     return scene_.step();
   } catch (const pliant::Error& error) {
@@ -99,6 +127,8 @@ void Session::restart(bool keep_values) {
   scene_ = std::move(scene);
   pull_.reset();
   pull_group_.reset();
+  collider_goals_.clear();
+  collider_speed_ = speed_of_colliders(scene_.simulation);
   note_.clear();
 }
 
@@ -157,6 +187,31 @@ void Session::move_pin(Index vertex, const Vec3f& target) {
   scene_.simulation.set_target(pin->group, pin->target, target.cast<Real>());
 }
 
+void Session::move_collider(pliant::ColliderId collider, const Vec3f& position) {
+  pliant::Simulation& simulation = scene_.simulation;
+  const auto found = simulation.colliders().find(collider);
+  if (found == simulation.colliders().end() || !found->second.shape->is_bounded() || !position.allFinite()) return;
+  stop_collider(static_cast<pliant::BuiltinColliders*>(nullptr), simulation, collider);
+  collider_goals_[collider] = position.cast<Real>();
+}
+
+/// Sets where the next step takes the colliders that are on their way.
+void Session::steer_colliders() {
+  pliant::Simulation& simulation = scene_.simulation;
+  const Real most = collider_speed_ * simulation.settings().time_step;
+  std::erase_if(collider_goals_, [&](const auto& entry) {
+    const auto& [id, goal] = entry;
+    if (!simulation.colliders().contains(id)) return true;
+    pliant::Pose pose = simulation.pose(id);
+    const pliant::Vec3 way = goal - pose.position;
+    const Real length = way.norm();
+    if (length == 0) return true;
+    pose.position = length > most ? pliant::Vec3(pose.position + way * (most / length)) : goal;
+    simulation.set_target(id, pose);
+    return false;
+  });
+}
+
 std::vector<Slider> Session::sliders() const {
   return list_sliders(simulation(), [this](pliant::GroupId id) {
     return id == pull_group_ || simulation().groups().at(id).name == pin_name;
@@ -196,9 +251,8 @@ Real suggest_pull_stiffness(const pliant::Simulation& simulation) {
   constexpr Real stretch = 0.1;                 // of the bodies' size
   Real mass = 0;
   for (const Real of_vertex : simulation.state().masses) mass += of_vertex;
-  const pliant::Positions& x = simulation.state().positions;
-  if (x.rows() == 0) return 1;
-  const Real size = (x.colwise().maxCoeff() - x.colwise().minCoeff()).norm();
+  if (mass == 0) return 1;
+  const Real size = size_of(simulation);
   return std::clamp<Real>(mass * weight_at_stretch / (stretch * std::max<Real>(size, 1e-3)), 1e-3, 1e9);
 }
 

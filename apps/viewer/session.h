@@ -57,7 +57,12 @@ class Session {
   /// Moves a pin to `target` [m]; motions of the scene no longer move it.
   void move_pin(Index vertex, const Vec3f& target);
 
-  /// Of the scene's settings, groups and forces; the pull and pins that were set by hand have none.
+  /// Takes a collider there in the steps to come, no faster than three times the size of the bodies in a second, and
+  /// leaves it at rest; velocities of its own end. Does nothing with a collider that has no end.
+  void move_collider(pliant::ColliderId collider, const Vec3f& position);
+
+  /// Of the scene's settings, groups, forces and colliders, and of contact; the pull and pins that were set by hand
+  /// have none.
   std::vector<Slider> sliders() const;
   /// Sets a parameter by the key of its slider; does nothing where there is none. @throws pliant::Error (input): a
   /// value out of range.
@@ -71,6 +76,7 @@ class Session {
   };
   std::optional<Pin> find_pin(Index vertex) const;
   pliant::BodyId body_of(Index vertex) const;
+  void steer_colliders();
 
   MakeScene make_;
   pliant::Scene scene_;
@@ -78,6 +84,8 @@ class Session {
   std::map<std::string, pliant::Vec3> values_;  // from set()
   std::optional<Pull> pull_;
   std::optional<pliant::GroupId> pull_group_;
+  std::map<pliant::ColliderId, pliant::Vec3> collider_goals_;  // of those that are on their way [m]
+  Real collider_speed_ = 1;                                    // the most by which they go there [m/s]
   std::string note_;
 };
 

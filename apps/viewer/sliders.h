@@ -16,7 +16,7 @@ struct Slider {
   /// Which one it is, from restart to restart: "settings.iterations", "group:stretch.stiffness", and with a number
   /// behind the name where several have it. It is compared, never taken apart.
   std::string key;
-  std::string heading;  ///< of its group or force, for people: "triangle_strain \"stretch\""
+  std::string heading;  ///< of its group, force or collider, for people: "triangle_strain \"stretch\""
   pliant::Parameter parameter;
 };
 

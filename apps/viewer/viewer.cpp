@@ -22,7 +22,7 @@ constexpr double idle_turn = 0.25;  // [s]
 
 Viewpoint first_viewpoint(const ViewSource& source, const pliant::ViewSettings& appearance, const Vec2f& size) {
   if (const auto known = source.known_bounds()) return place_camera(appearance.camera, *known, size.x() / size.y());
-  Bounds bounds = pliant_render::bounds_of(source.frame().content.positions);
+  Bounds bounds = pliant_render::bounds_of(source.frame().content);
   if (bounds.is_empty()) bounds.add(Vec3f::Zero());
   // Leave room for motion, whose direction is not known yet.
   const Vec3f room = Vec3f::Constant(0.12F * bounds.radius());
@@ -115,7 +115,7 @@ void Viewer::update_render_mesh() {
 }
 
 void Viewer::update_bounds() {
-  bounds_ = pliant_render::bounds_of(source_.frame().content.positions);
+  bounds_ = pliant_render::bounds_of(source_.frame().content);
   if (appearance_.ground_height) {
     ground_height_ = static_cast<float>(*appearance_.ground_height);
     return;
@@ -247,6 +247,7 @@ void Viewer::draw_gizmos(const pliant_render::AnnotationCanvas& canvas) {
                 canvas.list);
   }
   if (const auto held = interaction_.grabbed_pin()) draw_ring(screen_, held->target, unit, canvas.list);
+  if (const auto goal = interaction_.collider_goal()) draw_ring(screen_, *goal, unit, canvas.list);
   for (const std::uint32_t vertex : interaction_.pending(live->shown())) {
     draw_ring(screen_, positions[vertex], unit, canvas.list);
   }
@@ -255,7 +256,7 @@ void Viewer::draw_gizmos(const pliant_render::AnnotationCanvas& canvas) {
   if (interaction_.is_busy() || !is_in_picture) return;
   const MouseInteraction::PickTarget under = MouseInteraction::pick(mouse, mouse_view());
   if (under.pin) draw_ring(screen_, positions[*under.pin], unit, canvas.list);
-  if (under.pin || under.point) Ui::show_hand();
+  if (under.pin || under.point || under.collider) Ui::show_hand();
 }
 
 /// Draws the picture and its annotations without panels, and saves it.

@@ -15,13 +15,12 @@ constexpr double stiffer = 1.5;  // per key press
 
 MouseInteraction::View Viewer::mouse_view() {
   LiveScene* live = source_.live();
-  const bool has_floor = appearance_.ground && appearance_.camera.up.normalized().z() > 0.999;
-  return {screen_,
-          camera_,
-          live,
-          live != nullptr ? &live->shown() : nullptr,
-          ui_.style().unit,
-          has_floor ? std::optional(ground_height_) : std::nullopt};
+  const auto& colliders = source_.frame().content.colliders;
+  const bool has_planes = std::ranges::any_of(colliders, [](const auto& each) { return each.surface->is_plane; });
+  std::optional<float> floor = pliant_render::floor_height(colliders);
+  if (!has_planes && appearance_.ground) floor = ground_height_;
+  if (!(appearance_.camera.up.normalized().z() > 0.999)) floor.reset();
+  return {screen_, camera_, live, live != nullptr ? &live->shown() : nullptr, ui_.style().unit, floor};
 }
 
 void Viewer::take_input() {

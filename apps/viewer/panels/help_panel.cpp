@@ -14,9 +14,10 @@ struct Key {
   const char* what;
 };
 
-constexpr std::array<Key, 4> body_keys = {Key{"drag a body", "pull at it by a spring; it stays at its depth"},
+constexpr std::array<Key, 5> body_keys = {Key{"drag a body", "pull at it by a spring; it stays at its depth"},
                                           Key{"click a body", "pin the nearest vertex"},
-                                          Key{"click a pin", "let it go"}, Key{"drag a pin", "move it"}};
+                                          Key{"click a pin", "let it go"}, Key{"drag a pin", "move it"},
+                                          Key{"drag a collider", "move it; it stays where you leave it"}};
 constexpr std::array<Key, 5> camera_keys = {
     Key{"drag beside, right drag", "turn about the middle"}, Key{"middle or Shift drag", "move sideways"},
     Key{"wheel", "nearer or further away"}, Key{"F", "everything in the picture"}, Key{"Shift + F", "as at the start"}};
@@ -65,7 +66,7 @@ bool draw_help(bool is_live, const Vec2f& picture, const PanelStyle& style) {
   const ImGuiStyle& spaces = ImGui::GetStyle();
   const float right = picture.x() - spaces.WindowPadding.x - spaces.ScrollbarSize;
   const float column = std::min(182 * style.unit, 0.4F * right);
-  if (is_live) draw_keys("the bodies", body_keys, column, right);
+  if (is_live) draw_keys("bodies and colliders", body_keys, column, right);
   draw_keys("the camera", camera_keys, column, right);
   draw_keys("time", is_live ? std::span<const Key>(live_keys) : std::span<const Key>(run_keys), column, right);
   draw_keys("the picture", appearance_keys, column, right);

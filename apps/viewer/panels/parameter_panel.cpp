@@ -17,6 +17,7 @@ namespace {
 constexpr double decades = 1e3;  // that a slider goes up and down from the value that it is first seen with
 
 constexpr std::size_t many_groups = 12;
+constexpr std::size_t few_colliders = 3;  // that are unfolded at first
 
 bool is_of_settings(const Slider& slider) {
   return std::holds_alternative<std::monostate>(slider.parameter.handle.owner);
@@ -52,6 +53,14 @@ std::string help_of(const Parameter& parameter) {
   return parameter.doc + (is_typed ? "\nCtrl + click: type a number" : "");
 }
 
+/// "0.12, 0, -3.4 N"
+void draw_feeling(const char* label, const pliant::Vec3& value, const char* unit, const std::string& help) {
+  row_label(label, help);
+  // What is lost in rounding is not told.
+  const pliant::Vec3 shown = (value.array().abs() < 1e-6 * value.norm()).select(0, value.array()).matrix();
+  wrapped_text(fmt::format("{:.3g}, {:.3g}, {:.3g} {}", shown.x(), shown.y(), shown.z(), unit));
+}
+
 }  // namespace
 
 std::optional<std::array<float, 4>> ParameterPanel::place_of(const std::string& key) const {
@@ -75,6 +84,28 @@ void ParameterPanel::draw(const Snapshot& snapshot, LiveScene& live) {
   draw_all("Solver", those_of(0), true);
   draw_all("Constraints", groups, groups.size() <= 4 * many_groups);
   draw_all("Forces", those_of(2), true);
+  if (!snapshot.wrenches.empty() && section_header("Colliders")) draw_colliders(those_of(3), snapshot, live);
+  draw_all("Contact", those_of(4), true);
+}
+
+/// Of each collider what it feels, and its options, which fold.
+void ParameterPanel::draw_colliders(std::span<const Slider> sliders, const Snapshot& snapshot, LiveScene& live) {
+  for (const auto& [id, wrench] : snapshot.wrenches) {
+    const pliant::ParameterOwner owner = id;
+    const auto is_own = [&](const Slider& slider) { return slider.parameter.handle.owner == owner; };
+    const auto begin = std::ranges::find_if(sliders, is_own);
+    if (begin == sliders.end()) continue;
+    ImGui::PushID(begin->key.c_str());
+    ImGui::SetNextItemOpen(snapshot.wrenches.size() <= few_colliders, ImGuiCond_Once);
+    if (ImGui::TreeNodeEx("##options", ImGuiTreeNodeFlags_NoTreePushOnOpen, "%s", begin->heading.c_str())) {
+      draw_feeling("force", wrench.force, "N", "what bodies pressed and rubbed it with in the last step");
+      draw_feeling("torque", wrench.torque, "N m", "the same about its position");
+      for (auto slider = begin; slider != sliders.end() && is_own(*slider); ++slider) {
+        draw_row(*slider, label_of(slider->parameter.handle.option), help_of(slider->parameter), live);
+      }
+    }
+    ImGui::PopID();
+  }
 }
 
 void ParameterPanel::draw_owners(std::span<const Slider> sliders, LiveScene& live) {

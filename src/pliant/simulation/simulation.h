@@ -119,10 +119,12 @@ class Simulation : public Colliders {
 
   using Colliders::add, Colliders::name, Colliders::options, Colliders::remove, Colliders::replace;
   using Colliders::set_target, Colliders::target;
+
   Real contact_distance(BodyId id) const;  ///< r of its vertices [m]
   /// What touched at the end of the last step, by vertex, then collider; valid until the next one.
   std::span<const ContactPoint> contacts() const;
   Wrench wrench(ColliderId id) const;  ///< what a collider felt then
+
   const SolverSettings& settings() const { return settings_; }
   void set_settings(const SolverSettings& settings);  ///< refuses BDF2 with a force that is an explicit spring
 

@@ -85,6 +85,19 @@ std::vector<Real> all_times(const PointCache& cache) {
 
 }  // namespace
 
+bool AnimatedCollider::moves() const {
+  return std::ranges::any_of(poses, [this](const Pose& pose) { return !(pose == poses.front()); });
+}
+
+Pose AnimatedCollider::pose_at(Real time) const {
+  const auto after = std::ranges::upper_bound(times, time);
+  if (after == times.begin()) return poses.front();
+  if (after == times.end()) return poses.back();
+  const auto next = static_cast<std::size_t>(after - times.begin());
+  const Real share = (time - times[next - 1]) / (times[next] - times[next - 1]);
+  return interpolate(poses[next - 1], poses[next], share);
+}
+
 Animation read_run(const fs::path& folder) {
   const fs::path info = folder / "run.json";
   std::error_code ignored;

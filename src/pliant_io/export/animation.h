@@ -10,11 +10,25 @@
 
 namespace pliant {
 
+/// A collider of a run: a rigid surface that may move.
+struct AnimatedCollider {
+  std::string name;
+  Mesh surface;             ///< in a frame of its own [m]
+  Positions normals;        ///< one for each corner of its triangles
+  std::vector<Real> times;  ///< [s], rising, at least one
+  std::vector<Pose> poses;  ///< of the frame at each of the times
+
+  bool moves() const;
+  /// Between two times on the way from one pose to the other, before the first and after the last at rest.
+  Pose pose_at(Real time) const;
+};
+
 struct Animation {
   std::string name;
   std::vector<Body> bodies;  ///< their vertices follow each other from 0; none when only the points are known
   PointCache cache;          ///< positions [m], +z up, with their times [s]
   std::vector<Real> times;   ///< of the frames to export [s], rising, at least one; the cache is sampled at them
+  std::vector<AnimatedCollider> colliders{};
 };
 
 /// What a run left in its folder, also one that was cut off: mesh.obj, cut into its bodies, the frames in any format

@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 
 #include <fmt/format.h>
@@ -89,6 +90,15 @@ class GltfDocument {
     return add("accessors", std::move(accessor));
   }
 
+  /// Vectors that are not those of vertices, as an animation has them.
+  template <class Vector>
+  std::size_t add_numbers(const std::vector<Vector>& vectors) {
+    static_assert(sizeof(Vector) == 3 * sizeof(float) || sizeof(Vector) == 4 * sizeof(float));
+    OrderedJson accessor = add_view(vectors.data(), vectors.size() * sizeof(Vector), Target::none);
+    describe(accessor, ComponentType::single, vectors.size(), sizeof(Vector) == 3 * sizeof(float) ? "VEC3" : "VEC4");
+    return add("accessors", std::move(accessor));
+  }
+
   std::size_t add_scalars(const std::vector<float>& numbers) {
     OrderedJson accessor = add_view(numbers.data(), numbers.size() * sizeof(float), Target::none);
     describe(accessor, ComponentType::single, numbers.size(), "SCALAR");
@@ -143,6 +153,8 @@ OrderedJson material_of_body(std::size_t body) {
   return material(lights[body % lights.size()], Sides::both);
 }
 
+constexpr std::array<double, 3> collider_light = {0.32, 0.38, 0.46};
+
 /// The same triangles seen from the other side.
 std::vector<Index> turned(std::vector<Index> triangles) {
   for (std::size_t i = 0; i + 2 < triangles.size(); i += 3) std::swap(triangles[i + 1], triangles[i + 2]);
@@ -154,7 +166,7 @@ class GltfExport {
   GltfExport(const Animation& animation, const std::vector<std::size_t>& frames, const ExportOptions& options)
       : animation_(animation), frames_(frames), normals_(options.normals), colors_(options.colors) {
     for (std::size_t body = 0; body < animation.bodies.size(); ++body) add_body(body);
-    if (moving_nodes_.empty()) return;
+    for (const AnimatedCollider& collider : animation.colliders) add_collider(collider);
     add_animation();
   }
 
@@ -241,6 +253,40 @@ class GltfExport {
     return side;
   }
 
+  /// A node that moves as a whole.
+  void add_collider(const AnimatedCollider& collider) {
+    if (collider.surface.triangles.empty()) return;
+    const SplitCorners corners(collider.surface, collider.normals);
+    std::vector<Vec3f> positions;
+    std::vector<Vec3f> normals;
+    for (Eigen::Index i = 0; i < corners.positions.rows(); ++i) {
+      positions.push_back(y_up(single_precision(corners.positions, static_cast<Index>(i))));
+      normals.push_back(y_up(corners.normals.row(i).transpose().cast<float>().normalized()));
+    }
+    if (!collider_material_) collider_material_ = document_.add("materials", material(collider_light, Sides::both));
+    OrderedJson attributes = {{"POSITION", document_.add_vectors(positions, true)}};
+    if (normals_ == Normals::smooth) attributes["NORMAL"] = document_.add_vectors(normals, false);
+    const OrderedJson primitive = {{"attributes", std::move(attributes)},
+                                   {"material", *collider_material_},
+                                   {"mode", static_cast<int>(Mode::triangles)},
+                                   {"indices", document_.add_indices(corners.triangles)}};
+    const std::size_t mesh = document_.add("meshes", {{"name", collider.name}, {"primitives", {primitive}}});
+    const Pose pose = collider.pose_at(animation_.times.front());
+    const Vec3f place = y_up(pose.position.cast<float>());
+    const std::array<float, 4> turn = rotation(pose);
+    const std::size_t node = document_.add(
+        "nodes",
+        {{"name", collider.name}, {"mesh", mesh}, {"translation", {place[0], place[1], place[2]}}, {"rotation", turn}});
+    document_["scenes"][0]["nodes"].push_back(node);
+    if (collider.moves() && animation_.times.size() > 1) moving_colliders_.push_back({node, &collider});
+  }
+
+  /// x, y, z, w of a rotation, with y up.
+  static std::array<float, 4> rotation(const Pose& pose) {
+    const Vec3f axis = y_up(pose.rotation.vec().cast<float>());
+    return {axis[0], axis[1], axis[2], static_cast<float>(pose.rotation.w())};
+  }
+
   void add_node(const std::string& name, OrderedJson primitives, bool is_moving) {
     OrderedJson mesh = {{"name", name}, {"primitives", std::move(primitives)}};
     if (is_moving) {
@@ -306,30 +352,60 @@ class GltfExport {
     return result;
   }
 
-  /// At each keyframe the weight of its own target is 1, and linear between them; all bodies share the numbers.
   void add_animation() {
+    OrderedJson samplers = OrderedJson::array();
+    OrderedJson channels = OrderedJson::array();
+    if (!moving_nodes_.empty()) animate_bodies(samplers, channels);
+    if (!moving_colliders_.empty()) animate_colliders(samplers, channels);
+    if (channels.empty()) return;
+    document_.add("animations",
+                  {{"name", animation_.name}, {"samplers", std::move(samplers)}, {"channels", std::move(channels)}});
+  }
+
+  /// At each keyframe the weight of its own target is 1, and linear between them; all bodies share the numbers.
+  void animate_bodies(OrderedJson& samplers, OrderedJson& channels) {
     const std::size_t target_count = frames_.size() - 1;
     std::vector<float> weights(frames_.size() * target_count, 0);
     for (std::size_t key = 1; key < frames_.size(); ++key) weights[key * target_count + key - 1] = 1;
-    const OrderedJson sampler = {{"input", document_.add_times(single_precision_times(animation_, frames_))},
-                                 {"output", document_.add_scalars(weights)},
-                                 {"interpolation", "LINEAR"}};
-    OrderedJson channels = OrderedJson::array();
+    samplers.push_back({{"input", document_.add_times(single_precision_times(animation_, frames_))},
+                        {"output", document_.add_scalars(weights)},
+                        {"interpolation", "LINEAR"}});
     for (const std::size_t node : moving_nodes_) {
       channels.push_back({{"sampler", 0}, {"target", {{"node", node}, {"path", "weights"}}}});
     }
-    document_.add("animations",
-                  {{"name", animation_.name}, {"samplers", {sampler}}, {"channels", std::move(channels)}});
+  }
+
+  /// At each frame a translation and a rotation; numbers that are few are not thinned.
+  void animate_colliders(OrderedJson& samplers, OrderedJson& channels) {
+    std::vector<std::size_t> all(animation_.times.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    const std::size_t input = document_.add_times(single_precision_times(animation_, all));
+    for (const auto& [node, collider] : moving_colliders_) {
+      std::vector<Vec3f> places;
+      std::vector<std::array<float, 4>> turns;
+      for (const Real time : animation_.times) {
+        const Pose pose = collider->pose_at(time);
+        places.push_back(y_up(pose.position.cast<float>()));
+        turns.push_back(rotation(pose));
+      }
+      const auto add_channel = [&, number = node](std::size_t output, const char* path) {
+        channels.push_back({{"sampler", samplers.size()}, {"target", {{"node", number}, {"path", path}}}});
+        samplers.push_back({{"input", input}, {"output", output}, {"interpolation", "LINEAR"}});
+      };
+      add_channel(document_.add_numbers(places), "translation");
+      add_channel(document_.add_numbers(turns), "rotation");
+    }
   }
 
   const Animation& animation_;
   const std::vector<std::size_t>& frames_;
   Normals normals_;
   std::optional<SurfaceColors> colors_;
-  std::optional<std::size_t> front_material_, back_material_, double_sided_material_;
+  std::optional<std::size_t> front_material_, back_material_, double_sided_material_, collider_material_;
   GltfDocument document_;
   std::vector<std::size_t> moving_nodes_;
-  Positions positions_;  ///< scratch
+  std::vector<std::pair<std::size_t, const AnimatedCollider*>> moving_colliders_;  ///< with their nodes
+  Positions positions_;                                                            ///< scratch
 };
 
 std::string dump(const OrderedJson& json) {

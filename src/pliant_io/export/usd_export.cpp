@@ -142,6 +142,7 @@ class UsdExport {
     const std::vector<Real> sizes = body_sizes(animation_);
     PrimNames bodies;
     for (std::size_t i = 0; i < animation_.bodies.size(); ++i) write_body(animation_.bodies[i], bodies, sizes[i]);
+    for (const AnimatedCollider& collider : animation_.colliders) write_collider(collider, bodies);
     text_.close();
   }
 
@@ -173,6 +174,62 @@ class UsdExport {
     if (!faces.texture_coordinates.empty()) write_texture(body.mesh, faces);
     text_.line("uniform token subdivisionScheme = \"none\"");
     text_.close();
+  }
+
+  /// A rigid mesh under the transform of its prim.
+  void write_collider(const AnimatedCollider& collider, PrimNames& names) {
+    const Mesh& surface = collider.surface;
+    if (surface.triangles.empty()) return;
+    text_.line(fmt::format("def Xform \"{}\" (", names.name(collider.name)));
+    text_.line(fmt::format("    customData = {{ string name = {} }}", string_text(collider.name)));
+    text_.open(")");
+    write_pose(collider);
+    text_.open("def Mesh \"mesh\"");
+    text_.line("uniform bool doubleSided = 1");
+    std::vector<Index> corners;
+    for (const Triangle& triangle : surface.triangles) corners.insert(corners.end(), triangle.begin(), triangle.end());
+    text_.line("int[] faceVertexCounts = " + indices_text(std::vector<Index>(surface.triangles.size(), 3)));
+    text_.line("int[] faceVertexIndices = " + indices_text(corners));
+    const std::vector<Eigen::Vector3f> points = rows_of(surface.vertices);
+    Eigen::Vector3f low = points.front(), high = low;
+    for (const Eigen::Vector3f& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
+    text_.line("float3[] extent = " + list(std::array{low, high}, append_point));
+    text_.line("normal3f[] normals = " + list(rows_of(collider.normals), append_point) + " (");
+    text_.line("    interpolation = \"faceVarying\"");
+    text_.line(")");
+    text_.line("point3f[] points = " + list(points, append_point));
+    text_.line("color3f[] primvars:displayColor = [(0.32, 0.38, 0.46)]");
+    text_.line("uniform token subdivisionScheme = \"none\"");
+    text_.close();
+    text_.close();
+  }
+
+  void write_pose(const AnimatedCollider& collider) {
+    const auto write = [&](std::string_view attribute, const auto& value) {
+      if (frames_.size() == 1 || !collider.moves()) {
+        text_.line(fmt::format("{} = {}", attribute, value(collider.pose_at(animation_.times[frames_.front()]))));
+        return;
+      }
+      text_.line(fmt::format("{}.timeSamples = {{", attribute));
+      for (const std::size_t frame : frames_) {
+        text_.line(fmt::format("    {}: {},", time_code(frame), value(collider.pose_at(animation_.times[frame]))));
+      }
+      text_.line("}");
+    };
+    write("quatd xformOp:orient", [](const Pose& pose) {
+      const auto& turn = pose.rotation;
+      return fmt::format("({}, {}, {}, {})", turn.w(), turn.x(), turn.y(), turn.z());
+    });
+    write("double3 xformOp:translate", [](const Pose& pose) {
+      return fmt::format("({}, {}, {})", pose.position.x(), pose.position.y(), pose.position.z());
+    });
+    text_.line("uniform token[] xformOpOrder = [\"xformOp:translate\", \"xformOp:orient\"]");
+  }
+
+  static std::vector<Eigen::Vector3f> rows_of(const Positions& rows) {
+    std::vector<Eigen::Vector3f> list;
+    for (Eigen::Index i = 0; i < rows.rows(); ++i) list.push_back(single_precision(rows, static_cast<Index>(i)));
+    return list;
   }
 
   /// Corners without texture coordinates get (0, 0).

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "pliant/collision/colliders/surface.h"
+
 namespace pliant {
 namespace {
 
@@ -22,6 +24,7 @@ class BoxShape final : public ColliderShape {
     const Real length = outside.norm();
     return {length - rounding_, sign.cwiseProduct(outside / length)};
   }
+  Mesh surface(Real) const override { return rounded_box(inner_, rounding_); }
 
  private:
   Vec3 inner_;  // half of its size, without the rounding

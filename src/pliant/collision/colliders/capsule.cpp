@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "pliant/collision/colliders/surface.h"
+
 namespace pliant {
 namespace {
 
@@ -17,6 +19,7 @@ class CapsuleShape final : public ColliderShape {
     const Real length = from_axis.norm();
     return {length - radius_, length > 0 ? Vec3(from_axis / length) : Vec3(Vec3::UnitX())};
   }
+  Mesh surface(Real) const override { return rounded_box({0, 0, half_length_}, radius_); }
 
  private:
   Real half_length_;

@@ -1,6 +1,12 @@
 #include "pliant/collision/colliders/collider.h"
 
+#include "pliant/mesh/mesh.h"
+
 namespace pliant {
+
+Mesh ColliderShape::surface(Real) const {
+  return {};
+}
 
 Pose interpolate(const Pose& from, const Pose& to, Real share) {
   if (share == 1) return to;

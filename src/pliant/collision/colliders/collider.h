@@ -15,6 +15,8 @@
 
 namespace pliant {
 
+struct Mesh;
+
 using Quaternion = Eigen::Quaternion<Real, Eigen::DontAlign>;
 
 /// A frame in space: a point x of it is at position + rotation x.
@@ -50,6 +52,11 @@ class ColliderShape {
   /// Of a point of the frame [m]. The shape must be convex: a point whose way meets it is held by the plane through
   /// the place where it would have gone in.
   virtual SignedDistance distance(const Vec3& point) const = 0;
+  /// False where the shape has no end, as a plane.
+  virtual bool is_bounded() const { return true; }
+  /// Triangles of its surface in the frame [m], outward, for pictures and exports; none unless a shape says otherwise.
+  /// A shape without end shows what lies within `size` [m] of the origin along its axes.
+  virtual Mesh surface(Real size) const;
 };
 
 /// A shape, and where it begins.

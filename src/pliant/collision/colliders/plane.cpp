@@ -1,5 +1,7 @@
 #include "pliant/collision/colliders/plane.h"
 
+#include "pliant/mesh/mesh.h"
+
 namespace pliant {
 namespace {
 
@@ -8,6 +10,14 @@ class PlaneShape final : public ColliderShape {
  public:
   std::string_view type() const override { return PlaneCollider::info.name; }
   SignedDistance distance(const Vec3& point) const override { return {point.z(), Vec3::UnitZ()}; }
+  bool is_bounded() const override { return false; }
+  Mesh surface(Real size) const override {
+    Mesh mesh;
+    mesh.vertices.resize(4, 3);
+    mesh.vertices << -size, -size, 0, size, -size, 0, size, size, 0, -size, size, 0;
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    return mesh;
+  }
 };
 
 }  // namespace

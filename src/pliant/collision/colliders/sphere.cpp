@@ -1,5 +1,7 @@
 #include "pliant/collision/colliders/sphere.h"
 
+#include "pliant/collision/colliders/surface.h"
+
 namespace pliant {
 namespace {
 
@@ -12,6 +14,7 @@ class SphereShape final : public ColliderShape {
     const Real length = point.norm();
     return {length - radius_, length > 0 ? Vec3(point / length) : Vec3(Vec3::UnitZ())};
   }
+  Mesh surface(Real) const override { return rounded_box(Vec3::Zero(), radius_); }
 
  private:
   Real radius_;

@@ -91,4 +91,29 @@ Positions vertex_normals(const Mesh& mesh, const Positions& positions) {
   return normals;
 }
 
+SplitCorners::SplitCorners(const Mesh& surface, const Positions& corner_normals) {
+  constexpr Real fineness = 200;  // normals that differ by less than its inverse are one
+  std::map<std::array<Index, 4>, Index> numbers;
+  std::vector<std::pair<Index, Eigen::Index>> kept;  // vertex and corner
+  Eigen::Index corner = 0;
+  for (const Triangle& triangle : surface.triangles) {
+    for (const Index vertex : triangle) {
+      const auto part = [&](int axis) {
+        return static_cast<Index>(std::lround(fineness * corner_normals(corner, axis)));
+      };
+      const auto [found, is_new] = numbers.try_emplace({vertex, part(0), part(1), part(2)}, count_of(kept));
+      if (is_new) kept.emplace_back(vertex, corner);
+      triangles.push_back(found->second);
+      ++corner;
+    }
+  }
+  positions.resize(static_cast<Eigen::Index>(kept.size()), 3);
+  normals.resize(static_cast<Eigen::Index>(kept.size()), 3);
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    positions.row(row) = surface.vertices.row(kept[i].first);
+    normals.row(row) = corner_normals.row(kept[i].second);
+  }
+}
+
 }  // namespace pliant

@@ -18,6 +18,15 @@ struct GltfSurface {
   std::vector<Index> lines;                   ///< two of ours for each
 };
 
+/// A surface with normals of its corners as glTF has them: a vertex for each normal that its corners have.
+struct SplitCorners {
+  SplitCorners(const Mesh& surface, const Positions& corner_normals);
+
+  Positions positions;
+  Positions normals;             ///< one for each of ours
+  std::vector<Index> triangles;  ///< three of ours for each
+};
+
 /// The normal of each vertex, of length 1: the sum of the areas of its triangles as vectors. Where that is 0 it is +z.
 Positions vertex_normals(const Mesh& mesh, const Positions& positions);
 

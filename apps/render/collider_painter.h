@@ -1,0 +1,72 @@
+#pragma once
+// Draws the colliders of a frame: solid surfaces, and planes with a shadow on them.
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "pliant_io/scene/view_settings.h"
+#include "render/collider_view.h"
+#include "render/gl_objects.h"
+
+namespace pliant_render {
+
+/// The directions that light a surface, all of length 1.
+struct Lighting {
+  Vec3f to_eye;
+  Vec3f to_light;
+};
+
+/// How points become places in the picture.
+struct Projection {
+  Mat4f camera;
+  float setback;  ///< in the depths of OpenGL: colliders give way to what touches them
+};
+
+/// Where a shadow lies on a floor, in its frame [m].
+struct ShadowArea {
+  Vec2f middle = Vec2f::Zero();
+  Vec2f reach = Vec2f::Ones();
+};
+
+class ColliderPainter {
+ public:
+  /// Needs a current OpenGL context, as do all members.
+  ColliderPainter();
+
+  void set_frame(const std::vector<DrawnCollider>& colliders);
+  /// Planes that are seen from their front, floors first.
+  std::vector<Mat4f> planes(const Vec3f& eye) const;
+  bool has_planes() const;
+  /// What casts shadows, in space.
+  Bounds bounds_in(const Mat4f& frame, const Vec3f& light) const;
+
+  /// Draws the triangles of all solids with a program that takes the place of each as its uniform `place`.
+  void draw_triangles(const Program& program, const Mat4f& frame) const;
+  void draw_solids(const Projection& projection, const Lighting& lighting) const;
+  /// A plane that fades from the middle of the scene outward; the texture bound last is the mask of its shadow.
+  struct PlaneLook {
+    Vec3f middle;  ///< of the scene [m]
+    float extent;  ///< where it has faded [m]
+    Vec3f background;
+    float darkness;  ///< of the shadow
+  };
+  void draw_plane(const Mat4f& plane, const PlaneLook& look, const ShadowArea& shadow, const Projection& projection,
+                  const Lighting& lighting) const;
+
+ private:
+  struct Solid {
+    std::shared_ptr<const ColliderSurface> surface;
+    VertexArray array;
+    Buffer corners;
+  };
+
+  std::vector<DrawnCollider> colliders_;
+  std::map<const ColliderSurface*, std::unique_ptr<Solid>> solids_;
+  Program solid_, plane_;
+  VertexArray empty_array_;
+};
+
+/// A point of space on a floor, z = 0 in its frame, along the light; what is below the floor stays where it is.
+Vec3f flatten(const Vec3f& point_in_frame, const Vec3f& light_in_frame);
+
+}  // namespace pliant_render
