@@ -149,6 +149,45 @@ constexpr std::uint32_t middle = side * 5 + 6;
 
 }  // namespace
 
+TEST_CASE("a ball is seen, follows the mouse through the picture, and its slider makes it larger") {
+  Desk desk([] {
+    Scene scene = make_sheet();
+    scene.simulation.add(pliant::SphereCollider{.center = {0.5, -0.6, 0.5}, .radius = 0.15}, "ball");
+    return scene;
+  });
+  const auto ball = [&] { return desk.shown().frame.content.colliders.at(0).pose.position.cast<float>().eval(); };
+  const auto place = [&] { return desk.viewer.screen().place_of(ball()).value(); };
+  const auto pixel = [](const Desk::Picture& picture, const Vec2f& at) {
+    const auto first = 3 * static_cast<std::size_t>(std::lround(at.y()) * picture.width + std::lround(at.x()));
+    return std::array<int, 3>{picture.pixels[first], picture.pixels[first + 1], picture.pixels[first + 2]};
+  };
+  const Vec2f from = place(), to = from + Vec2f(120, 30);
+  const auto is_gray_blue = [](const std::array<int, 3>& color) {
+    return color[0] < color[2] && color[2] - color[0] < 40 && color[2] < 205;
+  };
+  CHECK(is_gray_blue(pixel(desk.picture(), from)));
+  CHECK_FALSE(is_gray_blue(pixel(desk.picture(), to)));
+  desk.drag(from, to);
+  REQUIRE(desk.viewer.interaction().collider_goal().has_value());
+  const Vec3f goal = *desk.viewer.interaction().collider_goal();
+  desk.turn_until([&] { return (ball() - goal).norm() < 1e-4F; });
+  CHECK((place() - to).norm() < 0.1F * (to - from).norm());  // what the mouse holds is nearer than the middle
+  desk.release();
+  CHECK_FALSE(desk.viewer.interaction().is_busy());
+  const Vec3f rest = ball();
+  desk.turns(10);
+  CHECK((ball() - rest).norm() < 1e-4F);
+  const Desk::Picture moved = desk.picture();
+  CHECK(is_gray_blue(pixel(moved, to)));
+  CHECK_FALSE(is_gray_blue(pixel(moved, from)));
+
+  CHECK(desk.parameter("collider:ball.radius") == 0.15);
+  REQUIRE(desk.source.parameter_panel().place_of("collider:ball.radius").has_value());
+  desk.source.live()->post([](CommandContext& context) { context.session.set("collider:ball.radius", {0.2, 0, 0}); });
+  desk.turn_until([&] { return desk.parameter("collider:ball.radius") == 0.2; });
+  CHECK(difference(moved, desk.picture()) > 0.01);
+}
+
 TEST_CASE("the surface follows the mouse that pulls at it, and comes back") {
   Desk desk;
   desk.settle();

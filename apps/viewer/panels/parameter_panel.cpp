@@ -53,12 +53,12 @@ std::string help_of(const Parameter& parameter) {
   return parameter.doc + (is_typed ? "\nCtrl + click: type a number" : "");
 }
 
-/// "0.12, 0, -3.4 N"
+/// "0.12, 0, -3.4 N", and in the tooltip with more digits.
 void draw_feeling(const char* label, const pliant::Vec3& value, const char* unit, const std::string& help) {
-  row_label(label, help);
   // What is lost in rounding is not told.
   const pliant::Vec3 shown = (value.array().abs() < 1e-6 * value.norm()).select(0, value.array()).matrix();
-  wrapped_text(fmt::format("{:.3g}, {:.3g}, {:.3g} {}", shown.x(), shown.y(), shown.z(), unit));
+  row_label(label, fmt::format("{}\n{:.5g}, {:.5g}, {:.5g} {}", help, shown.x(), shown.y(), shown.z(), unit));
+  wrapped_text(fmt::format("{:.2g}, {:.2g}, {:.2g} {}", shown.x(), shown.y(), shown.z(), unit));
 }
 
 }  // namespace
@@ -99,7 +99,7 @@ void ParameterPanel::draw_colliders(std::span<const Slider> sliders, const Snaps
     ImGui::SetNextItemOpen(snapshot.wrenches.size() <= few_colliders, ImGuiCond_Once);
     if (ImGui::TreeNodeEx("##options", ImGuiTreeNodeFlags_NoTreePushOnOpen, "%s", begin->heading.c_str())) {
       draw_feeling("force", wrench.force, "N", "what bodies pressed and rubbed it with in the last step");
-      draw_feeling("torque", wrench.torque, "N m", "the same about its position");
+      draw_feeling("torque", wrench.torque, "N·m", "the same about its position");
       for (auto slider = begin; slider != sliders.end() && is_own(*slider); ++slider) {
         draw_row(*slider, label_of(slider->parameter.handle.option), help_of(slider->parameter), live);
       }
