@@ -23,10 +23,9 @@ class Colliders {
   /// from the next step on. Default name: the type, with the first free number from 2 behind where that is taken.
   /// Throws Error(input) on what it refuses, as all of these do, and while energy is projected.
   template <describes_collider Options>
-  ColliderId add(const Options& options, std::string_view name = {}) {
+  ColliderId add(const Options& options, const std::string& name = {}) {  // by value, clang 14 lets a force's hide it
     PlacedShape placed = build(options);
-    return add_collider(
-        {std::string(name), source_of(options), std::move(placed.shape), placed.pose, motion_of(options)});
+    return add_collider({name, source_of(options), std::move(placed.shape), placed.pose, motion_of(options)});
   }
   /// Adds a collider of a user's own.
   ColliderId add_collider(std::shared_ptr<const ColliderShape> shape, const Pose& pose,
