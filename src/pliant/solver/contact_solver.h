@@ -29,7 +29,7 @@ class ContactSolver {
                      ThreadPool& threads);
   /// Adds forces at the iterate to the residual, and energy to what the local step found.
   void add(WorkingState& work, LocalResult& local, ThreadPool& threads);
-  /// Refreshes the loads of friction when it is time: at three and six tenths of the iterations, or once they have
+  /// Refreshes the loads of friction when it is time: at three and eight tenths of the iterations, or once they have
   /// converged before. Returns whether it has.
   bool refresh(Index iteration, Index iterations, bool has_converged, WorkingState& work, LocalResult& local,
                ThreadPool& threads);
