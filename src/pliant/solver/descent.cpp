@@ -24,7 +24,7 @@ void Descent::begin(const StepContext& context) {
   has_moved_ = false;
   is_first_ = true;
   is_contact_in_factor_ = false;
-  if (is_accelerated_ || checks_plain_moves_) lbfgs_.begin(context.system.vertex_count());
+  if (is_needed()) lbfgs_.begin(context.system.vertex_count());
 }
 
 LocalResult Descent::evaluate(const StepContext& context, WorkingState& work) const {

@@ -11,6 +11,8 @@ class Descent {
  public:
   /// A substep begins.
   void begin(const StepContext& context);
+  /// Whether its moves are to be made in place of plain global steps.
+  bool is_needed() const { return is_accelerated_ || checks_plain_moves_; }
   /// What the local step finds at the iterate, after moves have been taken back that must be.
   LocalResult local_step(const StepContext& context, WorkingState& work, StepReport& report);
   /// The objective is another one from here on.

@@ -64,7 +64,6 @@ class Solver {
  private:
   Real substep() const { return settings_.time_step / static_cast<Real>(settings_.substeps); }
   bool projects_energy() const { return settings_.energy_projection > 0; }
-  bool is_watched() const { return settings_.acceleration == Acceleration::lbfgs || contact_.is_active(); }
   StepContext context(const State& state);
 
   void take_substeps(State& state, StepReport& report);

@@ -55,7 +55,7 @@ void Solver::take_substep(State& state, StepReport& report) {
     if (reached_tolerance && i > 0) break;                        //     at least one iteration a step
     global_step(state, local, report);                            // 6   q ← q + Y⁻¹ r, or q + H r
   }                                                               //
-  if (!reached_tolerance && is_watched())                         //
+  if (!reached_tolerance && descent_.is_needed())                 //
     descent_.check_last_move(context(state), work_, report);      //     which must not have raised E either
   report.reached_tolerance &= reached_tolerance;                  //
   check_finite(context(state), work_);                            //
@@ -155,7 +155,7 @@ LocalResult Solver::local_step(const State& state, Index iteration, StepReport& 
 
 void Solver::global_step(const State& state, const LocalResult& local, StepReport& report) {
   const Stopwatch watch;
-  if (is_watched()) {
+  if (descent_.is_needed()) {
     descent_.move(local, context(state), work_, report);
   } else {
     report.solves += system_.global_step(work_.residual, local.residual, work_.positions, threads_.pool());
