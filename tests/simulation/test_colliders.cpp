@@ -163,6 +163,27 @@ TEST_CASE("colliders: they come, change, move and go, and a transaction takes al
   CHECK(simulation.state().contact.memory.empty());
 }
 
+TEST_CASE("colliders: after an edit, what was felt in the last step stays, and an evaluation knows no old collider") {
+  Simulation simulation = drape({.threads = 1});
+  advance_by(simulation, 40);
+  const Real with_contact = simulation.evaluate().contact;
+  CHECK(with_contact > 0);
+  const ColliderId ball = simulation.find_collider("ball").value();
+  simulation.set_target(ball, {{0, 0, 0.01}});
+  simulation.step();
+  const Wrench felt = simulation.wrench(ball);
+  CHECK(felt.force.norm() > 0.1);
+  simulation.set_contact({.friction = 0.1});
+  CHECK(simulation.evaluate().contact == 0);
+  CHECK(simulation.wrench(ball).force == felt.force);
+  CHECK(simulation.wrench(ball).torque == felt.torque);
+  simulation.remove(simulation.find_collider("floor").value());
+  simulation.remove(simulation.find_collider("box").value());
+  CHECK(simulation.evaluate().contact == 0);
+  simulation.step();
+  CHECK(simulation.evaluate().contact > 0);
+}
+
 TEST_CASE("colliders: one that appears around a body lets it out, without a bang") {
   for (const Real radius : {0.8, 3.0}) {
     Simulation simulation = drape({.threads = 1});

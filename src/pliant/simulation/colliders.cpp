@@ -151,7 +151,9 @@ void Colliders::set_contact(const ContactSettings& settings) {
 }
 
 Real Simulation::contact_distance(BodyId id) const {
-  return contact_.distance > 0 ? contact_.distance : contact_distance_of(body(id).mesh);
+  if (contact_.distance > 0) return contact_.distance;
+  const auto place = static_cast<std::size_t>(id);
+  return place < edge_distances_.size() ? edge_distances_[place] : contact_distance_of(body(id).mesh);
 }
 
 std::span<const ContactPoint> Simulation::contacts() const {
@@ -172,8 +174,8 @@ void Simulation::update_colliders() {
                          record.motion.friction.value_or(contact_.friction)});
   }
   for (std::size_t i = 0; !colliders.empty() && i < bodies_.size(); ++i) {
-    const BodyId id{static_cast<Index>(i)};
-    radii.resize(radii.size() + at(bodies_[i].mesh.vertex_count()), contact_distance(id));
+    if (i == edge_distances_.size()) edge_distances_.push_back(contact_distance_of(bodies_[i].mesh));
+    radii.resize(radii.size() + at(bodies_[i].mesh.vertex_count()), contact_distance(BodyId{static_cast<Index>(i)}));
   }
   solver_->set_colliders(std::move(colliders), std::move(radii));
   colliders_changed_ = false;

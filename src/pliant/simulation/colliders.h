@@ -70,6 +70,7 @@ class Colliders {
   std::map<ColliderId, ColliderRecord> colliders_;
   ContactSettings contact_;
   Index next_collider_ = 0;
+  std::vector<Real> edge_distances_;  // contact distances of the first bodies, by their edges
   bool colliders_changed_ = true;
   Transaction* transaction_ = nullptr;  // the innermost one under way
 

@@ -96,6 +96,7 @@ void Transaction::roll_back() {
   if (!groups_.empty() || body_count_ != s.bodies_.size()) s.groups_changed_ = true;
   if (!forces_.empty()) s.forces_changed_ = true;
   s.bodies_.resize(body_count_);
+  if (s.edge_distances_.size() > body_count_) s.edge_distances_.resize(body_count_);
   if (s.settings_ != settings_) s.solver_->set_settings(settings_);
   s.settings_ = settings_;
   s.warned_forces_ = std::move(warned_forces_);

@@ -42,7 +42,7 @@ void ContactSolver::begin_step(const State& state, Real h) {
   end_.clear();
   seconds_ = 0;
   for (std::size_t i = 0; i < colliders_.size(); ++i) {
-    const ColliderState& now = state.contact.colliders.at(i);
+    const ColliderState& now = state.contact.colliders[i];
     const ColliderMotion& motion = colliders_[i].motion;
     begin_.push_back(now.pose);
     end_.push_back(now.target ? *now.target : moved_on(now.pose, motion.velocity, motion.angular_velocity, h));

@@ -22,7 +22,7 @@ class ContactSolver {
   void set(std::vector<SolverCollider> colliders, std::vector<Real> radii);
   bool is_active() const { return contact_.is_active(); }
 
-  /// A step of length h [s] begins. Throws Error(input) when the state has other colliders.
+  /// A step of length h [s] begins. The state has these colliders, in their order.
   void begin_step(const State& state, Real h);
   /// One of its substeps, of length h [s], from share `begin` to share `end` of it, at the iterate of `work`.
   void begin_substep(const State& state, Real begin, Real end, Real h, const System& system, WorkingState& work,

@@ -83,7 +83,7 @@ Evaluation Solver::evaluate(const State& state) {
   system_.set_inertia(work_.begin.masses, is_predicted ? work_.predicted_step : substep());
   work_.positions = work_.begin.positions;
   LocalResult found = system_.local_step(work_.positions, work_.prediction, work_.residual, threads_.pool());
-  if (is_predicted && !is_new && contact_.is_active()) contact_.add(work_, found, threads_.pool());
+  if (is_predicted && !is_new && contact_.contact().has_begun()) contact_.add(work_, found, threads_.pool());
   Evaluation evaluation{found.residual, found.inertia, found.elastic};
   evaluation.contact = found.contact;
   return evaluation;

@@ -24,6 +24,7 @@ Vec3 across(const Vec3& v, const Vec3& normal) {
 
 void Contact::set_colliders(std::vector<ContactCollider> colliders) {
   colliders_ = std::move(colliders);
+  step_.reset();
   if (colliders_.empty()) points_.clear();
 }
 
@@ -168,6 +169,7 @@ void Contact::commit(const Positions& q, std::span<const Real> diagonal, Contact
   };
   std::ranges::sort(points_, by_vertex);
   std::ranges::sort(state.memory, by_vertex);
+  add_up_wrenches();
   if (std::ranges::all_of(state.stiffening, [](Real factor) { return factor == 1; })) state.stiffening.clear();
 }
 
@@ -209,17 +211,21 @@ ContactPoint Contact::point_of(const Candidate& candidate, const Vec3& x) const 
   return point;
 }
 
-Wrench Contact::wrench(Index number) const {
-  Wrench sum;
-  const auto found = std::ranges::find(colliders_, number, &ContactCollider::number);
-  if (found == colliders_.end()) return sum;
+void Contact::add_up_wrenches() {
+  wrenches_.clear();
+  for (const ContactCollider& each : colliders_) wrenches_.push_back({each.number, {}});
   for (const ContactPoint& each : points_) {
-    if (each.collider != number) continue;
+    const auto place = std::ranges::lower_bound(colliders_, each.collider, {}, &ContactCollider::number);
+    Wrench& sum = wrenches_[static_cast<std::size_t>(place - colliders_.begin())].second;
     const Vec3 vertex = each.point + each.distance * each.normal;
     sum.force -= each.force;
-    sum.torque -= (vertex - found->end.position).cross(each.force);
+    sum.torque -= (vertex - place->end.position).cross(each.force);
   }
-  return sum;
+}
+
+Wrench Contact::wrench(Index number) const {
+  const auto found = std::ranges::find(wrenches_, number, &std::pair<Index, Wrench>::first);
+  return found == wrenches_.end() ? Wrench{} : found->second;
 }
 
 }  // namespace pliant

@@ -73,9 +73,12 @@ struct HeldBack {
 
 class Contact {
  public:
+  /// Forgets the substep before, but not what touched in it.
   void set_colliders(std::vector<ContactCollider> colliders);
   std::span<ContactCollider> colliders() { return colliders_; }
   bool is_active() const { return !colliders_.empty(); }
+  /// Whether there was a substep since the colliders were set: add() and what follows it ask for one.
+  bool has_begun() const { return step_.has_value(); }
 
   /// A substep begins at the iterate q, which is held back.
   void begin_substep(const ContactStep& step, const ContactState& state, Positions& q, ThreadPool& threads);
@@ -84,7 +87,7 @@ class Contact {
   HeldBack hold_back(Positions& q, ThreadPool& threads);
   /// Adds the forces at q to r [N].
   ContactSums add(const Positions& q, Positions& r, ThreadPool& threads);
-  /// After add() at the same q: freezes the loads of friction that are there, and mends r. Returns the new sums.
+  /// After add() at the same q: takes the present loads for friction and corrects r. Returns the new sums.
   ContactSums refresh(const Positions& q, Positions& r, ThreadPool& threads);
 
   /// pᵀ C p [N m] with the curvature C at the last add().
@@ -99,6 +102,7 @@ class Contact {
 
   /// Of the last substep, by vertex of the simulation, then collider.
   std::span<const ContactPoint> points() const { return points_; }
+  /// Zero for a collider that was not in it.
   Wrench wrench(Index collider) const;
   /// Vertices that were held back in the substep, each as often as it was.
   Index held_back() const { return held_back_; }
@@ -156,6 +160,7 @@ class Contact {
   void stiffen(const Candidate& candidate, std::span<const Real> diagonal, ContactState& state) const;
   ContactMemory memory_of(const Candidate& candidate, const Vec3& x) const;
   ContactPoint point_of(const Candidate& candidate, const Vec3& x) const;
+  void add_up_wrenches();
   ContactSums total() const;
   Index number_of(Index vertex) const { return step_->vertices.empty() ? vertex : step_->vertices[at(vertex)]; }
   /// Calls visit(chunk, first vertex, vertex behind the last).
@@ -175,6 +180,7 @@ class Contact {
   Positions reference_;        // where the candidates were looked for
   std::vector<Real> margins_;  // how far from there each vertex may go before others matter [m]
   std::vector<ContactPoint> points_;
+  std::vector<std::pair<Index, Wrench>> wrenches_;  // by number of the collider
   Index held_back_ = 0;
 };
 
