@@ -193,7 +193,7 @@ TEST_CASE("resume at every tenth step: the same bits") {
     bool was_in_factor = false;
     for (int i = 0; i < 60; ++i) {
       scene.step();
-      was_in_factor |= scene.simulation.state().contact.is_in_factor;
+      was_in_factor |= !scene.simulation.state().contact.in_factor.empty();
     }
     CHECK(was_in_factor);
     check_resume(parse_scene(scene_with_colliders, {}, "colliders.json", {.set = set}));
@@ -268,6 +268,8 @@ TEST_CASE("contact that no run can have left is refused by name") {
   file.check_contact("a stiffness of contacts is out of range", [&](Json& contact) {
     contact["stiffening"] = bytes_of(std::vector<Real>(file.vertex_count, 0.5));
   });
+  file.check_contact("what the factor has of contact is out of range",
+                     [&](Json& contact) { contact["in_factor"] = bytes_of(std::vector<Real>(file.vertex_count, -1)); });
   file.check_contact("light_steps", [](Json& contact) { contact["light_steps"] = -1; });
   file.check_contact("light_steps", [](Json& contact) { contact["light_steps"] = 2000000000; });
 }

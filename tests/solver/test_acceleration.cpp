@@ -80,9 +80,14 @@ bool same_bits(const Positions& a, const Positions& b) {
   return std::memcmp(a.data(), b.data(), static_cast<std::size_t>(a.size()) * sizeof(Real)) == 0;
 }
 
+void move(Lbfgs& lbfgs, const LocalResult& local, const Positions& r, const Positions& x, Positions& q) {
+  ThreadPool threads(1);
+  lbfgs.prepare(local, r, x, threads);
+  lbfgs.move(x, 0, q, threads);
+}
+
 void compare_with_textbook(Index vertices, std::size_t memory) {
   Random random;
-  ThreadPool threads(1);
   Lbfgs lbfgs;
   Textbook textbook(memory);
   Positions q = random.positions(vertices, 1);
@@ -94,7 +99,7 @@ void compare_with_textbook(Index vertices, std::size_t memory) {
     CAPTURE(i);
     const Positions r = force(q);
     CHECK(lbfgs.is_plain() == (i <= 1));
-    lbfgs.move({}, r, solve(r), 0, q, threads);
+    move(lbfgs, {}, r, solve(r), q);
     expected += textbook.move(force(expected), solve);
     CHECK((q - expected).norm() <= 1e-5 * force(expected).norm());
   }
@@ -111,25 +116,24 @@ TEST_CASE("L-BFGS: the moves are those of the textbook, with as many pairs") {
 
 TEST_CASE("L-BFGS: a move that raises the objective is taken back, for the plain one") {
   Random random;
-  ThreadPool threads(1);
   Lbfgs lbfgs;
   constexpr Index vertices = 20;
   Positions q = random.positions(vertices, 1);
   lbfgs.begin(vertices);
   LocalResult local{.inertia = 1, .elastic = 2};
-  lbfgs.move(local, force(q), force(q) / 10, 0, q, threads);
+  move(lbfgs, local, force(q), force(q) / 10, q);
   CHECK(lbfgs.is_plain());
   local.elastic = 1;
   const Positions before = q;
   const Positions r = force(q);
-  lbfgs.move(local, r, r / 10, 0, q, threads);
+  move(lbfgs, local, r, r / 10, q);
   CHECK_FALSE(same_bits(q, before + r / 10));
   CHECK_FALSE(lbfgs.has_risen(local));
   local.elastic = 1 + 1e-9;
   CHECK(lbfgs.has_risen(local));
   local.elastic = std::numeric_limits<Real>::quiet_NaN();
   CHECK(lbfgs.has_risen(local));
-  lbfgs.move_plainly(r / 10, q);
+  lbfgs.move_plainly(r / 10, 0, q);
   CHECK(same_bits(q, before + r / 10));
   CHECK(lbfgs.is_plain());
 
@@ -137,24 +141,37 @@ TEST_CASE("L-BFGS: a move that raises the objective is taken back, for the plain
     Lbfgs fresh;
     Positions other = before;
     fresh.begin(vertices);
-    fresh.move(local, r, r / 10, 0, other, threads);
+    move(fresh, local, r, r / 10, other);
     for (int i = 0; i < 10; ++i) {
-      lbfgs.move(local, force(q), force(q) / 10, 0, q, threads);
-      fresh.move(local, force(other), force(other) / 10, 0, other, threads);
+      move(lbfgs, local, force(q), force(q) / 10, q);
+      move(fresh, local, force(other), force(other) / 10, other);
       CHECK((q - other).cwiseAbs().maxCoeff() <= 1e-7);
     }
   }
 }
 
-TEST_CASE("L-BFGS: along no positive curvature, the move is the plain one") {
+TEST_CASE("L-BFGS: a plain move is as short as the curvature that the matrix lacks asks for") {
   ThreadPool threads(1);
+  Lbfgs lbfgs;
+  const Positions r = Positions::Ones(4, 3);
+  Positions q = Positions::Zero(4, 3);
+  lbfgs.begin(4);
+  lbfgs.prepare({}, r, r / 10, threads);
+  CHECK(lbfgs.is_plain());
+  lbfgs.move(r / 10, 3.6, q, threads);  // xᵀr is 1.2
+  CHECK((q - r / 40).norm() < 1e-8);  // kept in single precision
+  lbfgs.shorten(0.5, r / 10, q);
+  CHECK((q - r / 80).norm() < 1e-8);
+}
+
+TEST_CASE("L-BFGS: along no positive curvature, the move is the plain one") {
   Lbfgs lbfgs;
   Positions q = Positions::Ones(4, 3);
   lbfgs.begin(4);
   for (int i = 0; i < 5; ++i) {  // the force grows along the way
     const Positions before = q;
     const Positions r = q;
-    lbfgs.move({}, r, r, 0, q, threads);
+    move(lbfgs, {}, r, r, q);
     CHECK(same_bits(q, before + r));
     CHECK(lbfgs.is_plain());
   }

@@ -23,6 +23,7 @@ struct Row {
   std::vector<Real> masses{1, 2, 3};
   ThreadPool threads{1};
   SetUpTimes times;
+  std::vector<Real> more;  // on the diagonal
 
   Row() {
     for (const Index first : {0, 1}) add(first, first + 1);
@@ -37,7 +38,7 @@ struct Row {
   }
   void make(Real step) {
     if (system.needs_layout()) system.lay_out();
-    if (system.needs_factor(step)) system.factorize(masses, step, Precision::double_, threads, times);
+    if (system.needs_factor(step, more)) system.factorize(masses, more, step, Precision::double_, threads, times);
   }
 };
 
@@ -48,20 +49,20 @@ TEST_CASE("a system asks for a layout and a factor when something in it has chan
   CHECK(row.system.needs_layout());
   row.make(0.1);
   CHECK(!row.system.needs_layout());
-  CHECK(!row.system.needs_factor(0.1));
-  CHECK(row.system.needs_factor(0.2));
+  CHECK(!row.system.needs_factor(0.1, row.more));
+  CHECK(row.system.needs_factor(0.2, row.more));
   row.springs.set_stiffness(20);
   CHECK(!row.system.needs_layout());
-  CHECK(row.system.needs_factor(0.1));
+  CHECK(row.system.needs_factor(0.1, row.more));
   row.make(0.1);
-  CHECK(!row.system.needs_factor(0.1));
+  CHECK(!row.system.needs_factor(0.1, row.more));
   row.system.forget_factor();
-  CHECK(row.system.needs_factor(0.1));
+  CHECK(row.system.needs_factor(0.1, row.more));
   row.make(0.1);
   row.add(0, 2);
   CHECK(row.system.needs_layout());
   row.make(0.1);
-  CHECK(!row.system.needs_factor(0.1));
+  CHECK(!row.system.needs_factor(0.1, row.more));
   row.system.set_groups(3, {});
   CHECK(row.system.needs_layout());
 }
@@ -74,6 +75,14 @@ TEST_CASE("solving is what the factor of M/h² and the springs says") {
   Random random;
   const Positions r = random.positions(3, 1);
   Positions x(3, 3);
+  row.system.solve(r, x, row.threads);
+  CHECK((Y * x - r).cwiseAbs().maxCoeff() < 1e-12);
+  row.more = {1, 2, 3};
+  CHECK(row.system.needs_factor(0.5, row.more));
+  row.make(0.5);
+  CHECK(!row.system.needs_factor(0.5, row.more));
+  CHECK(row.system.needs_factor(0.5, {}));
+  Y.diagonal() += Vec3(1, 2, 3);
   row.system.solve(r, x, row.threads);
   CHECK((Y * x - r).cwiseAbs().maxCoeff() < 1e-12);
   CHECK(row.system.components().count() == 1);

@@ -202,9 +202,12 @@ void Colliders::check_contact(const ContactState& contact) const {
     if (!is_known) fail("a contact is of a vertex or a collider that there is not");
     if (!each.anchor.allFinite() || !(each.load >= 0 && std::isfinite(each.load))) fail("a contact is not finite");
   }
-  const auto is_factor = [](Real factor) { return factor >= 1 && std::isfinite(factor); };
-  const bool fits = contact.stiffening.empty() || contact.stiffening.size() == state_.masses.size();
-  if (!fits || !std::ranges::all_of(contact.stiffening, is_factor)) fail("a stiffness of contacts is out of range");
+  const auto fits = [&](const std::vector<Real>& numbers, Real least) {
+    const auto is_in_range = [least](Real number) { return number >= least && std::isfinite(number); };
+    return (numbers.empty() || numbers.size() == state_.masses.size()) && std::ranges::all_of(numbers, is_in_range);
+  };
+  if (!fits(contact.stiffening, 1)) fail("a stiffness of contacts is out of range");
+  if (!fits(contact.in_factor, 0)) fail("what the factor has of contact is out of range");
 }
 
 }  // namespace pliant

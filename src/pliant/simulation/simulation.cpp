@@ -75,6 +75,7 @@ BodyId Simulation::add_body(Mesh mesh, const Mass& mass, BodyOptions options) {
   state_.masses.insert(state_.masses.end(), masses.begin(), masses.end());
   if (!state_.energy_surplus.empty()) state_.energy_surplus.resize(state_.masses.size(), 0);
   if (!state_.contact.stiffening.empty()) state_.contact.stiffening.resize(state_.masses.size(), 1);
+  if (!state_.contact.in_factor.empty()) state_.contact.in_factor.resize(state_.masses.size(), 0);
   bodies_.push_back({std::move(options.name), std::move(mesh), first_vertex});
   groups_changed_ = true;
   colliders_changed_ = true;
@@ -192,6 +193,7 @@ void Simulation::set_state(const Positions& positions, const Positions& velociti
   state_.energy_surplus.clear();
   state_.contact.memory.clear();
   state_.contact.stiffening.clear();
+  state_.contact.in_factor.clear();
   solver_->forget_prediction();
 }
 

@@ -12,6 +12,9 @@ namespace {
 /// Of the iterations, after which friction is refreshed.
 constexpr std::array<Real, 2> refreshed_after = {0.3, 0.8};
 
+/// In so many steps in a row contact must have been light to leave the factor.
+constexpr Index light_steps_needed = 10;
+
 /// Adds the time that it lives to a sum.
 class AddedTime {
  public:
@@ -49,6 +52,12 @@ void ContactSolver::begin_step(const State& state, Real h) {
   }
 }
 
+void ContactSolver::gather(const State& state, const System& system, WorkingState& work) const {
+  work.in_factor.clear();
+  if (is_active()) system.order().gather(state.contact.in_factor, work.in_factor);
+  work.light_steps = state.contact.light_steps;
+}
+
 void ContactSolver::begin_substep(const State& state, Real begin, Real end, Real h, const System& system,
                                   WorkingState& work, ThreadPool& threads) {
   const AddedTime timed(seconds_);
@@ -59,8 +68,6 @@ void ContactSolver::begin_substep(const State& state, Real begin, Real end, Real
   }
   system.order().gather(radii_, local_radii_);
   refreshes_ = 0;
-  work.contact_in_factor = state.contact.is_in_factor;
-  work.light_steps = state.contact.light_steps;
   const ContactStep step{work.begin.positions,
                          work.begin.masses,
                          local_radii_,
@@ -73,7 +80,7 @@ void ContactSolver::begin_substep(const State& state, Real begin, Real end, Real
 
 void ContactSolver::add(WorkingState& work, LocalResult& local, ThreadPool& threads) {
   const AddedTime timed(seconds_);
-  const ContactSums sums = contact_.add(work.positions, work.residual, threads);
+  const ContactSums sums = contact_.add(work.residual, threads);
   local.contact = sums.energy;
   local.residual = std::sqrt(sums.squared_residual);
 }
@@ -86,7 +93,7 @@ bool ContactSolver::refresh(Index iteration, Index iterations, bool has_converge
   if (iteration < due && !has_converged) return false;
   const AddedTime timed(seconds_);
   ++refreshes_;
-  const ContactSums sums = contact_.refresh(work.positions, work.residual, threads);
+  const ContactSums sums = contact_.refresh(work.residual, threads);
   local.contact = sums.energy;
   local.residual = std::sqrt(sums.squared_residual);
   return true;
@@ -97,12 +104,13 @@ HeldBack ContactSolver::hold_back(Positions& q, ThreadPool& threads) {
   return contact_.hold_back(q, threads);
 }
 
-void ContactSolver::commit_substep(const System& system, const WorkingState& work, State& state,
+void ContactSolver::commit_substep(const System& system, WorkingState& work, ThreadPool& threads, State& state,
                                    ContactReport& report) {
   const Stopwatch watch;
-  contact_.commit(work.positions, system.diagonal(), state.contact);
-  state.contact.is_in_factor = work.contact_in_factor;
-  state.contact.light_steps = work.light_steps;
+  contact_.commit(work.positions, system.diagonal(), state.contact, threads);
+  if (work.light_steps >= light_steps_needed) work.in_factor.clear();
+  state.contact.light_steps = work.in_factor.empty() ? 0 : work.light_steps;
+  system.order().scatter(work.in_factor, state.contact.in_factor);
   report.held_back += contact_.held_back();
   report.contacts = count_of(contact_.points());
   report.deepest = 0;

@@ -22,19 +22,22 @@ class ContactSolver {
   void set(std::vector<SolverCollider> colliders, std::vector<Real> radii);
   bool is_active() const { return contact_.is_active(); }
 
+  /// What the factor is to have of contact.
+  void gather(const State& state, const System& system, WorkingState& work) const;
   /// A step of length h [s] begins. The state has these colliders, in their order.
   void begin_step(const State& state, Real h);
   /// One of its substeps, of length h [s], from share `begin` to share `end` of it, at the iterate of `work`.
   void begin_substep(const State& state, Real begin, Real end, Real h, const System& system, WorkingState& work,
                      ThreadPool& threads);
-  /// Adds forces at the iterate to the residual, and energy to what the local step found.
+  /// Adds the forces that were found last to the residual, and their energy to what the local step found.
   void add(WorkingState& work, LocalResult& local, ThreadPool& threads);
   /// Refreshes the loads of friction when it is time: at three and eight tenths of the iterations, or once they have
   /// converged before. Returns whether it has.
   bool refresh(Index iteration, Index iterations, bool has_converged, WorkingState& work, LocalResult& local,
                ThreadPool& threads);
   HeldBack hold_back(Positions& q, ThreadPool& threads);
-  void commit_substep(const System& system, const WorkingState& work, State& state, ContactReport& report);
+  void commit_substep(const System& system, WorkingState& work, ThreadPool& threads, State& state,
+                      ContactReport& report);
   void commit_step(State& state) const;
 
   Contact& contact() { return contact_; }

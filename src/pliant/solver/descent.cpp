@@ -1,15 +1,18 @@
 #include "pliant/solver/descent.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace pliant {
 namespace {
 
-/// Contact goes into the factor when a plain move would be shorter than this, and out of it again after so many steps
-/// in which it would have been longer than that.
+/// Contact goes into the factor when a plain move would be shorter than this; in light steps it would have been longer
+/// than that.
 constexpr Real shortest_length = 0.25;
 constexpr Real good_length = 0.5;
-constexpr Index light_steps_needed = 10;
+/// The contact that is in the factor is taken anew when it makes a plain move so short, or so long.
+constexpr Real shortest_of_factor = 0.25;
+constexpr Real longest_of_factor = 8;
 
 Real scalar_product(const Positions& a, const Positions& b) {
   return a.cwiseProduct(b).sum();
@@ -23,7 +26,6 @@ void Descent::begin(const StepContext& context) {
   is_accelerated_ = chosen == Acceleration::lbfgs || (chosen == Acceleration::automatic && checks_plain_moves_);
   has_moved_ = false;
   is_first_ = true;
-  is_contact_in_factor_ = false;
   if (is_needed()) lbfgs_.begin(context.system.vertex_count());
 }
 
@@ -53,7 +55,8 @@ LocalResult Descent::local_step(const StepContext& context, WorkingState& work, 
 
 void Descent::go_back(Index cuts, const StepContext& context, WorkingState& work) {
   if (!lbfgs_.is_plain()) {
-    lbfgs_.move_plainly(work.solution, work.positions);
+    if (context.contact.is_active()) context.contact.contact().find_forces(lbfgs_.positions_before(), context.threads);
+    lbfgs_.move_plainly(work.solution, curvature(context, work), work.positions);
     has_moved_ = checks_plain_moves_;
   } else {
     lbfgs_.shorten(cuts < most_cuts ? cut : 0, work.solution, work.positions);
@@ -71,63 +74,68 @@ void Descent::hold_back(const StepContext& context, WorkingState& work) {
 }
 
 void Descent::move(const LocalResult& local, const StepContext& context, WorkingState& work, StepReport& report) {
-  const Real curvature = solve(local, context, work, report);
+  solve(local, context, work, report);
   if (!is_accelerated_) lbfgs_.forget();
-  lbfgs_.move(local, work.residual, work.solution, curvature, work.positions, context.threads);
+  lbfgs_.prepare(local, work.residual, work.solution, context.threads);
+  lbfgs_.move(work.solution, lbfgs_.is_plain() ? curvature(context, work) : 0, work.positions, context.threads);
   has_moved_ = true;
   hold_back(context, work);
 }
 
-/// x = B⁻¹ r, with contact in B where that dominates. Returns xᵀ (C − D) x, by which a plain move is shorter.
-Real Descent::solve(const LocalResult& local, const StepContext& context, WorkingState& work, StepReport& report) {
+/// x = B⁻¹ r, with contact in B where that dominates.
+void Descent::solve(const LocalResult& local, const StepContext& context, WorkingState& work, StepReport& report) {
   const auto solve_system = [&] {
     report.solves += context.system.solve(work.residual, local.residual, work.solution, context.threads);
   };
-  const bool is_first = std::exchange(is_first_, false);
-  is_contact_in_factor_ |= is_first && context.contact.is_active() && work.contact_in_factor;
-  if (is_first && is_contact_in_factor_) factorize(context, work, report);
   solve_system();
-  if (!context.contact.is_active()) return 0;
-  if (is_first && judge_contact(context, work)) {
+  const bool is_first = std::exchange(is_first_, false);
+  if (is_first && context.contact.is_active() && must_factorize(context, work)) {
     factorize(context, work, report);
     solve_system();
   }
+}
+
+/// xᵀ (C − D) x, by which a plain move is shorter, with C of where the forces were found last.
+Real Descent::curvature(const StepContext& context, const WorkingState& work) const {
+  if (!context.contact.is_active()) return 0;
   return context.contact.contact().curvature(work.solution) - in_factor(work);
 }
 
-/// Whether contact is to go into the factor now, or for how many steps more it stays there: by how short a plain move
-/// on Y would be for the contacts alone that are far stiffer than they were at first.
-bool Descent::judge_contact(const StepContext& context, WorkingState& work) {
-  const Real resistance = scalar_product(work.solution, work.residual) - in_factor(work);
-  const Real stiffened = context.contact.contact().stiffened_curvature(work.solution);
-  const Real length = resistance / (resistance + stiffened);
-  if (is_contact_in_factor_) {
-    work.light_steps = length > good_length ? work.light_steps + 1 : 0;
-    work.contact_in_factor = work.light_steps < light_steps_needed;
-    return false;
+/// Whether contact is to go into the factor, or into it as it is now, and for how many steps more it stays there. The
+/// first is decided by how short a plain move on Y would be for the contacts alone that are far stiffer than they were
+/// at first; the second by how far D is from C.
+bool Descent::must_factorize(const StepContext& context, WorkingState& work) const {
+  const Contact& contact = context.contact.contact();
+  const Real along = scalar_product(work.solution, work.residual);
+  const Real of_contact = in_factor(work);
+  const Real resistance = along - of_contact;
+  const Real length = resistance / (resistance + contact.stiffened_curvature(work.solution));
+  if (work.in_factor.empty()) {
+    work.light_steps = 0;
+    return length < shortest_length;
   }
-  work.light_steps = 0;
-  work.contact_in_factor = is_contact_in_factor_ = length < shortest_length;
-  return is_contact_in_factor_;
+  work.light_steps = length > good_length ? work.light_steps + 1 : 0;
+  const Real ratio = along / (resistance + contact.curvature(work.solution));
+  return ratio < shortest_of_factor || ratio > longest_of_factor;
 }
 
 /// xᵀ D x
-Real Descent::in_factor(const WorkingState& work) const {
-  if (!is_contact_in_factor_) return 0;
+Real Descent::in_factor(const WorkingState& work) {
   Real sum = 0;
-  for (std::size_t i = 0; i < diagonal_.size(); ++i) {
-    sum += diagonal_[i] * work.solution.row(static_cast<Index>(i)).squaredNorm();
+  for (std::size_t i = 0; i < work.in_factor.size(); ++i) {
+    sum += work.in_factor[i] * work.solution.row(static_cast<Index>(i)).squaredNorm();
   }
   return sum;
 }
 
 void Descent::factorize(const StepContext& context, WorkingState& work, StepReport& report) {
-  diagonal_.assign(at(context.system.vertex_count()), 0);
-  context.contact.contact().add_diagonal(diagonal_);
+  work.in_factor.assign(at(context.system.vertex_count()), 0);
+  context.contact.contact().add_diagonal(work.in_factor);
+  if (std::ranges::all_of(work.in_factor, [](Real each) { return each == 0; })) work.in_factor.clear();
   SetUpTimes times;
-  context.system.factorize_with(diagonal_, work.begin.masses,
-                                inertia_step(context.settings.integrator, context.time_step),
-                                context.settings.precision, context.threads, times);
+  context.system.factorize(work.begin.masses, work.in_factor,
+                           inertia_step(context.settings.integrator, context.time_step), context.settings.precision,
+                           context.threads, times);
   ++report.contact.refactorizations;
 }
 

@@ -29,9 +29,10 @@ class Descent {
   LocalResult evaluate(const StepContext& context, WorkingState& work) const;
   bool must_go_back(const LocalResult& local) const;
   void go_back(Index cuts, const StepContext& context, WorkingState& work);
-  Real solve(const LocalResult& local, const StepContext& context, WorkingState& work, StepReport& report);
-  bool judge_contact(const StepContext& context, WorkingState& work);
-  Real in_factor(const WorkingState& work) const;
+  void solve(const LocalResult& local, const StepContext& context, WorkingState& work, StepReport& report);
+  Real curvature(const StepContext& context, const WorkingState& work) const;
+  bool must_factorize(const StepContext& context, WorkingState& work) const;
+  static Real in_factor(const WorkingState& work);
   void factorize(const StepContext& context, WorkingState& work, StepReport& report);
   void hold_back(const StepContext& context, WorkingState& work);
 
@@ -40,8 +41,6 @@ class Descent {
   bool checks_plain_moves_ = false;  // contact: the factor is no bound
   bool has_moved_ = false;           // and the objective is still the one that the move was made for
   bool is_first_ = true;             // of the moves of a substep
-  bool is_contact_in_factor_ = false;
-  std::vector<Real> diagonal_;  // D of the factor, if so [N/m]
 };
 
 }  // namespace pliant

@@ -48,9 +48,9 @@ void Solver::prepare(const State& state, StepReport& report) {
   work_.gather(state, system_.order());
   if (substep_fraction_ < 1) system_.order().gather(step_start_.positions, work_.step_begin);
   const Real step = inertia_step(settings_.integrator, substep());
-  const bool is_later = contact_.is_active() && state.contact.is_in_factor && system_.has_factor();
-  if (system_.needs_factor(step) && !is_later) {
-    system_.factorize(work_.begin.masses, step, settings_.precision, threads_.pool(), times);
+  contact_.gather(state, system_, work_);
+  if (system_.needs_factor(step, work_.in_factor)) {
+    system_.factorize(work_.begin.masses, work_.in_factor, step, settings_.precision, threads_.pool(), times);
   }
   history_.clear();
   if (times.numeric > 0 || report.seconds_factor == 0) report.set_up = times;
@@ -83,7 +83,10 @@ Evaluation Solver::evaluate(const State& state) {
   system_.set_inertia(work_.begin.masses, is_predicted ? work_.predicted_step : substep());
   work_.positions = work_.begin.positions;
   LocalResult found = system_.local_step(work_.positions, work_.prediction, work_.residual, threads_.pool());
-  if (is_predicted && !is_new && contact_.contact().has_begun()) contact_.add(work_, found, threads_.pool());
+  if (is_predicted && !is_new && contact_.contact().has_begun()) {
+    contact_.contact().find_forces(work_.positions, threads_.pool());
+    contact_.add(work_, found, threads_.pool());
+  }
   Evaluation evaluation{found.residual, found.inertia, found.elastic};
   evaluation.contact = found.contact;
   return evaluation;

@@ -122,34 +122,24 @@ void System::set_inertia(std::span<const Real> masses, Real step) {
   }
 }
 
-bool System::needs_factor(Real step) const {
-  if (factor_step_ != step || is_of_more_) return true;
+bool System::needs_factor(Real step, std::span<const Real> diagonal) const {
+  if (factor_step_ != step || !std::ranges::equal(added_diagonal_, diagonal)) return true;
   for (std::size_t g = 0; g < simulation_groups_.size(); ++g) {
     if (simulation_groups_[g]->stiffness() != stamps_[g].stiffness) return true;
   }
   return false;
 }
 
-void System::factorize(std::span<const Real> masses, Real step, Precision precision, ThreadPool& threads,
-                       SetUpTimes& times) {
+void System::factorize(std::span<const Real> masses, std::span<const Real> diagonal, Real step, Precision precision,
+                       ThreadPool& threads, SetUpTimes& times) {
   const Stopwatch watch;
   set_inertia(masses, step);
   sum(masses, step);
-  times.assembly = watch.seconds();
-  factorize_sum(precision, threads, times);
-  is_of_more_ = false;
-  factor_step_ = step;
-}
-
-void System::factorize_with(std::span<const Real> diagonal, std::span<const Real> masses, Real step,
-                            Precision precision, ThreadPool& threads, SetUpTimes& times) {
-  const Stopwatch watch;
-  sum(masses, step);
-  matrix_.add_diagonal(diagonal);
+  if (!diagonal.empty()) matrix_.add_diagonal(diagonal);
   for (std::size_t i = 0; i < diagonal.size(); ++i) translation_weights_[i] += diagonal[i];
   times.assembly = watch.seconds();
   factorize_sum(precision, threads, times);
-  is_of_more_ = true;
+  added_diagonal_.assign(diagonal.begin(), diagonal.end());
   factor_step_ = step;
 }
 

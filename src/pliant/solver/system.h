@@ -42,14 +42,12 @@ class System {
 
   /// Masses [kg] of the vertices, and η of a step [s].
   void set_inertia(std::span<const Real> masses, Real step);
-  /// Whether the factor is of another η, of other stiffnesses, or not of Y alone.
-  bool needs_factor(Real step) const;
-  /// Sums Y and factorizes it. Throws Error(input) where it is not positive definite.
-  void factorize(std::span<const Real> masses, Real step, Precision precision, ThreadPool& threads, SetUpTimes& times);
-  /// Factorizes Y + D instead, D a number for each vertex [N/m], of the same η as Y before: until needs_factor(), which
-  /// is at the next step.
-  void factorize_with(std::span<const Real> diagonal, std::span<const Real> masses, Real step, Precision precision,
-                      ThreadPool& threads, SetUpTimes& times);
+  /// Whether the factor is of another η, of other stiffnesses, or has another diagonal D added.
+  bool needs_factor(Real step, std::span<const Real> diagonal) const;
+  /// Sums Y and factorizes it, with D added, a number for each vertex [N/m]; empty: nothing. Throws Error(input) where
+  /// it is not positive definite.
+  void factorize(std::span<const Real> masses, std::span<const Real> diagonal, Real step, Precision precision,
+                 ThreadPool& threads, SetUpTimes& times);
 
   /// r = M/η² (s − q) + Σ w SᵀAᵀ (p − z), zero at pinned vertices.
   LocalResult local_step(const Positions& q, const Positions& s, Positions& r, ThreadPool& threads);
@@ -118,8 +116,8 @@ class System {
   SystemMatrix matrix_;
   std::vector<Real> diagonal_;
   GlobalStep global_step_;
-  Real factor_step_ = 0;     // η of the matrix that was factorized; 0: there is no factor
-  bool is_of_more_ = false;  // than Y
+  Real factor_step_ = 0;  // η of the matrix that was factorized; 0: there is no factor
+  std::vector<Real> added_diagonal_;
   bool is_analyzed_ = false;
 };
 

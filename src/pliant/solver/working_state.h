@@ -18,8 +18,8 @@ struct WorkingState {
   Positions solution;          ///< x = Y⁻¹ r, m × 3 [m]; where the global step is accelerated
   Positions velocities;        ///< vₙ₊₁, m × 3 [m/s]
   std::vector<Real> energy_surplus;  ///< for the next step (State::energy_surplus); empty: nothing
-  bool contact_in_factor = false;    ///< for the next step (ContactState)
-  Index light_steps = 0;             ///< the same
+  std::vector<Real> in_factor;       ///< D of contact [N/m], also for the next step; empty: none (ContactState)
+  Index light_steps = 0;             ///< of those for the next step
   Real predicted_step = 0;           ///< η of the prediction [s]; 0: it does not belong to the state
 
   /// For m vertices; without a prediction.

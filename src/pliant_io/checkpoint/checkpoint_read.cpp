@@ -256,7 +256,9 @@ ContactState read_contact(const Node& node, const State& fresh) {
   const Node stiffening = node.require("stiffening");
   if (!stiffening.is_bytes() || !stiffening.bytes().empty()) contact.stiffening.resize(fresh.masses.size());
   read_numbers(stiffening, contact.stiffening);
-  read(node.require("is_in_factor"), contact.is_in_factor);
+  const Node in_factor = node.require("in_factor");
+  if (!in_factor.is_bytes() || !in_factor.bytes().empty()) contact.in_factor.resize(fresh.masses.size());
+  read_numbers(in_factor, contact.in_factor);
   read(node.require("light_steps"), contact.light_steps);
   if (contact.light_steps < 0 || contact.light_steps > most_light_steps) {
     node.require("light_steps").fail(fmt::format("{} is out of range; take another checkpoint", contact.light_steps));

@@ -98,7 +98,7 @@ Json write_contact(const ContactState& contact) {
           {"touched", std::move(touched)},
           {"anchors_and_loads", bytes_of(numbers)},
           {"stiffening", bytes_of(contact.stiffening)},
-          {"is_in_factor", contact.is_in_factor},
+          {"in_factor", bytes_of(contact.in_factor)},
           {"light_steps", contact.light_steps}};
 }
 

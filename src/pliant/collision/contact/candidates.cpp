@@ -1,7 +1,6 @@
 // Which vertices may touch which colliders in a substep, and how they are kept outside.
 #include <algorithm>
 #include <limits>
-#include <tuple>
 
 #include "pliant/collision/contact/contact.h"
 
@@ -37,16 +36,21 @@ void Contact::begin_substep(const ContactStep& step, const ContactState& state, 
   step_.emplace(step);
   stiffening_ = state.stiffening;
   held_back_ = 0;
+  rotations_.clear();
+  for (const ContactCollider& each : colliders_) rotations_.push_back(each.end.rotation.toRotationMatrix());
   const auto count = static_cast<Index>(q.rows());
   reference_.resize(count, 3);
   margins_.resize(at(count));
   chunks_.resize(at((count + vertices_of_chunk - 1) / vertices_of_chunk));
+  memory_of_vertices_.assign(at(count), count_of(state.memory));
+  for (Index i = count_of(state.memory); i-- > 0;) memory_of_vertices_[at(state.memory[at(i)].vertex)] = i;
   for_each_chunk(threads, [&](Chunk& chunk, Index begin, Index end) {
     chunk.candidates.clear();
     find_candidates(chunk, begin, end, q);
     hold_back(chunk, begin, end, q);
     for (Candidate& each : chunk.candidates) recall(state, q, each);
   });
+  find_forces(q, threads);
 }
 
 HeldBack Contact::hold_back(Positions& q, ThreadPool& threads) {
@@ -100,19 +104,20 @@ void Contact::find_candidates(Chunk& chunk, Index begin, Index end, const Positi
       if (reach >= slack) {
         margin = std::min(margin, reach);
       } else {
-        chunk.candidates.push_back(make_candidate(i, c, a));
+        chunk.candidates.push_back(make_candidate(i, c, collider.end.to_space(first), a));
       }
     }
   }
 }
 
 /// A vertex that begins inside is led out by one contact distance a step, and no move may lead it further in.
-Contact::Candidate Contact::make_candidate(Index vertex, Index collider, Real begin_distance) const {
+ContactCandidate Contact::make_candidate(Index vertex, Index collider, const Vec3& begin, Real begin_distance) const {
   const Real radius = step_->radii[at(vertex)];
   const auto number = at(number_of(vertex));
   Candidate made;
   made.vertex = vertex;
   made.collider = collider;
+  made.begin = begin;
   made.begin_distance = begin_distance;
   made.radius = std::min(radius, begin_distance + radius);
   made.floor = std::min(least_gap * radius, begin_distance);
@@ -123,42 +128,39 @@ Contact::Candidate Contact::make_candidate(Index vertex, Index collider, Real be
 
 /// What the last step has left of a contact.
 void Contact::recall(const ContactState& state, const Positions& q, Candidate& candidate) const {
-  const ContactCollider& collider = colliders_[at(candidate.collider)];
-  const std::pair key{number_of(candidate.vertex), collider.number};
-  const auto found = std::ranges::lower_bound(state.memory, key, {}, [](const ContactMemory& each) {
-    return std::pair{each.vertex, each.collider};
-  });
-  if (found == state.memory.end() || std::pair{found->vertex, found->collider} != key) return;
-  candidate.has_anchor = true;
-  candidate.anchor = carried(candidate, found->anchor);
-  candidate.load = found->load;
-  look_at(candidate, row(q, candidate.vertex));
-  candidate.friction_normal = candidate.normal;
+  const Index number = number_of(candidate.vertex);
+  const Index collider = colliders_[at(candidate.collider)].number;
+  for (Index i = memory_of_vertices_[at(number)]; i < count_of(state.memory); ++i) {
+    const ContactMemory& each = state.memory[at(i)];
+    if (each.vertex != number) return;
+    if (each.collider != collider) continue;
+    candidate.has_anchor = true;
+    candidate.anchor = carried(candidate, colliders_[at(candidate.collider)].end.to_space(each.anchor));
+    candidate.load = each.load;
+    look_at(candidate, row(q, candidate.vertex));
+    candidate.friction_normal = candidate.normal;
+  }
 }
 
-/// Its distance and normal at x, unless they are known.
-void Contact::look_at(Candidate& candidate, const Vec3& x) const {
-  if (candidate.place == x) return;
+void Contact::find_distance(Candidate& candidate, const Vec3& x) const {
   candidate.place = x;
   if (candidate.is_guarded) {
-    candidate.distance = candidate.guard_normal.dot(x - candidate.guard_point);
-    candidate.normal = candidate.guard_normal;
+    candidate.distance = candidate.normal.dot(x) - candidate.guard_offset;
     return;
   }
   const ContactCollider& collider = colliders_[at(candidate.collider)];
-  const SignedDistance found = collider.shape->distance(collider.end.to_frame(x));
+  const Mat3& rotation = rotations_[at(candidate.collider)];
+  const SignedDistance found = collider.shape->distance(rotation.transpose() * (x - collider.end.position));
   candidate.distance = found.distance;
-  candidate.normal = collider.end.rotation * found.normal;
+  candidate.normal.noalias() = rotation * found.normal;
 }
 
-/// Makes the collider a half-space to a vertex whose way to x, which was looked at, leads through it.
-bool Contact::guard(Candidate& candidate, const Vec3& x) const {
-  if (candidate.is_guarded || candidate.begin_distance < 0) return false;
+/// Makes the collider a half-space to a vertex whose way here, where it was looked at, leads through it.
+bool Contact::guard(Candidate& candidate) const {
   const ContactCollider& collider = colliders_[at(candidate.collider)];
   const ColliderShape& shape = *collider.shape;
-  const Vec3 from = collider.begin.to_frame(row(step_->begin, candidate.vertex));
-  const Vec3 to = collider.end.to_frame(x);
-  if (candidate.begin_distance + candidate.distance > (to - from).norm()) return false;
+  const Vec3 from = collider.end.to_frame(candidate.begin);
+  const Vec3 to = collider.end.to_frame(candidate.place);
   const Vec3 last_normal = collider.end.rotation.conjugate() * candidate.normal;
   if (shape.distance(from).normal.dot(last_normal) >= same_side) return false;
   const std::optional<Vec3> place = entry(shape, from, to, least_gap * least_gap * step_->radii[at(candidate.vertex)]);
@@ -166,10 +168,9 @@ bool Contact::guard(Candidate& candidate, const Vec3& x) const {
   const Vec3 normal = shape.distance(*place).normal;
   if (normal.dot(last_normal) >= same_side) return false;
   candidate.is_guarded = true;
-  candidate.guard_point = collider.end.to_space(*place);
-  candidate.guard_normal = collider.end.rotation * normal;
-  candidate.place.setConstant(std::numeric_limits<Real>::quiet_NaN());
-  look_at(candidate, x);
+  candidate.normal = collider.end.rotation * normal;
+  candidate.guard_offset = candidate.normal.dot(collider.end.to_space(*place));
+  candidate.distance = candidate.normal.dot(candidate.place) - candidate.guard_offset;
   return true;
 }
 
@@ -179,12 +180,15 @@ void Contact::hold_back(Chunk& chunk, Index begin, Index end, Positions& q) {
   chunk.held_back = 0;
   for (int round = 0; round < most_sweeps; ++round) {
     const Index before = chunk.held_back;
-    auto first = chunk.candidates.begin();
-    while (first != chunk.candidates.end()) {
-      const auto last = std::find_if(first, chunk.candidates.end(),
-                                     [&](const Candidate& other) { return other.vertex != first->vertex; });
-      hold_back({first, last}, chunk, q);
-      first = last;
+    const std::span<Candidate> all = chunk.candidates;
+    chunk.forces.resize(all.size());
+    for (std::size_t i = 0, next = 0; i < all.size(); i = next) {
+      while (next < all.size() && all[next].vertex == all[i].vertex) ++next;
+      hold_back(all.subspan(i, next - i), chunk, q);
+      for (std::size_t k = i; k < next; ++k) {
+        look_at(all[k], row(q, all[k].vertex));
+        chunk.forces[k] = force(all[k]);
+      }
     }
     if (chunk.held_back == before || is_current(begin, end, q)) return;
     find_candidates(chunk, begin, end, q);
@@ -198,7 +202,7 @@ void Contact::hold_back(std::span<Candidate> of_vertex, Chunk& chunk, Positions&
     for (Candidate& each : of_vertex) {
       const Vec3 x = row(q, each.vertex);
       look_at(each, x);
-      chunk.done.has_new_potential |= guard(each, x);
+      if (each.may_pass()) chunk.done.has_new_potential |= guard(each);
       if (!(each.distance < each.floor)) continue;
       const Vec3 held = x + (each.floor - each.distance) * each.normal;
       if (held == x) continue;

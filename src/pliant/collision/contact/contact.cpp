@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
-
-#include "pliant/collision/contact/potential.h"
 
 namespace pliant {
 namespace {
@@ -28,43 +25,45 @@ void Contact::set_colliders(std::vector<ContactCollider> colliders) {
   if (colliders_.empty()) points_.clear();
 }
 
-ContactSums Contact::add(const Positions& q, Positions& r, ThreadPool& threads) {
-  for_each_chunk(threads, [&](Chunk& chunk, Index begin, Index end) {
-    chunk.sums = {};
+void Contact::find_forces(const Positions& q, ThreadPool& threads) {
+  for_each_chunk(threads, [&](Chunk& chunk, Index, Index) {
+    chunk.forces.clear();
     for (Candidate& each : chunk.candidates) {
-      const Vec3 x = row(q, each.vertex);
-      look_at(each, x);
-      const Potential push = normal_potential(each.stiffness, each.radius, each.distance);
-      each.normal_force = push.force;
-      each.normal_curvature = push.curvature;
-      add_friction(each, x);
-      chunk.sums.energy += push.energy + each.friction_energy;
-      r.row(each.vertex) += (push.force * each.normal + each.friction).transpose();
+      look_at(each, row(q, each.vertex));
+      chunk.forces.push_back(force(each));
     }
-    for (Index i = begin; i < end; ++i) {
-      chunk.sums.squared_residual = std::max(chunk.sums.squared_residual, r.row(i).squaredNorm());
-    }
+  });
+}
+
+ContactSums Contact::add(Positions& r, ThreadPool& threads) {
+  for_each_chunk(threads, [&](Chunk& chunk, Index begin, Index end) {
+    for (const Force& each : chunk.forces) r.row(each.vertex) += each.force.transpose();
+    add_up(chunk, begin, end, r);
   });
   return total();
 }
 
-ContactSums Contact::refresh(const Positions& q, Positions& r, ThreadPool& threads) {
+ContactSums Contact::refresh(Positions& r, ThreadPool& threads) {
   for_each_chunk(threads, [&](Chunk& chunk, Index begin, Index end) {
     if (chunk.candidates.empty()) return;
-    for (Candidate& each : chunk.candidates) {
-      const Vec3 before = each.friction;
-      const Real energy_before = each.friction_energy;
-      freeze(each);
-      add_friction(each, row(q, each.vertex));
-      chunk.sums.energy += each.friction_energy - energy_before;
-      r.row(each.vertex) += (each.friction - before).transpose();
+    for (std::size_t i = 0; i < chunk.candidates.size(); ++i) {
+      Candidate& candidate = chunk.candidates[i];
+      const Vec3 before = chunk.forces[i].force;
+      freeze(candidate);
+      chunk.forces[i] = force(candidate);
+      r.row(candidate.vertex) += (chunk.forces[i].force - before).transpose();
     }
-    chunk.sums.squared_residual = 0;
-    for (Index i = begin; i < end; ++i) {
-      chunk.sums.squared_residual = std::max(chunk.sums.squared_residual, r.row(i).squaredNorm());
-    }
+    add_up(chunk, begin, end, r);
   });
   return total();
+}
+
+void Contact::add_up(Chunk& chunk, Index begin, Index end, const Positions& r) {
+  chunk.sums = {};
+  for (const Force& each : chunk.forces) chunk.sums.energy += each.energy;
+  for (Index i = begin; i < end; ++i) {
+    chunk.sums.squared_residual = std::max(chunk.sums.squared_residual, r.row(i).squaredNorm());
+  }
 }
 
 ContactSums Contact::total() const {
@@ -76,40 +75,22 @@ ContactSums Contact::total() const {
   return sums;
 }
 
-/// The force of friction at x, its curvature and its energy.
-void Contact::add_friction(Candidate& candidate, const Vec3& x) const {
-  candidate.friction.setZero();
-  candidate.friction_curvature = 0;
-  candidate.friction_energy = 0;
-  const Real limit = colliders_[at(candidate.collider)].friction * candidate.load;
-  if (!candidate.has_anchor || !(limit > 0)) return;
-  const Vec3 slide = across(x - candidate.anchor, candidate.friction_normal);
-  const Real length = slide.norm();
-  const Potential pull = friction_potential(candidate.stiffness, limit, length);
-  if (length > 0) candidate.friction = -pull.force / length * slide;
-  candidate.friction_curvature = pull.curvature;
-  candidate.friction_energy = pull.energy;
-}
-
 /// Friction goes by what presses now.
 void Contact::freeze(Candidate& candidate) const {
-  candidate.load = candidate.normal_force;
+  candidate.load = candidate.push().force;
   if (!(candidate.load > 0)) return;
   candidate.friction_normal = candidate.normal;
   if (candidate.has_anchor) return;
-  candidate.anchor =
-      carried(candidate, colliders_[at(candidate.collider)].begin.to_frame(row(step_->begin, candidate.vertex)));
+  candidate.anchor = carried(candidate, candidate.begin);
   candidate.has_anchor = true;
 }
 
-/// Where a point of the collider's surface, in its frame at the beginning, is in space at the end of the substep.
+/// Where the surface velocity takes a point of the collider.
 Vec3 Contact::carried(const Candidate& candidate, const Vec3& point) const {
   const ContactCollider& collider = colliders_[at(candidate.collider)];
-  Vec3 moved = point;
-  if (!collider.surface_velocity.isZero(0)) {
-    moved += step_->time_step * across(collider.surface_velocity, collider.shape->distance(point).normal);
-  }
-  return collider.end.to_space(moved);
+  if (collider.surface_velocity.isZero(0)) return point;
+  const Vec3 normal = collider.shape->distance(collider.end.to_frame(point)).normal;
+  return point + step_->time_step * (collider.end.rotation * across(collider.surface_velocity, normal));
 }
 
 Real Contact::curvature(const Positions& p) const {
@@ -131,52 +112,56 @@ Real Contact::stiffened_curvature(const Positions& p) const {
   return sum;
 }
 
-Real Contact::curvature(const Candidate& candidate, const Vec3& way) {
+Real Contact::curvature(const Candidate& candidate, const Vec3& way) const {
   const Real along = candidate.normal.dot(way);
-  const Real sum = candidate.normal_curvature * along * along;
-  if (!(candidate.friction_curvature > 0)) return sum;
-  return sum + candidate.friction_curvature * across(way, candidate.friction_normal).squaredNorm();
+  const Real sum = candidate.push().curvature * along * along;
+  const Real of_friction = friction(candidate).curvature;
+  if (!(of_friction > 0)) return sum;
+  return sum + of_friction * across(way, candidate.friction_normal).squaredNorm();
 }
 
 void Contact::add_diagonal(std::span<Real> diagonal) const {
   for (const Chunk& chunk : chunks_) {
     for (const Candidate& each : chunk.candidates) {
-      diagonal[at(each.vertex)] += std::max(each.normal_curvature, each.friction_curvature);
+      diagonal[at(each.vertex)] += std::max(each.push().curvature, friction(each).curvature);
     }
   }
 }
 
-void Contact::commit(const Positions& q, std::span<const Real> diagonal, ContactState& state) {
+void Contact::commit(const Positions& q, std::span<const Real> diagonal, ContactState& state, ThreadPool& threads) {
+  const std::size_t count = step_->masses.size();
+  state.stiffening.assign(count, 1);
+  for (std::size_t i = 0; i < stiffening_.size(); ++i) state.stiffening[i] = std::max<Real>(1, softer * stiffening_[i]);
+  of_vertices_.assign(count, {});
+  for_each_chunk(threads, [&](Chunk& chunk, Index, Index) {
+    for (Candidate& each : chunk.candidates) {
+      look_at(each, row(q, each.vertex));
+      stiffen(each, diagonal, state);
+      std::span<Candidate>& of_vertex = of_vertices_[at(number_of(each.vertex))];
+      of_vertex = {of_vertex.empty() ? &each : of_vertex.data(), of_vertex.size() + 1};
+    }
+  });
   state.memory.clear();
   points_.clear();
-  state.stiffening.assign(step_->masses.size(), 1);
-  for (std::size_t i = 0; i < stiffening_.size(); ++i) state.stiffening[i] = std::max<Real>(1, softer * stiffening_[i]);
-  for (Chunk& chunk : chunks_) {
-    for (Candidate& each : chunk.candidates) {
-      const Vec3 x = row(q, each.vertex);
-      look_at(each, x);
-      stiffen(each, diagonal, state);
-      each.normal_force = normal_potential(each.stiffness, each.radius, each.distance).force;
-      add_friction(each, x);
-      if (!(each.normal_force > 0) && each.friction.isZero(0)) continue;
-      points_.push_back(point_of(each, x));
-      freeze(each);
-      if (each.load > 0) state.memory.push_back(memory_of(each, x));
-    }
+  for (const std::span<Candidate> of_vertex : of_vertices_) {
+    for (Candidate& each : of_vertex) keep(each, state);
   }
-  const auto by_vertex = [](const auto& a, const auto& b) {
-    return std::tie(a.vertex, a.collider) < std::tie(b.vertex, b.collider);
-  };
-  std::ranges::sort(points_, by_vertex);
-  std::ranges::sort(state.memory, by_vertex);
   add_up_wrenches();
   if (std::ranges::all_of(state.stiffening, [](Real factor) { return factor == 1; })) state.stiffening.clear();
 }
 
+void Contact::keep(Candidate& candidate, ContactState& state) {
+  const ContactPoint point = point_of(candidate);
+  if (point.force.isZero(0)) return;
+  points_.push_back(point);
+  freeze(candidate);
+  if (candidate.load > 0) state.memory.push_back(memory_of(candidate));
+}
+
 /// The anchor follows what slides, so far that friction pulls with its limit.
-ContactMemory Contact::memory_of(const Candidate& candidate, const Vec3& x) const {
+ContactMemory Contact::memory_of(const Candidate& candidate) const {
   const ContactCollider& collider = colliders_[at(candidate.collider)];
-  const Vec3 slide = across(x - candidate.anchor, candidate.friction_normal);
+  const Vec3 slide = across(candidate.place - candidate.anchor, candidate.friction_normal);
   const Real length = slide.norm();
   const Real most = collider.friction * candidate.load / candidate.stiffness;
   Vec3 anchor = candidate.anchor;
@@ -197,17 +182,17 @@ void Contact::stiffen(const Candidate& candidate, std::span<const Real> diagonal
   }
 }
 
-ContactPoint Contact::point_of(const Candidate& candidate, const Vec3& x) const {
-  const ContactCollider& collider = colliders_[at(candidate.collider)];
+ContactPoint Contact::point_of(const Candidate& candidate) const {
+  const Friction rubbed = friction(candidate);
   ContactPoint point;
   point.vertex = number_of(candidate.vertex);
-  point.collider = collider.number;
-  point.point = x - candidate.distance * candidate.normal;
+  point.collider = colliders_[at(candidate.collider)].number;
+  point.point = candidate.place - candidate.distance * candidate.normal;
   point.normal = candidate.normal;
   point.distance = candidate.distance;
-  point.force = candidate.normal_force * candidate.normal + candidate.friction;
-  const Vec3 slide = x - carried(candidate, collider.begin.to_frame(row(step_->begin, candidate.vertex)));
-  point.friction_power = -candidate.friction.dot(slide) / step_->time_step;
+  point.force = candidate.push().force * candidate.normal + rubbed.force;
+  const Vec3 slide = candidate.place - carried(candidate, candidate.begin);
+  point.friction_power = -rubbed.force.dot(slide) / step_->time_step;
   return point;
 }
 

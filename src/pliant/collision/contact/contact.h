@@ -14,9 +14,9 @@
 //
 // All vertices are in the order of the solver, but in what State and ContactPoint have.
 #include <algorithm>
-#include <limits>
 #include <span>
 
+#include "pliant/collision/contact/candidate.h"
 #include "pliant/collision/contact/contact_state.h"
 #include "pliant/core/thread_pool.h"
 
@@ -83,22 +83,24 @@ class Contact {
   /// A substep begins at the iterate q, which is held back.
   void begin_substep(const ContactStep& step, const ContactState& state, Positions& q, ThreadPool& threads);
 
-  /// Holds back what is too deep in q.
+  /// Holds back what is too deep in q, and finds the forces where it then is.
   HeldBack hold_back(Positions& q, ThreadPool& threads);
-  /// Adds the forces at q to r [N].
-  ContactSums add(const Positions& q, Positions& r, ThreadPool& threads);
-  /// After add() at the same q: takes the present loads for friction and corrects r. Returns the new sums.
-  ContactSums refresh(const Positions& q, Positions& r, ThreadPool& threads);
+  /// Finds the forces at q as it is.
+  void find_forces(const Positions& q, ThreadPool& threads);
+  /// Adds the forces that were found last to r [N].
+  ContactSums add(Positions& r, ThreadPool& threads);
+  /// After add(): takes the present loads for friction and corrects r. Returns the new sums.
+  ContactSums refresh(Positions& r, ThreadPool& threads);
 
-  /// pᵀ C p [N m] with the curvature C at the last add().
+  /// pᵀ C p [N m] with the curvature C where the forces were found last.
   Real curvature(const Positions& p) const;
-  /// Adds D ⪰ C of each vertex at the last add() [N/m].
+  /// Adds D ⪰ C of each vertex [N/m].
   void add_diagonal(std::span<Real> diagonal) const;
   /// The same, of those alone that are far stiffer than at first, κ > 4.
   Real stiffened_curvature(const Positions& p) const;
 
   /// What stays when the substep has ended at q. diagonal: of Y [N/m].
-  void commit(const Positions& q, std::span<const Real> diagonal, ContactState& state);
+  void commit(const Positions& q, std::span<const Real> diagonal, ContactState& state, ThreadPool& threads);
 
   /// Of the last substep, by vertex of the simulation, then collider.
   std::span<const ContactPoint> points() const { return points_; }
@@ -110,36 +112,17 @@ class Contact {
  private:
   static constexpr Index vertices_of_chunk = 256;
 
-  /// A vertex that may touch a collider in the substep.
-  struct Candidate {
+  using Candidate = ContactCandidate;
+  struct Force {
     Index vertex = 0;
-    Index collider = 0;       // place in the list
-    Real begin_distance = 0;  // at the beginning of the substep
-    Real radius = 0;          // r, or less where the vertex begins inside
-    Real floor = 0;           // least distance that a move may leave
-    Real stiffness = 0;       // k [N/m]
-    bool is_guarded = false;
-    bool has_anchor = false;
-    Vec3 guard_point = Vec3::Zero();  // in space, at the end of the substep
-    Vec3 guard_normal = Vec3::UnitZ();
-    Vec3 anchor = Vec3::Zero();  // in space, at the end of the substep
-    Vec3 friction_normal = Vec3::UnitZ();
-    Real load = 0;
-    // Where the vertex was looked at last.
-    Vec3 place = Vec3::Constant(std::numeric_limits<Real>::quiet_NaN());
-    Real distance = 0;
-    Vec3 normal = Vec3::UnitZ();
-    // At the last add().
-    Real normal_force = 0;
-    Real normal_curvature = 0;
-    Vec3 friction = Vec3::Zero();  // force
-    Real friction_curvature = 0;
-    Real friction_energy = 0;
+    Vec3 force = Vec3::Zero();
+    Real energy = 0;
   };
   /// Some vertices in a row, and those of them that may touch something, by vertex, then collider.
   struct Chunk {
     std::vector<Candidate> candidates;
     std::vector<Candidate> before;  // scratch
+    std::vector<Force> forces;      // of each candidate
     ContactSums sums;
     Index held_back = 0;
     HeldBack done;
@@ -147,19 +130,32 @@ class Contact {
 
   bool is_current(Index begin, Index end, const Positions& q) const;
   void find_candidates(Chunk& chunk, Index begin, Index end, const Positions& q);
-  Candidate make_candidate(Index vertex, Index collider, Real begin_distance) const;
+  Candidate make_candidate(Index vertex, Index collider, const Vec3& begin, Real begin_distance) const;
   void recall(const ContactState& state, const Positions& q, Candidate& candidate) const;
-  void look_at(Candidate& candidate, const Vec3& x) const;
-  bool guard(Candidate& candidate, const Vec3& x) const;
+  /// Its distance and normal at x, unless they are known.
+  void look_at(Candidate& candidate, const Vec3& x) const {
+    if (candidate.place != x) find_distance(candidate, x);
+  }
+  void find_distance(Candidate& candidate, const Vec3& x) const;
+  bool guard(Candidate& candidate) const;
   void hold_back(Chunk& chunk, Index begin, Index end, Positions& q);
   void hold_back(std::span<Candidate> of_vertex, Chunk& chunk, Positions& q) const;
-  static Real curvature(const Candidate& candidate, const Vec3& way);
-  void add_friction(Candidate& candidate, const Vec3& x) const;
+  Friction friction(const Candidate& candidate) const {
+    return candidate.friction(colliders_[at(candidate.collider)].friction);
+  }
+  Real curvature(const Candidate& candidate, const Vec3& way) const;
   void freeze(Candidate& candidate) const;
   Vec3 carried(const Candidate& candidate, const Vec3& point) const;
+  Force force(const Candidate& candidate) const {
+    const Potential pushed = candidate.push();
+    const Friction rubbed = friction(candidate);
+    return {candidate.vertex, pushed.force * candidate.normal + rubbed.force, pushed.energy + rubbed.energy};
+  }
+  static void add_up(Chunk& chunk, Index begin, Index end, const Positions& r);
+  void keep(Candidate& candidate, ContactState& state);
   void stiffen(const Candidate& candidate, std::span<const Real> diagonal, ContactState& state) const;
-  ContactMemory memory_of(const Candidate& candidate, const Vec3& x) const;
-  ContactPoint point_of(const Candidate& candidate, const Vec3& x) const;
+  ContactMemory memory_of(const Candidate& candidate) const;
+  ContactPoint point_of(const Candidate& candidate) const;
   void add_up_wrenches();
   ContactSums total() const;
   Index number_of(Index vertex) const { return step_->vertices.empty() ? vertex : step_->vertices[at(vertex)]; }
@@ -174,11 +170,14 @@ class Contact {
   }
 
   std::vector<ContactCollider> colliders_;
+  std::vector<Mat3> rotations_;  // of the colliders at the end of the substep
   std::optional<ContactStep> step_;
-  std::vector<Real> stiffening_;  // κ, in the order of the simulation; empty: 1
+  std::vector<Real> stiffening_;           // κ, in the order of the simulation; empty: 1
+  std::vector<Index> memory_of_vertices_;  // the first of each vertex of the simulation
   std::vector<Chunk> chunks_;
-  Positions reference_;        // where the candidates were looked for
-  std::vector<Real> margins_;  // how far from there each vertex may go before others matter [m]
+  Positions reference_;                            // where the candidates were looked for
+  std::vector<Real> margins_;                      // how far from there each vertex may go before others matter [m]
+  std::vector<std::span<Candidate>> of_vertices_;  // scratch
   std::vector<ContactPoint> points_;
   std::vector<std::pair<Index, Wrench>> wrenches_;  // by number of the collider
   Index held_back_ = 0;

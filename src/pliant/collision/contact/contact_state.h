@@ -24,8 +24,9 @@ struct ContactState {
   std::vector<ContactMemory> memory;     ///< by vertex, then collider
   /// κ of each vertex, from 1: by how much its contacts are stiffer than 50 m/η²; empty: 1 for all.
   std::vector<Real> stiffening;
-  /// Whether the factor has contact in it, and for how many steps it would have done without.
-  bool is_in_factor = false;
+  /// What the factor has of contact at each vertex, D [N/m], and for how many steps it would have done without; empty:
+  /// nothing.
+  std::vector<Real> in_factor;
   Index light_steps = 0;
 };
 

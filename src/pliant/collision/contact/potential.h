@@ -17,12 +17,18 @@ inline Potential normal_potential(Real stiffness, Real radius, Real distance) {
   return {stiffness / 2 * depth * depth, stiffness * depth, stiffness};
 }
 
-/// Huber's function of a slide [m]: k/2 u² while k u ≤ μλ, which is `limit`; then μλ u − (μλ)²/2k. The force pulls
-/// back.
-inline Potential friction_potential(Real stiffness, Real limit, Real slide) {
-  const Real force = stiffness * slide;
-  if (force <= limit) return {force * slide / 2, force, stiffness};
-  return {limit * slide - limit * limit / (2 * stiffness), limit, limit / slide};
+struct Friction {
+  Real energy = 0;            ///< [J]
+  Vec3 force = Vec3::Zero();  ///< [N]
+  Real curvature = 0;         ///< [N/m]
+};
+
+/// Huber's function of a slide u [m]: k/2 ‖u‖² while k ‖u‖ ≤ μλ, which is `limit` [N]; then μλ ‖u‖ − (μλ)²/2k.
+inline Friction friction_potential(Real stiffness, Real limit, const Vec3& slide) {
+  const Vec3 force = -stiffness * slide;
+  if (force.squaredNorm() <= limit * limit) return {-force.dot(slide) / 2, force, stiffness};
+  const Real length = slide.stableNorm();
+  return {limit * length - limit * limit / (2 * stiffness), -limit / length * slide, limit / length};
 }
 
 }  // namespace pliant

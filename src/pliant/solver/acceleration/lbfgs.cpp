@@ -80,7 +80,7 @@ bool Lbfgs::has_risen(const LocalResult& now) const {
   return !(now.objective() <= before + rounding * before);
 }
 
-void Lbfgs::move_plainly(const Positions& x, Positions& q) {
+void Lbfgs::move_plainly(const Positions& x, Real curvature, Positions& q) {
   if (has_moved_) {
     std::swap(solutions_[0], solutions_[pair_count_]);
     last_.solutions[0] = last_.solutions[pair_count_];
@@ -88,7 +88,7 @@ void Lbfgs::move_plainly(const Positions& x, Positions& q) {
   }
   is_plain_ = true;
   length_ = 1;
-  shorten(plain_length(), x, q);
+  shorten(plain_length(curvature), x, q);
 }
 
 void Lbfgs::shorten(Real share, const Positions& x, Positions& q) {
@@ -100,29 +100,31 @@ void Lbfgs::shorten(Real share, const Positions& x, Positions& q) {
   last_.moves[0] = length_ * last_.solutions[0];
 }
 
-void Lbfgs::move(const LocalResult& local, const Positions& r, const Positions& x, Real curvature, Positions& q,
-                 ThreadPool& threads) {
+void Lbfgs::prepare(const LocalResult& local, const Positions& r, const Positions& x, ThreadPool& threads) {
   Numbers now = products(r, x, threads);
   descent_ = now.solutions[last_solution()];
-  curvature_ = curvature;
   if (has_moved_) complete_pair(now);
   has_moved_ = false;
-  Numbers factors = coefficients(now);
-  Real descent = sum_of_products(factors, now);
+  factors_ = coefficients(now);
+  Real descent = sum_of_products(factors_, now);
   if (!(descent > 0)) {
     forget_pairs(now);
-    factors = coefficients(now);
+    descent = descent_;
   }
   is_plain_ = pair_count_ == 0;
-  if (is_plain_) {
-    length_ = plain_length();
-    factors.solutions[0] = length_;
-    descent = length_ * now.solutions[0];
-  }
-  add_up(factors, x, q, threads);
   last_ = now;
   last_.moves[pair_count_] = descent;
   local_before_ = local;
+}
+
+void Lbfgs::move(const Positions& x, Real curvature, Positions& q, ThreadPool& threads) {
+  if (is_plain_) {
+    length_ = plain_length(curvature);
+    factors_ = {};
+    factors_.solutions[0] = length_;
+    last_.moves[0] = length_ * last_.solutions[0];
+  }
+  add_up(factors_, x, q, threads);
   has_moved_ = true;
   if (pair_count_ == memory_) forget_oldest_pair();
 }

@@ -32,15 +32,19 @@ class Lbfgs {
   bool has_risen(const LocalResult& now) const;
   /// Takes the last move back, makes the plain one in its place, with the x that it was made from, and forgets the
   /// pairs.
-  void move_plainly(const Positions& x, Positions& q);
+  void move_plainly(const Positions& x, Real curvature, Positions& q);
   /// Makes the plain move `share` times as long.
   void shorten(Real share, const Positions& x, Positions& q);
-  /// q ← q + H r. local, r [N]: what the local step found at q; x = B⁻¹ r [m] with the matrix B that was factorized.
-  /// A plain move is q ← q + α x, α = xᵀr / (xᵀr + c): the minimum of a quadratic objective with the matrix B + C and
-  /// c = xᵀ C x, `curvature` [N m].
-  void move(const LocalResult& local, const Positions& r, const Positions& x, Real curvature, Positions& q,
-            ThreadPool& threads);
+  /// The next move, from what the local step found: its r [N] and x = B⁻¹ r [m] with the matrix B that was
+  /// factorized.
+  void prepare(const LocalResult& local, const Positions& r, const Positions& x, ThreadPool& threads);
+  /// q ← q + H r, as was prepared. A plain move is q ← q + α x, α = xᵀr / (xᵀr + c): the minimum of a quadratic
+  /// objective with the matrix B + C and c = xᵀ C x, `curvature` [N m].
+  void move(const Positions& x, Real curvature, Positions& q, ThreadPool& threads);
+  /// Of the move that was prepared or made last.
   bool is_plain() const { return is_plain_; }
+  /// From where the last move went.
+  const Positions& positions_before() const { return positions_before_; }
 
  private:
   static constexpr std::size_t most_vectors = memory + 1;
@@ -61,8 +65,8 @@ class Lbfgs {
   /// Forgets everything but the newest solution, which becomes the first.
   void forget_pairs(Numbers& products);
   void forget_oldest_pair();
-  Real plain_length() const {
-    const Real resistance = descent_ + curvature_;
+  Real plain_length(Real curvature) const {
+    const Real resistance = descent_ + curvature;
     return descent_ > 0 && resistance > 0 ? descent_ / resistance : 1;
   }
   std::size_t last_solution() const { return pair_count_ + (has_moved_ ? 1 : 0); }
@@ -76,14 +80,14 @@ class Lbfgs {
   std::array<Vector, most_vectors> moves_;      // 3 m numbers each [m]
   std::array<Vector, most_vectors> solutions_;  // the same
   Numbers last_;                                // products with the last residual
+  Numbers factors_;                             // of the vectors in the next move
   Table move_products_ = {};                    // sᵢᵀ yⱼ, j ≥ i
   Table solution_products_ = {};                // yᵢᵀ Y⁻¹ yⱼ, j ≥ i
 
-  Real descent_ = 0;            // xᵀr of the last solution [N m]
-  Real curvature_ = 0;          // that was given with it
-  Real length_ = 1;             // α of the last plain move
-  LocalResult local_before_;    // found just before the last move
-  Positions positions_before_;  // from where it went
+  Real descent_ = 0;          // xᵀr of the last solution [N m]
+  Real length_ = 1;           // α of the last plain move
+  LocalResult local_before_;  // found just before the last move
+  Positions positions_before_;
   std::vector<Numbers> chunk_products_;
 };
 

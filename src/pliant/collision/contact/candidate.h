@@ -1,0 +1,46 @@
+#pragma once
+// A vertex that may touch a collider in a substep.
+#include <limits>
+
+#include "pliant/collision/contact/potential.h"
+
+namespace pliant {
+
+/// All places are in space, at the end of the substep.
+struct ContactCandidate {
+  Index vertex = 0;
+  Index collider = 0;  ///< its place in the list
+  bool is_guarded = false;
+  bool has_anchor = false;
+  Vec3 begin = Vec3::Zero();  ///< where it was at the beginning, carried by the collider
+  Real begin_distance = 0;
+  Real radius = 0;     ///< r, or less where the vertex begins inside
+  Real floor = 0;      ///< least distance that a move may leave
+  Real stiffness = 0;  ///< k [N/m]
+  Real load = 0;       ///< λ of friction [N]
+  Vec3 anchor = Vec3::Zero();
+  Vec3 friction_normal = Vec3::UnitZ();
+  // Where the vertex was looked at last; of a half-space the normal stays.
+  Vec3 place = Vec3::Constant(std::numeric_limits<Real>::quiet_NaN());
+  Real distance = 0;
+  Vec3 normal = Vec3::UnitZ();
+  Real guard_offset = 0;  ///< of the half-space along its normal
+
+  Potential push() const { return normal_potential(stiffness, radius, distance); }
+  /// With the coefficient of friction μ.
+  Friction friction(Real coefficient) const {
+    const Real limit = coefficient * load;
+    if (!has_anchor || !(limit > 0)) return {};
+    const Vec3 way = place - anchor;
+    return friction_potential(stiffness, limit, way - friction_normal.dot(way) * friction_normal);
+  }
+  /// Whether its way may lead through the collider: that of length l can only where the distances at both ends add up
+  /// to no more than l.
+  bool may_pass() const {
+    if (is_guarded || begin_distance < 0) return false;
+    const Real sum = begin_distance + distance;
+    return !(sum > 0 && sum * sum > (place - begin).squaredNorm());
+  }
+};
+
+}  // namespace pliant
