@@ -48,11 +48,12 @@ bool falls_onto_collider(const Simulation& simulation, std::span<const Index> ve
   const Vec3 gravity = gravity_on(simulation, vertices.front());
   if (!(gravity.norm() > 0)) return false;
   for (const auto& [id, collider] : simulation.colliders()) {
+    const pliant::ColliderShape& shape = *collider.shape;
     const pliant::Pose& pose = simulation.pose(id);
     const Vec3 down = pose.rotation.conjugate() * gravity.normalized();
     const bool catches = std::ranges::any_of(vertices, [&](Index vertex) {
       const Vec3 point = simulation.state().positions.row(vertex).transpose();
-      return meets(*collider.shape, pose.to_frame(point), down);
+      return meets(shape, pose.to_frame(point), down);
     });
     if (catches) return true;
   }

@@ -27,7 +27,7 @@ constexpr std::string_view eventful = R"({"pliant": 1, "steps": 60, "settings": 
     {"type": "plane", "name": "floor"}],
   "events": [
     {"time": 0.1, "move": "ball", "offset": [0.5, 0, 0.25], "over": 0.4, "ease": "smooth"},
-    {"step": 4, "move": "box", "keys": [{"time": 0.2, "translate": [0, 0, 1]},
+    {"step": 4, "move": "box", "keyframes": [{"time": 0.2, "translate": [0, 0, 1]},
       {"time": 0.7, "translate": [1, 0, 1], "rotate": {"axis": [1, 1, 0], "degrees": 200}}]},
     {"step": 5, "move": "floor", "offset": [0, 0, 0.1], "over": 0.2},
     {"step": 6, "follow": "arm", "body": "sheet", "vertices": 5},
@@ -126,7 +126,8 @@ TEST_CASE("the same with every third step recorded; what follows a body is as ex
   for (std::size_t i = 0; i < live.poses.size(); ++i) {
     if (!live.poses[i].contains(arm)) continue;
     const auto found = run.frame(i, pliant::ColorBy::none).content.colliders;
-    CHECK((found[2].pose.position - live.poses[i].at(arm).position).norm() < 0.02);
+    // Half of the largest change of a speed of some m/s that falls between two frames, 0.12 s apart at most.
+    CHECK((found[2].pose.position - live.poses[i].at(arm).position).norm() < 0.06);
   }
 }
 
