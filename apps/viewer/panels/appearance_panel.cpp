@@ -37,7 +37,7 @@ bool draw_appearance_panel(pliant::ViewSettings& appearance, int& samples, const
   ImGui::Checkbox("shadow", &appearance.shadow);
   ImGui::EndDisabled();
   if (!source.frame().content.colliders.empty()) {
-    ImGui::SameLine();
+    row_label("", "");
     ImGui::Checkbox("colliders", &appearance.colliders);
     explain("O: hidden ones act all the same");
   }
