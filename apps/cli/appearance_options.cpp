@@ -104,8 +104,8 @@ pliant_render::RunAnnotations annotations_of(ShownRun& run, const pliant::Animat
     return pliant_render::annotate_run(*std::exchange(run.scene, std::nullopt), animation);
   } catch (const pliant::Error& error) {
     if (error.kind() != pliant::ErrorKind::input) throw;
-    print_to_stderr("note: pins and wind are not shown: " + pliant::printable_place(error.what(), message_limit) +
-                    "\n");
+    print_to_stderr(
+        "note: pins, wind and colliders are not shown: " + pliant::printable_place(error.what(), message_limit) + "\n");
     return {};
   }
 }

@@ -25,7 +25,7 @@ struct ShownRun {
 /// @throws pliant::Error (input): options that a run cannot follow
 ShownRun shown_run(const AppearanceArguments& arguments);
 
-/// Pins and wind at the times of the run's frames; none, with a note, where the scene does not tell them.
+/// Pins, wind and colliders at the times of the run's frames; none, with a note, where the scene does not tell them.
 pliant_render::RunAnnotations annotations_of(ShownRun& run, const pliant::Animation& animation);
 
 }  // namespace pliant_cli

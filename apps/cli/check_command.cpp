@@ -15,6 +15,7 @@
 #include "pliant/mesh/geometry.h"
 #include "pliant/solver/integration/integrator.h"
 #include "pliant_io/recorder/run_info.h"
+#include "resting.h"
 #include "scene_options.h"
 #include "terminal.h"
 
@@ -115,18 +116,20 @@ std::string steps_text(const pliant::SolverSettings& settings) {
   return substeps + iterations + integrator;
 }
 
-/// What a run would not refuse, but is seldom meant.
-std::vector<std::string> warnings_of(const Simulation& simulation, const SystemInfo& info) {
-  std::vector<std::string> warnings = simulation.warnings();
+/// What neither constraints nor, below it, colliders hold.
+std::vector<std::string> warnings_of_free_components(const Simulation& simulation, const SystemInfo& info) {
+  constexpr std::size_t shown = 20;
+  std::vector<std::string> warnings;
+  std::size_t others = 0;
   for (const pliant::FreeComponent& component : info.free_components) {
+    if (falls_onto_collider(simulation, component.vertices)) continue;
+    if (warnings.size() == shown) {
+      ++others;
+      continue;
+    }
     const Body* owner = &simulation.bodies().front();
     for (const Body& body : simulation.bodies()) {
       if (body.first_vertex <= component.first_vertex) owner = &body;
-    }
-    constexpr std::size_t shown = 20;
-    if (warnings.size() >= simulation.warnings().size() + shown) {
-      warnings.push_back(fmt::format("and {} more components that nothing holds", info.free_components.size() - shown));
-      break;
     }
     const Index first = component.first_vertex - owner->first_vertex;
     warnings.push_back(
@@ -135,6 +138,14 @@ std::vector<std::string> warnings_of(const Simulation& simulation, const SystemI
             : fmt::format("nothing holds the {} vertices from vertex {} of '{}' on: they will move freely",
                           component.vertex_count, first, owner->name));
   }
+  if (others > 0) warnings.push_back(fmt::format("and {} more components that nothing holds", others));
+  return warnings;
+}
+
+/// What a run would not refuse, but is seldom meant.
+std::vector<std::string> warnings_of(const Simulation& simulation, const SystemInfo& info) {
+  std::vector<std::string> warnings = simulation.warnings();
+  for (std::string& warning : warnings_of_free_components(simulation, info)) warnings.push_back(std::move(warning));
   for (std::string& warning : crossing_warnings(simulation)) warnings.push_back(std::move(warning));
   return warnings;
 }

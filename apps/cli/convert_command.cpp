@@ -210,14 +210,14 @@ bool mentions_colliders(const pliant::SceneSource& source) {
 }
 
 /// Those of the scene of a run, where it is known.
-std::vector<pliant::AnimatedCollider> colliders_of_run(const fs::path& folder, const std::vector<pliant::Real>& times) {
+std::vector<pliant::AnimatedCollider> colliders_of_run(const fs::path& folder, const pliant::PointCache& frames) {
   const fs::path checkpoint = folder / pliant::checkpoint_name;
   std::error_code ignored;
   if (!fs::exists(checkpoint, ignored)) return {};
   try {
     pliant::SceneSource source = pliant::read_checkpoint(checkpoint).source;
     if (!mentions_colliders(source)) return {};
-    return pliant_render::recorded_colliders(pliant::parse_scene(std::move(source)), times);
+    return pliant_render::recorded_colliders(pliant::parse_scene(std::move(source)), frames);
   } catch (const pliant::Error& error) {
     if (error.kind() != pliant::ErrorKind::input) throw;
     print_to_stderr("warning: the colliders of the scene are not known, so none is written: " +
@@ -261,7 +261,7 @@ void convert(const ConvertOptions& options) {
   }
   refuse_to_replace(options);
   Animation animation = read_animation(options);
-  if (has_nodes(options)) animation.colliders = colliders_of_run(options.in, animation.times);
+  if (has_nodes(options)) animation.colliders = colliders_of_run(options.in, animation.cache);
   select(animation, options);
   if (!is_mesh) {
     const pliant::ExportOptions exported = complete_options(options);

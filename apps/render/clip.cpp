@@ -77,6 +77,43 @@ bool is_same(const RunAnnotations::Entry& a, const RunAnnotations::Entry& b) {
   return !a.wind || (a.wind->velocity == b.wind->velocity && a.wind->text == b.wind->text);
 }
 
+/// Of frames that are between two recorded ones: colliders that both have are on their way, as the bodies are.
+std::vector<DrawnCollider> between(std::vector<DrawnCollider> colliders, const std::vector<DrawnCollider>& next,
+                                   Real share) {
+  for (DrawnCollider& each : colliders) {
+    const auto found = std::ranges::find(next, each.number, &DrawnCollider::number);
+    if (found != next.end()) each.pose = interpolate(each.pose, found->pose, share);
+  }
+  return colliders;
+}
+
+/// From the frames of a cache to other times: pins and wind are those of the frame before.
+RunAnnotations at_times(RunAnnotations of_cache, const pliant::PointCache& cache, const std::vector<Real>& times) {
+  constexpr Real rounding = 1e-6;  // of the time from frame to frame
+  RunAnnotations result{std::move(of_cache.entries), {}};
+  std::int64_t frame = 0;
+  for (const Real time : times) {
+    Real share = 0;
+    for (; frame + 1 < cache.frame_count(); ++frame) {
+      share = (time - cache.time(frame)) / (cache.time(frame + 1) - cache.time(frame));
+      if (share < 1 - rounding) break;
+      share = 0;
+    }
+    std::size_t entry = of_cache.entry_of_frame[static_cast<std::size_t>(frame)];
+    if (share > rounding) {
+      const std::size_t next = of_cache.entry_of_frame[static_cast<std::size_t>(frame) + 1];
+      RunAnnotations::Entry here = result.entries[entry];
+      here.colliders = between(std::move(here.colliders), result.entries[next].colliders, share);
+      if (!is_same(here, result.entries[entry])) {
+        entry = result.entries.size();
+        result.entries.push_back(std::move(here));
+      }
+    }
+    result.entry_of_frame.push_back(entry);
+  }
+  return result;
+}
+
 std::vector<float> find_values(const pliant::Simulation& simulation, const RenderMesh& render_mesh,
                                std::span<const Vec3f> positions, ColorBy color) {
   switch (color) {
@@ -147,14 +184,14 @@ RunAnnotations annotate_run(pliant::Scene scene, const pliant::Animation& animat
   }
   RunAnnotations annotations;
   ColliderSurfaces surfaces;
-  replay(scene, animation.times, [&](std::int64_t step) {
+  replay(scene, animation.cache, [&](std::int64_t step) {
     RunAnnotations::Entry entry{find_markers(simulation, step), find_wind(simulation), surfaces.find(simulation)};
     if (annotations.entries.empty() || !is_same(annotations.entries.back(), entry)) {
       annotations.entries.push_back(std::move(entry));
     }
     annotations.entry_of_frame.push_back(annotations.entries.size() - 1);
   });
-  return annotations;
+  return at_times(std::move(annotations), animation.cache, animation.times);
 }
 
 RunFrames::RunFrames(pliant::Animation animation, RunAnnotations annotations)
@@ -210,7 +247,7 @@ Clip clip_from_animation(pliant::Animation animation, const pliant::ViewSettings
 Bounds bounds_of(const Clip& clip) {
   Bounds bounds;
   for (const ClipFrame& frame : clip.frames) {
-    const Bounds here = bounds_of(frame.content);
+    const Bounds here = bounds_of(frame.content, clip.appearance);
     bounds.add(here.low);
     bounds.add(here.high);
   }

@@ -49,6 +49,7 @@ struct RunAnnotations {
 };
 
 /// Those at the times of an animation, by the scene that its run was made from, as it was at the start (replay).
+/// Between two recorded frames colliders are on the way from one to the other, and all else is as in the first of them.
 /// @throws pliant::Error (input): another count of vertices, an event that does not act as it did
 RunAnnotations annotate_run(pliant::Scene scene, const pliant::Animation& animation);
 

@@ -17,7 +17,11 @@ Image PictureMaker::draw(const FrameContent& frame, const std::optional<WindAnno
   options.range = options_.range;
   options.ground_height = options_.ground_height;
   options.scale = static_cast<float>(target_.height()) / 720;
-  renderer_.set_frame(frame, options_.appearance.color);
+  if (options_.appearance.colliders || frame.colliders.empty()) {
+    renderer_.set_frame(frame, options_.appearance.color);
+  } else {
+    renderer_.set_frame(visible_part(frame, options_.appearance), options_.appearance.color);
+  }
   target_.begin();
   renderer_.draw(options_.appearance, options, target_.width(), target_.height());
   target_.resolve();

@@ -51,6 +51,15 @@ Bounds bounds_of(const FrameContent& frame) {
   return bounds;
 }
 
+Bounds bounds_of(const FrameContent& frame, const pliant::ViewSettings& appearance) {
+  return appearance.colliders ? bounds_of(frame) : bounds_of(std::span<const Vec3f>(frame.positions));
+}
+
+FrameContent visible_part(FrameContent frame, const pliant::ViewSettings& appearance) {
+  if (!appearance.colliders) frame.colliders.clear();
+  return frame;
+}
+
 std::vector<Vec3f> vertex_normals(const RenderMesh& render_mesh, std::span<const Vec3f> positions) {
   std::vector<Vec3f> normals(positions.size(), Vec3f::Zero());
   for (std::size_t t = 0; t + 2 < render_mesh.triangles.size(); t += 3) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "pliant/simulation/simulation.h"
+#include "pliant_io/scene/view_settings.h"
 #include "render/camera.h"
 #include "render/collider_view.h"
 
@@ -33,6 +34,10 @@ struct FrameContent {
 Bounds bounds_of(std::span<const Vec3f> positions);
 /// The box around bodies and colliders that the camera should see, see add_colliders.
 Bounds bounds_of(const FrameContent& frame);
+/// The same of what these settings show.
+Bounds bounds_of(const FrameContent& frame, const pliant::ViewSettings& appearance);
+/// What these settings show of a frame: all, or all but its colliders.
+FrameContent visible_part(FrameContent frame, const pliant::ViewSettings& appearance);
 
 /// Area-weighted mean of the triangle normals at each vertex; zero where there are no triangles.
 std::vector<Vec3f> vertex_normals(const RenderMesh& render_mesh, std::span<const Vec3f> positions);

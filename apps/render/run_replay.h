@@ -7,17 +7,18 @@
 
 namespace pliant_render {
 
-/// Goes through a run by the scene that it was made from, as it was at the start: its events act again, without steps,
-/// and colliders go on with their velocities and to where events put them. Calls `visit` with the step that a frame
-/// stands before, for each of the times, which rise.
+/// Goes through a run by the scene that it was made from, as it was at the start, without steps: its events act again,
+/// and colliders go on with their velocities, along the paths of events and to where they are put. The bodies are where
+/// the frames have them, and on the way between two frames; what follows them is as exact as that. Calls `visit` at
+/// each frame with the step that it stands before.
 /// @throws pliant::Error (input): an event that does not act as it did
-void replay(pliant::Scene& scene, const std::vector<pliant::Real>& times,
+void replay(pliant::Scene& scene, const pliant::PointCache& frames,
             const std::function<void(std::int64_t step)>& visit);
 
-/// The colliders that have a surface, with their poses at the times of a run. One that comes or goes stands still
-/// before and after. Of one without end a square below the middle of the bodies at the start is shown, six times as
-/// wide as they are.
+/// The colliders of a run that have a surface, with their poses in its frames and when each is there. One whose shape
+/// changes goes, and another one of its name comes. Of one without end a square below the middle of the bodies at the
+/// start is shown, six times as wide as they are.
 /// @throws pliant::Error (input), as replay
-std::vector<pliant::AnimatedCollider> recorded_colliders(pliant::Scene scene, const std::vector<pliant::Real>& times);
+std::vector<pliant::AnimatedCollider> recorded_colliders(pliant::Scene scene, const pliant::PointCache& frames);
 
 }  // namespace pliant_render

@@ -41,6 +41,10 @@ constexpr std::array quantities = {
     Quantity{"residual", "residual", " [N]", Of::step},
     Quantity{"objective", "objective", " [J]", Of::step},
     Quantity{"iterations", "iterations", "", Of::step},
+    Quantity{"contacts", "contacts", "", Of::step},
+    Quantity{"deepest", "depth within the distance of contact", " [m]", Of::step},
+    Quantity{"backtracks", "backtracks", " [a step]", Of::step},
+    Quantity{"refactorizations", "refactorizations with contact", " [a step]", Of::step},
 };
 constexpr std::array times = {
     Quantity{"ms_local", "local steps", " [ms a step]", Of::step},

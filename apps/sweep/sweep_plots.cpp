@@ -23,8 +23,9 @@ using pliant_report::Plot;
 using pliant_report::Series;
 
 /// The figures that are drawn, if they differ from run to run.
-constexpr std::array drawn_figures = {"total_end",    "elastic_end",     "speed_sum_late", "speed_sum_max",
-                                      "residual_max", "iterations_mean", "ms_total"};
+constexpr std::array drawn_figures = {"total_end",       "elastic_end",           "speed_sum_late", "speed_sum_max",
+                                      "residual_max",    "iterations_mean",       "contacts_end",   "deepest_max",
+                                      "backtracks_mean", "refactorizations_mean", "ms_total"};
 
 struct Range {
   double min = std::numeric_limits<double>::infinity();

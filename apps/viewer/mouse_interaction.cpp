@@ -63,7 +63,9 @@ MouseInteraction::PickTarget MouseInteraction::pick(const Vec2f& at, const View&
   PickTarget target;
   target.point = pick_surface(*view.snapshot->render_mesh, positions, view.screen, at, rope_reach * view.unit);
   target.pin = pick_vertex(view.snapshot->pins, positions, view.screen, at, pin_reach * view.unit);
-  target.collider = pick_collider(view.snapshot->frame.content.colliders, view.screen, at);
+  if (view.shows_colliders) {
+    target.collider = pick_collider(view.snapshot->frame.content.colliders, view.screen, at);
+  }
   constexpr float none = std::numeric_limits<float>::infinity();
   const float body_depth = target.point ? view.screen.depth_of(target.point->position(positions)) : none;
   const float collider_depth = target.collider ? view.screen.depth_of(target.collider->position) : none;

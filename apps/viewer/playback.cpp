@@ -21,7 +21,7 @@ Playback::Playback(pliant_render::RunFrames frames, pliant::ViewSettings appeara
       began_at_(frames_.time(0)) {
   for (std::size_t i = 0; i < frames_.count(); ++i) {
     const pliant_render::ClipFrame frame = frames_.frame(i, pliant::ColorBy::none);
-    const pliant_render::Bounds here = bounds_of(frame.content);
+    const pliant_render::Bounds here = bounds_of(frame.content, appearance_);
     bounds_.add(here.low);
     bounds_.add(here.high);
   }

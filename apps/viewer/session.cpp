@@ -191,6 +191,7 @@ void Session::move_collider(pliant::ColliderId collider, const Vec3f& position) 
   pliant::Simulation& simulation = scene_.simulation;
   const auto found = simulation.colliders().find(collider);
   if (found == simulation.colliders().end() || !found->second.shape->is_bounded() || !position.allFinite()) return;
+  scene_.timeline.leave_alone(simulation, collider);
   stop_collider(static_cast<pliant::BuiltinColliders*>(nullptr), simulation, collider);
   collider_goals_[collider] = position.cast<Real>();
 }

@@ -58,7 +58,8 @@ class Session {
   void move_pin(Index vertex, const Vec3f& target);
 
   /// Takes a collider there in the steps to come, no faster than three times the size of the bodies in a second, and
-  /// leaves it at rest; velocities of its own end. Does nothing with a collider that has no end.
+  /// leaves it at rest. It is the user's until the scene starts over: velocities of its own end, and motions of the
+  /// scene no longer move it. Does nothing with a collider that has no end.
   void move_collider(pliant::ColliderId collider, const Vec3f& position);
 
   /// Of the scene's settings, groups, forces and colliders, and of contact; the pull and pins that were set by hand

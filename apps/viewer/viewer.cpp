@@ -22,7 +22,7 @@ constexpr double idle_turn = 0.25;  // [s]
 
 Viewpoint first_viewpoint(const ViewSource& source, const pliant::ViewSettings& appearance, const Vec2f& size) {
   if (const auto known = source.known_bounds()) return place_camera(appearance.camera, *known, size.x() / size.y());
-  Bounds bounds = pliant_render::bounds_of(source.frame().content);
+  Bounds bounds = bounds_of(source.frame().content, appearance);
   if (bounds.is_empty()) bounds.add(Vec3f::Zero());
   // Leave room for motion, whose direction is not known yet.
   const Vec3f room = Vec3f::Constant(0.12F * bounds.radius());
@@ -115,7 +115,7 @@ void Viewer::update_render_mesh() {
 }
 
 void Viewer::update_bounds() {
-  bounds_ = pliant_render::bounds_of(source_.frame().content);
+  bounds_ = bounds_of(source_.frame().content, appearance_);
   if (appearance_.ground_height) {
     ground_height_ = static_cast<float>(*appearance_.ground_height);
     return;
@@ -162,11 +162,16 @@ std::array<float, 2> Viewer::color_range() {
 void Viewer::draw() {
   last_draw_ = Clock::now();
   update_render_mesh();
-  if (is_frame_new_) {
+  if (is_frame_new_ || shown_colliders_ != appearance_.colliders) {
     update_bounds();
     range_ = color_range();
-    renderer_->set_frame(source_.frame().content, source_.color());
+    if (appearance_.colliders) {
+      renderer_->set_frame(source_.frame().content, source_.color());
+    } else {
+      renderer_->set_frame(visible_part(source_.frame().content, appearance_), source_.color());
+    }
     is_frame_new_ = false;
+    shown_colliders_ = appearance_.colliders;
   }
   place_screen();
   const auto [full_width, height] = window_.framebuffer_size();

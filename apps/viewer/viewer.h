@@ -91,7 +91,8 @@ class Viewer {
   bool has_ground_ = false;  // whether ground_height_ suits the current scene
   Screen screen_;
   bool is_frame_new_ = true;
-  int draws_left_ = 0;  // after input: the panels need one or two more frames to settle
+  bool shown_colliders_ = true;  // in the frame that the renderer has
+  int draws_left_ = 0;           // after input: the panels need one or two more frames to settle
   double frame_interval_;
   Clock::time_point last_draw_{};
   Clock::time_point last_message_{};

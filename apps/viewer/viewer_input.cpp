@@ -16,11 +16,21 @@ constexpr double stiffer = 1.5;  // per key press
 MouseInteraction::View Viewer::mouse_view() {
   LiveScene* live = source_.live();
   const auto& colliders = source_.frame().content.colliders;
-  const bool has_planes = std::ranges::any_of(colliders, [](const auto& each) { return each.surface->is_plane; });
-  std::optional<float> floor = pliant_render::floor_height(colliders);
-  if (!has_planes && appearance_.ground) floor = ground_height_;
+  const auto is_seen_plane = [this](const auto& each) { return appearance_.colliders && each.surface->is_plane; };
+  std::optional<float> floor;
+  if (std::ranges::any_of(colliders, is_seen_plane)) {
+    floor = pliant_render::floor_height(colliders);
+  } else if (appearance_.ground) {
+    floor = ground_height_;
+  }
   if (!(appearance_.camera.up.normalized().z() > 0.999)) floor.reset();
-  return {screen_, camera_, live, live != nullptr ? &live->shown() : nullptr, ui_.style().unit, floor};
+  return {screen_,
+          camera_,
+          live,
+          live != nullptr ? &live->shown() : nullptr,
+          ui_.style().unit,
+          floor,
+          appearance_.colliders};
 }
 
 void Viewer::take_input() {
@@ -82,6 +92,9 @@ void Viewer::take_key(const KeyEvent& event) {
     case GLFW_KEY_L:
       appearance_.shading =
           appearance_.shading == pliant::Shading::flat ? pliant::Shading::smooth : pliant::Shading::flat;
+      return;
+    case GLFW_KEY_O:
+      appearance_.colliders = !appearance_.colliders;
       return;
     case GLFW_KEY_P:
       return save_picture();

@@ -85,6 +85,48 @@ class Check(unittest.TestCase):
         self.assertEqual(info["free_components"], 1)
         self.assertIn("nothing holds the 2 vertices", info["warnings"][0])
 
+    def free_of(self, colliders, gravity=(0, 0, -9.81), bodies=None):
+        """What is said to be held by nothing, of a sheet over the unit square at a height of 1 m."""
+        scene = self.folder / "free.json"
+        sheet = {"name": "sheet", "mesh": {"shape": "grid", "columns": 5, "rows": 5, "size": [1, 1], "plane": "xy"},
+                 "transform": {"translate": [0, 0, 1]}, "mass": {"total": 1},
+                 "constraints": [{"type": "edge_spring", "stiffness": 100}]}
+        scene.write_text(json.dumps({"pliant": 1, "gravity": list(gravity), "bodies": bodies or [sheet],
+                                     "colliders": colliders}))
+        return [line for line in json.loads(self.pliant("check", scene, "--json").stdout)["warnings"]
+                if "nothing holds" in line]
+
+    def test_what_colliders_hold_is_not_free(self):
+        falls = ["nothing holds the 25 vertices from vertex 0 of 'sheet' on: they will move freely"]
+        floor = {"type": "plane"}
+        ball = {"type": "sphere", "radius": 0.2}
+        for name, colliders, gravity, held in [
+                ("nothing", [], (0, 0, -9.81), False),
+                ("a floor", [floor], (0, 0, -9.81), True),
+                ("a floor above it", [floor], (0, 0, 9.81), False),
+                ("a ceiling for what falls up", [{"type": "plane", "position": [0, 0, 3], "normal": [0, 0, -1]}],
+                 (0, 0, 9.81), True),
+                ("no gravity", [floor], (0, 0, 0), False),
+                ("a wall", [{"type": "plane", "position": [-1, 0, 0], "normal": [1, 0, 0]}], (0, 0, -9.81), False),
+                ("a slope", [{"type": "plane", "normal": [1, 0, 1]}], (0, 0, -9.81), True),
+                ("a ball below it", [ball | {"center": [0.5, 0.5, 0]}], (0, 0, -9.81), True),
+                ("a ball beside it", [ball | {"center": [1.3, 0.5, 0]}], (0, 0, -9.81), False),
+                ("a ball above it", [ball | {"center": [0.5, 0.5, 2]}], (0, 0, -9.81), False),
+                ("a ball beside it, where gravity points", [ball | {"center": [3, 0.5, 1]}], (9.81, 0, 0), True),
+                ("a tilted box", [{"type": "box", "center": [0.5, 0.5, -5], "size": [0.4, 0.4, 0.4],
+                                   "rotation": [30, 40, 0]}], (0, 0, -9.81), True),
+                ("a capsule", [{"type": "capsule", "from": [-3, 0.5, 0], "to": [3, 0.5, 0]}], (0, 0, -9.81), True),
+                ("one of two", [ball | {"center": [9, 9, 0]}, floor], (0, 0, -9.81), True)]:
+            with self.subTest(name):
+                self.assertEqual(self.free_of(colliders, gravity), [] if held else falls)
+
+    def test_parts_of_a_body_are_held_one_by_one(self):
+        beads = {"name": "beads", "mass": {"total": 1},
+                 "mesh": {"vertices": [[0, 0, 1], [0, 0, 2], [5, 0, 1], [5, 0, 2]], "edges": [[0, 1], [2, 3]]},
+                 "constraints": [{"type": "edge_spring", "stiffness": 100}]}
+        self.assertEqual(self.free_of([{"type": "sphere", "center": [0, 0, 0], "radius": 0.3}], bodies=[beads]),
+                         ["nothing holds the 2 vertices from vertex 2 of 'beads' on: they will move freely"])
+
     def write_bodies(self, bodies):
         """A scene of surfaces that are given as name: (vertices, elements by their kind)."""
         scene = self.folder / "s.json"

@@ -92,7 +92,10 @@ class Sweep(unittest.TestCase):
         self.pliant("run", scene, "--set", f"{ITERATIONS}=7", "--every", 2, "--format", "none", "--out", "alone")
         with open(self.folder / "alone" / "measurements.csv", newline="") as file:
             alone = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
-        row = {key: float(value) for key, value in self.rows()[1].items() if key not in ("outcome", "message")}
+        texts = self.rows()[1]
+        row = {key: float(value) for key, value in texts.items() if value and key not in ("outcome", "message")}
+        self.assertEqual({key.split("_")[0] for key, value in texts.items() if not value and key != "message"},
+                         {"contacts", "deepest", "backtracks", "refactorizations"})  # there is no collider
         elastic = [line["elastic_hook"] + line["elastic_links"] for line in alone]
         self.assertEqual(len(alone), 11)
         self.assertEqual(row["total_end"], alone[-1]["total"])
@@ -106,6 +109,31 @@ class Sweep(unittest.TestCase):
         self.assertAlmostEqual(row["residual_mean"], sum(line["residual"] for line in alone[1:]) / 10, places=12)
         late = [line["speed_sum"] for line in alone if line["time"] >= alone[-1]["time"] * 2 / 3 - 1e-12]
         self.assertAlmostEqual(row["speed_sum_late"], sum(late) / len(late), places=9)
+
+    def test_the_figures_of_contact(self):
+        scene = self.folder / "drop.json"
+        scene.write_text(json.dumps({
+            "pliant": 1, "steps": 40, "settings": {"time_step": 0.02},
+            "bodies": [{"name": "sheet", "mesh": {"shape": "grid", "columns": 6, "rows": 6}, "mass": {"total": 1},
+                        "transform": {"translate": [0, 0, 0.5]},
+                        "constraints": [{"type": "edge_spring", "stiffness": 500}]}],
+            "colliders": [{"type": "plane", "name": "floor"}]}))
+        self.sweep(scene, "--vary", "bodies[sheet].transform.translate[2]=0.2,99", "--vary", "steps=30,40")
+        rows = self.rows()
+        self.assertEqual([row["outcome"] for row in rows], ["ok"] * 4)
+        with open(self.out / "runs" / "0002" / "measurements.csv", newline="") as file:
+            steps = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)][1:]
+        self.assertGreater(float(rows[1]["contacts_end"]), 0)
+        self.assertEqual(float(rows[1]["contacts_end"]), steps[-1]["contacts"])
+        self.assertEqual(float(rows[1]["deepest_max"]), max(step["deepest"] for step in steps))
+        self.assertGreater(float(rows[1]["deepest_max"]), 0)
+        for name in ("backtracks", "refactorizations"):
+            self.assertAlmostEqual(float(rows[1][name + "_mean"]), sum(step[name] for step in steps) / 40, places=12)
+        self.assertEqual(float(rows[3]["contacts_end"]), 0)  # the floor is far below
+        self.assertEqual(float(rows[3]["deepest_max"]), 0)
+        plots = {path.stem: path.read_text() for path in (self.out / "plots").iterdir()}
+        self.assertIn("contacts_end", plots)
+        self.assertIn("[m]", plots["deepest_max"])
 
     def test_what_has_ended_is_not_run_again(self):
         scene = self.write_scene()

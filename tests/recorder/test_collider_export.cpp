@@ -139,6 +139,86 @@ TEST_CASE("USD has colliders under transforms over time") {
   CHECK(of_floor.find("normal3f[] normals = [(0, 0, 1), ") != text.npos);
 }
 
+/// A box that stands still and is there in the middle frame alone, a sphere that moves and goes before the last frame,
+/// and one that is never there.
+Animation visitors() {
+  Animation animation = stage();
+  const std::vector<Real> times = animation.times;
+  std::vector<AnimatedCollider>& colliders = animation.colliders;
+  colliders = {collider_of("visitor", build(BoxCollider{}), {0.6}, {{{4, 5, 6}}}),
+               collider_of("leaver", build(SphereCollider{}), {0.5, 0.6}, {{{0, 0, 0}}, {{0, 0, 1}}}),
+               collider_of("absent", build(SphereCollider{}), {0.9}, {{}})};
+  colliders[0].from = times[1];
+  colliders[0].until = colliders[1].until = times[2];
+  colliders[2].from = 0.9;
+  return animation;
+}
+
+TEST_CASE("glTF scales a collider to nothing, in steps, while it is not there") {
+  const pliant_tests::TemporaryFolder folder;
+  const auto path = folder.path() / "run.glb";
+  export_animation(path, visitors());
+  const Glb glb(text_of(path));
+  REQUIRE(glb.document["nodes"].size() == 3);  // the sheet is one of them
+  CHECK(glb.node("visitor")["scale"] == json({0, 0, 0}));
+  CHECK_FALSE(glb.node("leaver").contains("scale"));
+  std::map<std::string, std::vector<float>> sizes;
+  std::map<std::string, std::vector<std::string>> paths;
+  for (const json& channel : glb.document["animations"][0]["channels"]) {
+    const std::string name = glb.document["nodes"][channel["target"]["node"].get<std::size_t>()]["name"];
+    paths[name].push_back(channel["target"]["path"]);
+    if (channel["target"]["path"] != "scale") continue;
+    const json& sampler = glb.document["animations"][0]["samplers"][channel["sampler"].get<std::size_t>()];
+    CHECK(sampler["interpolation"] == "STEP");
+    const std::vector<float> times = glb.floats(sampler["input"]);
+    REQUIRE(times.size() == 3);
+    CHECK(times[1] == doctest::Approx(0.1));
+    sizes[name] = glb.floats(sampler["output"]);
+  }
+  CHECK(paths["visitor"] == std::vector<std::string>{"scale"});
+  CHECK(paths["leaver"] == std::vector<std::string>{"translation", "rotation", "scale"});
+  CHECK(sizes["visitor"] == std::vector<float>{0, 0, 0, 1, 1, 1, 0, 0, 0});
+  CHECK(sizes["leaver"] == std::vector<float>{1, 1, 1, 1, 1, 1, 0, 0, 0});
+}
+
+TEST_CASE("USD hides a collider while it is not there") {
+  const pliant_tests::TemporaryFolder folder;
+  const auto path = folder.path() / "run.usda";
+  export_animation(path, visitors());
+  const std::string text = text_of(path);
+  const std::size_t visitor = text.find("def Xform \"visitor\""), leaver = text.find("def Xform \"leaver\"");
+  REQUIRE(visitor < leaver);
+  REQUIRE(leaver != text.npos);
+  CHECK(text.find("absent") == text.npos);
+  const auto visibility_of = [](const std::string& prim) {
+    const std::string_view head = "token visibility.timeSamples = {";
+    const std::size_t begin = prim.find(head) + head.size();
+    std::string samples = prim.substr(begin, prim.find('}', begin) - begin);
+    std::erase_if(samples, [](char c) { return c == ' ' || c == '\n'; });
+    return samples;
+  };
+  CHECK(visibility_of(text.substr(visitor, leaver - visitor)) == R"(0:"invisible",1:"inherited",2:"invisible",)");
+  CHECK(visibility_of(text.substr(leaver)) == R"(0:"inherited",2:"invisible",)");
+  export_animation(folder.path() / "stage.usda", stage());
+  CHECK(text_of(folder.path() / "stage.usda").find("visibility") == std::string::npos);
+}
+
+TEST_CASE("of a single frame an export has the colliders that are there") {
+  const pliant_tests::TemporaryFolder folder;
+  Animation animation = visitors();
+  keep_frames(animation, {.first = 2, .last = 2});
+  export_animation(folder.path() / "last.glb", animation);
+  const Glb last(text_of(folder.path() / "last.glb"));
+  CHECK(last.document["nodes"].size() == 1);
+  animation = visitors();
+  keep_frames(animation, {.first = 1, .last = 1});
+  export_animation(folder.path() / "middle.glb", animation);
+  const Glb middle(text_of(folder.path() / "middle.glb"));
+  CHECK(middle.node("leaver")["translation"] == json({0, 1, 0}));
+  CHECK_FALSE(middle.node("visitor").contains("scale"));
+  CHECK(middle.document["nodes"].size() == 3);
+}
+
 TEST_CASE("poses between frames are on the way, and at rest before and after") {
   const Animation animation = stage();
   const AnimatedCollider& ball = animation.colliders[0];

@@ -30,6 +30,23 @@ class GltfValidator(ExportCase):
                 found = self.issues(arguments[1])
                 self.assertEqual((found["numErrors"], found["numWarnings"]), (0, 0), found["messages"])
 
+    def test_colliders_that_move_come_and_go(self):
+        (self.folder / "ball.json").write_text(json.dumps({
+            "pliant": 1, "steps": 12,
+            "bodies": [{"mesh": {"shape": "grid", "columns": 4, "rows": 4}, "mass": {"total": 1}}],
+            "colliders": [{"type": "sphere", "name": "ball", "center": [0, 0, -2]}],
+            "events": [{"step": 2, "move": "ball", "offset": [1, 0, 0], "over": 0.1}, {"step": 9, "remove": "ball"},
+                       {"step": 5, "add": {"type": "box", "center": [3, 0, 0]}}]}))
+        self.pliant("run", "ball.json", "--out", "ball")
+        self.pliant("convert", "--yes", "ball", "ball.gltf")
+        document = json.loads((self.folder / "ball.gltf").read_text())
+        channels = [(document["nodes"][channel["target"]["node"]]["name"], channel["target"]["path"])
+                    for channel in document["animations"][0]["channels"]]
+        self.assertEqual([channel for channel in channels if channel[1] != "weights"],
+                         [("ball", "translation"), ("ball", "rotation"), ("ball", "scale"), ("box", "scale")])
+        found = self.issues("ball.gltf")
+        self.assertEqual((found["numErrors"], found["numWarnings"]), (0, 0), found["messages"])
+
     def test_the_validator_finds_what_is_wrong(self):
         self.pliant("convert", "run", "good.gltf", "--yes")
         text = (self.folder / "good.gltf").read_text()

@@ -161,6 +161,34 @@ TEST_CASE("the camera takes colliders into the picture, but for what has no end 
   CHECK(floor_height(stage.frame().colliders) == 0.0F);
 }
 
+TEST_CASE("hidden colliders leave the picture as it is without them, and the camera too") {
+  Stage stage;
+  stage.options.appearance.camera = {};
+  stage.options.appearance.ground = stage.options.appearance.shadow = true;
+  stage.options.ground_height = -0.2F;
+  const auto draw = [&]() -> std::optional<Image> {
+    try {
+      stage.options.bounds = bounds_of(stage.frame(), stage.options.appearance);
+      PictureMaker maker(make_render_mesh(stage.simulation.bodies()), stage.options);
+      return maker.draw(stage.frame(), {});
+    } catch (const pliant::Error& error) {
+      MESSAGE("skipped: ", std::string(error.what()));
+      return {};
+    }
+  };
+  const std::optional<Image> without = draw();
+  stage.simulation.add(pliant::SphereCollider{.center = {0.4, 0, 0.1}, .radius = 0.1});
+  stage.simulation.add(pliant::PlaneCollider{.position = {0, 0, -0.15}});
+  CHECK(stage.frame().colliders.size() == 2);
+  const std::optional<Image> shown = draw();
+  stage.options.appearance.colliders = false;
+  const std::optional<Image> hidden = draw();
+  CHECK(bounds_of(stage.frame(), stage.options.appearance).high.x() == doctest::Approx(0.1));
+  if (!without) return;
+  CHECK(shown->pixels != without->pixels);
+  CHECK(hidden->pixels == without->pixels);
+}
+
 TEST_CASE("a shape is made into triangles once; another one in its place is another surface") {
   Stage stage;
   const ColliderId ball = stage.simulation.add(pliant::SphereCollider{.radius = 0.3});

@@ -31,8 +31,8 @@ TEST_CASE("every key of a view") {
   const ViewSettings view = with_view(R"({
     "camera": {"position": [1, 2, 3], "target": [0, 0, 1], "up": [0, 1, 0], "field_of_view": 55.5},
     "background": "#FF8000", "color": "stretch", "color_range": [0.5, 2], "legend": false, "front": [0, 0.5, 1],
-    "back": "#000000", "shading": "flat", "wireframe": true, "ground": false, "ground_height": -2, "shadow": false,
-    "light": [0, 0, 3], "size": [640, 480]})")
+    "back": "#000000", "shading": "flat", "wireframe": true, "colliders": false, "ground": false, "ground_height": -2,
+    "shadow": false, "light": [0, 0, 3], "size": [640, 480]})")
                                 .view;
   REQUIRE(view.camera.position.has_value());
   CHECK(*view.camera.position == Vec3(1, 2, 3));
@@ -47,11 +47,13 @@ TEST_CASE("every key of a view") {
   CHECK_FALSE(view.legend);
   CHECK(view.shading == Shading::flat);
   CHECK(view.wireframe);
+  CHECK_FALSE(view.colliders);
   CHECK_FALSE(view.ground);
   CHECK(view.ground_height.value_or(0) == -2);
   CHECK_FALSE(view.shadow);
   CHECK(view.size == std::array<Index, 2>{640, 480});
   CHECK_FALSE(with_view("{}").view.camera.position.has_value());
+  CHECK(with_view("{}").view.colliders);
 }
 
 TEST_CASE("keys of 0.1.0 are read, with a warning that names both") {

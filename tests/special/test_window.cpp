@@ -186,6 +186,14 @@ TEST_CASE("a ball is seen, follows the mouse through the picture, and its slider
   desk.source.live()->post([](CommandContext& context) { context.session.set("collider:ball.radius", {0.2, 0, 0}); });
   desk.turn_until([&] { return desk.parameter("collider:ball.radius") == 0.2; });
   CHECK(difference(moved, desk.picture()) > 0.01);
+
+  desk.key("o");
+  CHECK_FALSE(is_gray_blue(pixel(desk.picture(), to)));
+  desk.drag(to, from);
+  CHECK_FALSE(desk.viewer.interaction().collider_goal().has_value());
+  desk.release();
+  desk.key("o");
+  CHECK((ball() - rest).norm() < 1e-4F);
 }
 
 TEST_CASE("the surface follows the mouse that pulls at it, and comes back") {

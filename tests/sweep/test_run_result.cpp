@@ -75,6 +75,30 @@ TEST_CASE("the figures of a run") {
   CHECK_THROWS_AS(figure_index("nothing"), std::logic_error);
 }
 
+TEST_CASE("the figures of contact of a run with colliders, without the start, which is no step") {
+  const RunResult result = result_of(run_json("ok", 3),
+                                     "step,time,contacts,deepest,friction_power,held_back,backtracks,refactorizations\n"
+                                     "0,0,0,0,0,0,0,0\n"
+                                     "1,0.1,7,0.25,1,1,3,1\n"
+                                     "2,0.2,9,0.5,1,1,2,0\n"
+                                     "3,0.3,5,0.125,1,1,1,1\n");
+  const auto figure = [&](std::string_view name) { return result.figure(figure_index(name)).value_or(-1); };
+  CHECK(figure("contacts_end") == 5);
+  CHECK(figure("contacts_mean") == 7);
+  CHECK(figure("deepest_max") == 0.5);
+  CHECK(figure("deepest_end") == 0.125);
+  CHECK(figure("backtracks_mean") == 2);
+  CHECK(figure("refactorizations_mean") == doctest::Approx(2.0 / 3));
+  CHECK(figure("refactorizations_max") == 1);
+  const RunResult without = result_of(run_json("ok", 3), measurements);
+  CHECK(without.figure(figure_index("iterations_mean")).has_value());
+  CHECK_FALSE(without.figure(figure_index("contacts_end")).has_value());
+  for (const std::string_view name : {"deepest_max", "backtracks_mean", "refactorizations_mean"}) {
+    const std::string label = figure_infos()[figure_index(name)].label;
+    CHECK(label.ends_with(name.starts_with("deepest") ? " [m]" : " [a step]"));
+  }
+}
+
 TEST_CASE("a run without steps has a state, and no step") {
   const std::string_view start = measurements.substr(0, measurements.find("1,0.1"));
   const RunResult result = result_of(run_json("ok", 0), start);

@@ -116,6 +116,56 @@ TEST_CASE("what moved by itself stops where the mouse leaves it, and starts over
   CHECK(session.simulation().pose(ball).position.y() == -1);
 }
 
+TEST_CASE("a collider that the user took is not moved by the scene any longer, until that starts over") {
+  const auto make = [] {
+    return pliant::parse_scene(R"({"pliant": 1, "settings": {"time_step": 0.02},
+      "bodies": [{"mesh": {"shape": "grid", "columns": 4, "rows": 4}, "mass": {"total": 1},
+        "constraints": [{"type": "edge_spring", "stiffness": 100}, {"type": "position", "on": "all"}]}],
+      "colliders": [{"type": "sphere", "name": "ball", "center": [0, 0, 3], "radius": 0.2},
+                    {"type": "sphere", "name": "other", "center": [0, 0, -3], "radius": 0.2}],
+      "events": [{"step": 0, "move": "ball", "offset": [0, 0, 4], "over": 1},
+                 {"step": 0, "move": "other", "offset": [0, 0, -4], "over": 1},
+                 {"step": 20, "move": "ball", "target": [5, 5, 5], "over": 0.2},
+                 {"step": 25, "stop": "ball"},
+                 {"step": 27, "move": "ball", "target": [6, 6, 6]},
+                 {"step": 30, "change": "ball", "radius": 0.3}]})",
+                               {}, "moves.json");
+  };
+  const ColliderId taken{0}, other{1};
+  Session session(make);
+  for (int i = 0; i < 10; ++i) session.step();
+  REQUIRE(session.simulation().pose(taken).position.z() == doctest::Approx(3.8));
+  const Vec3f goal(0.25F, 0, 3.5F);
+  session.move_collider(taken, goal);
+  for (int i = 0; i < 40; ++i) {
+    const double before = (session.simulation().pose(taken).position - goal.cast<double>()).norm();
+    session.step();
+    const double now = (session.simulation().pose(taken).position - goal.cast<double>()).norm();
+    CHECK((now < before || now == 0));
+  }
+  CHECK(session.simulation().pose(taken).position == goal.cast<double>());
+  CHECK(session.note().empty());
+  CHECK(session.simulation().pose(other).position.z() == doctest::Approx(-7));  // as the scene says
+  CHECK(session.simulation().options<pliant::SphereCollider>(taken)->radius == 0.3);
+  session.restart(true);
+  for (int i = 0; i < 28; ++i) session.step();
+  CHECK(session.simulation().pose(taken).position == Vec3(6, 6, 6));
+}
+
+TEST_CASE("what is hidden cannot be grabbed") {
+  LiveScene live(make_scene, 1, false, [] {});
+  while (!live.has_news()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  const Screen screen = screen_before();
+  OrbitCamera camera(screen.viewpoint, Vec3f::UnitZ());
+  MouseInteraction::View view{screen, camera, &live, &live.newest()};
+  const Vec2f at(205, 145);
+  CHECK(MouseInteraction::pick(at, view).collider.has_value());
+  view.shows_colliders = false;
+  const auto aimed = MouseInteraction::pick(at, view);
+  CHECK_FALSE(aimed.collider.has_value());
+  CHECK(aimed.point.has_value());  // the sheet behind the ball
+}
+
 TEST_CASE("a drag moves the collider in the plane of the picture, as far as the mouse goes") {
   LiveScene live(make_scene, 1, true, [] {});
   live.post([](CommandContext& context) { context.pacer.set_speed(Pacer::unlimited); });

@@ -36,6 +36,11 @@ bool draw_appearance_panel(pliant::ViewSettings& appearance, int& samples, const
   ImGui::BeginDisabled(!appearance.ground);
   ImGui::Checkbox("shadow", &appearance.shadow);
   ImGui::EndDisabled();
+  if (!source.frame().content.colliders.empty()) {
+    row_label("", "");
+    ImGui::Checkbox("colliders", &appearance.colliders);
+    explain("O: hidden ones act all the same");
+  }
   return has_changed;
 }
 

@@ -27,9 +27,10 @@ constexpr std::array<Key, 5> live_keys = {Key{"Space", "play or pause"}, Key{"S 
                                           Key{"+ and −", "stiffer or softer pull"}};
 constexpr std::array<Key, 3> run_keys = {Key{"Space", "play or pause"}, Key{"→ and ←", "one frame on or back"},
                                          Key{"R", "to the first frame"}};
-constexpr std::array<Key, 6> appearance_keys = {Key{"C", "color by the next quantity, or none"},
+constexpr std::array<Key, 7> appearance_keys = {Key{"C", "color by the next quantity, or none"},
                                                 Key{"W", "wireframe"},
                                                 Key{"L", "smooth or flat"},
+                                                Key{"O", "hide or show the colliders"},
                                                 Key{"P", "save the picture as a PNG file"},
                                                 Key{"Tab", "hide or show the panel"},
                                                 Key{"H or F1", "this help"}};

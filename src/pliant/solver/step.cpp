@@ -12,19 +12,6 @@
 #include "pliant/solver/solver.h"
 
 namespace pliant {
-namespace {
-
-/// Kahan's sum: after n steps of h the time is n h to the last digit.
-void advance_time(State& state, Real time_step) {
-  ++state.step;
-  const Real step = time_step - state.time_excess;
-  const Real time = state.time + step;
-  state.time_excess = (time - state.time) - step;
-  state.time = time;
-}
-
-}  // namespace
-
 StepReport Solver::step(State& state) {
   const Stopwatch total;
   StepReport report;
@@ -36,7 +23,7 @@ StepReport Solver::step(State& state) {
     take_substeps(state, report);
   }
   contact_.commit_step(state);
-  advance_time(state, settings_.time_step);
+  state.advance_time(settings_.time_step);
   report.seconds_total = total.seconds();
   return report;
 }

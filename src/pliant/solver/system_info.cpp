@@ -69,9 +69,11 @@ SystemInfo System::describe(std::span<const Real> masses) const {
 
   for (std::size_t i = 0; i < free_components_.count(); ++i) {
     const std::span<const Index> component = free_components_.component(i);
-    Index first = vertex_count_;
-    for (const Index vertex : component) first = std::min(first, groups_.vertex(vertex));
-    info.free_components.push_back({first, static_cast<Index>(component.size())});
+    FreeComponent& free = info.free_components.emplace_back(FreeComponent{vertex_count_, count_of(component)});
+    for (const Index vertex : component) {
+      free.vertices.push_back(groups_.vertex(vertex));
+      free.first_vertex = std::min(free.first_vertex, free.vertices.back());
+    }
   }
 
   std::ranges::sort(info.free_components, {}, &FreeComponent::first_vertex);

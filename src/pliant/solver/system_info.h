@@ -1,5 +1,7 @@
 #pragma once
 // What the system of equations of a simulation is like, for people.
+#include <vector>
+
 #include "pliant/solver/settings.h"
 
 namespace pliant {
@@ -8,6 +10,7 @@ namespace pliant {
 struct FreeComponent {
   Index first_vertex = 0;  ///< the lowest of its vertices
   Index vertex_count = 0;
+  std::vector<Index> vertices{};  ///< all of them, in any order
 };
 
 struct SystemInfo {

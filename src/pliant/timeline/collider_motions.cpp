@@ -14,6 +14,7 @@ void ColliderMotions::start(Simulation& simulation, ColliderId id, std::shared_p
   motion.state.numbers.begin = simulation.state().time;
   motion.state.numbers.points.push_back({0, 0, from.position});
   motion.path->begin(simulation, std::nullopt, motion.state.numbers);
+  if (left_alone_.contains(id)) return;
   leave(id);
   if (motion.path->duration() > 0) {
     motions_.push_back(std::move(motion));
@@ -29,6 +30,11 @@ void ColliderMotions::leave(ColliderId id) {
 void ColliderMotions::stop(const Simulation& simulation, ColliderId id) {
   simulation.collider(id);  // refuses one that there is not
   leave(id);
+}
+
+void ColliderMotions::leave_alone(const Simulation& simulation, ColliderId id) {
+  stop(simulation, id);
+  left_alone_.insert(id);
 }
 
 Pose ColliderMotions::pose(const Simulation& simulation, const Motion& motion, Real elapsed) {

@@ -1,6 +1,7 @@
 #pragma once
 // Colliders on their paths: the part of a Timeline that moves them.
 #include <memory>
+#include <set>
 #include <vector>
 
 #include "pliant/timeline/path.h"
@@ -21,6 +22,8 @@ class ColliderMotions {
   /// Takes over from an earlier motion of the collider. A jump is where the next step takes it.
   void start(Simulation& simulation, ColliderId id, std::shared_ptr<Path> path, Index event, Index order);
   void stop(const Simulation& simulation, ColliderId id);
+  /// Ends the motion of a collider; those that would start later do not.
+  void leave_alone(const Simulation& simulation, ColliderId id);
 
   /// Before a step: motions end whose colliders are gone.
   void prepare(const Simulation& simulation);
@@ -49,6 +52,7 @@ class ColliderMotions {
   void leave(ColliderId id);
 
   std::vector<Motion> motions_;
+  std::set<ColliderId> left_alone_;
 };
 
 }  // namespace pliant

@@ -235,6 +235,12 @@ void Timeline::act_due(Simulation& simulation, std::int64_t step, Real time) {
   if (is_due(clock(simulation, step, time))) all_or_nothing(simulation, [&] { run_due(simulation, step, time); });
 }
 
+void Timeline::move_colliders(Simulation& simulation) {
+  collider_motions_.prepare(simulation);
+  collider_motions_.go_on(simulation);
+  collider_motions_.end_what_arrived();
+}
+
 Index Timeline::skip_due(const Simulation& simulation) {
   const std::vector<Index> due = due_events(clock(simulation));
   for (const Index event : due) take_from_waiting(event);

@@ -82,6 +82,11 @@ class Timeline {
   /// one step. With the velocities that it has it goes on behind the end.
   void start(Simulation& simulation, ColliderId collider, std::shared_ptr<Path> path);
   void stop(const Simulation& simulation, ColliderId collider) { collider_motions_.stop(simulation, collider); }
+  /// Ends the motion of a collider and lets none begin: events that would move it, or stop it, act without that. For
+  /// whoever moves it by hand. A checkpoint does not know of it.
+  void leave_alone(const Simulation& simulation, ColliderId collider) {
+    collider_motions_.leave_alone(simulation, collider);
+  }
   /// Leaves targets where they are now; without numbers all of the group, whose ramp ends as well.
   void stop(const Simulation& simulation, GroupId group, const std::vector<Index>& numbers = {});
   /// Lets the stiffness of a group go to another value in a time [s] > 0. Costs a numeric factorization each step.
@@ -94,9 +99,12 @@ class Timeline {
 
   /// Lets the events act that are due before that step at that time [s], and no others, without a step: what pins and
   /// forces a recorded run had then is found again by calling this for all of its steps in turn, from 0 on, whatever
-  /// step and time the simulation is at. Motions that begin are not followed. When this throws, simulation and timeline
-  /// are as before.
+  /// step and time the simulation is at. Motions that begin are not followed, but for those of colliders, see
+  /// move_colliders. When this throws, simulation and timeline are as before.
   void act_due(Simulation& simulation, std::int64_t step, Real time);
+  /// Sets where the next step takes the colliders that are on their way, without a step. With act_due before it, at the
+  /// step and the time that the simulation is at, colliders of a recorded run are found again.
+  void move_colliders(Simulation& simulation);
 
   /// Takes away the events that are due at the next step, for whoever changed the simulation by hand so that one of
   /// them can no longer act. Returns how many there were. A checkpoint does not know of it.

@@ -1,6 +1,7 @@
 #pragma once
 // A moving mesh, to be exported: from the folder of a run, or a mesh and a point cache.
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -13,12 +14,15 @@ namespace pliant {
 /// A collider of a run: a rigid surface that may move.
 struct AnimatedCollider {
   std::string name;
-  Mesh surface;             ///< in a frame of its own [m]
-  Positions normals;        ///< one for each corner of its triangles
-  std::vector<Real> times;  ///< [s], rising, at least one
-  std::vector<Pose> poses;  ///< of the frame at each of the times
+  Mesh surface;                                        ///< in a frame of its own [m]
+  Positions normals;                                   ///< one for each corner of its triangles
+  std::vector<Real> times;                             ///< [s], rising, at least one
+  std::vector<Pose> poses;                             ///< of the frame at each of the times
+  Real from = -std::numeric_limits<Real>::infinity();  ///< when it comes [s], the first moment at which it is there
+  Real until = std::numeric_limits<Real>::infinity();  ///< when it goes [s], the first moment at which it is not
 
   bool moves() const;
+  bool is_there(Real time) const { return time >= from && time < until; }
   /// Between two times on the way from one pose to the other, before the first and after the last at rest.
   Pose pose_at(Real time) const;
 };

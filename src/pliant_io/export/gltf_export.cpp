@@ -185,6 +185,13 @@ class GltfExport {
     OrderedJson targets;  ///< null where nothing moves
   };
 
+  /// A collider whose node is animated.
+  struct MovingCollider {
+    std::size_t node;
+    const AnimatedCollider* collider;
+    bool comes_or_goes;
+  };
+
   void add_body(std::size_t number) {
     const Body& body = animation_.bodies[number];
     if (body.mesh.vertex_count() == 0) return;
@@ -255,7 +262,8 @@ class GltfExport {
 
   /// A node that moves as a whole.
   void add_collider(const AnimatedCollider& collider) {
-    if (collider.surface.triangles.empty()) return;
+    const auto is_there = [&](Real time) { return collider.is_there(time); };
+    if (collider.surface.triangles.empty() || std::ranges::none_of(animation_.times, is_there)) return;
     const SplitCorners corners(collider.surface, collider.normals);
     std::vector<Vec3f> positions;
     std::vector<Vec3f> normals;
@@ -278,7 +286,11 @@ class GltfExport {
         "nodes",
         {{"name", collider.name}, {"mesh", mesh}, {"translation", {place[0], place[1], place[2]}}, {"rotation", turn}});
     document_["scenes"][0]["nodes"].push_back(node);
-    if (collider.moves() && animation_.times.size() > 1) moving_colliders_.push_back({node, &collider});
+    if (!is_there(animation_.times.front())) document_["nodes"][node]["scale"] = {0, 0, 0};
+    const bool comes_or_goes = !std::ranges::all_of(animation_.times, is_there);
+    if ((collider.moves() || comes_or_goes) && animation_.times.size() > 1) {
+      moving_colliders_.push_back({node, &collider, comes_or_goes});
+    }
   }
 
   /// x, y, z, w of a rotation, with y up.
@@ -375,25 +387,30 @@ class GltfExport {
     }
   }
 
-  /// At each frame a translation and a rotation; numbers that are few are not thinned.
+  /// At each frame a translation and a rotation; numbers that are few are not thinned. What is not there is scaled to
+  /// 0, by which nodes are hidden: renderers may leave such a node out.
   void animate_colliders(OrderedJson& samplers, OrderedJson& channels) {
     std::vector<std::size_t> all(animation_.times.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
     const std::size_t input = document_.add_times(single_precision_times(animation_, all));
-    for (const auto& [node, collider] : moving_colliders_) {
-      std::vector<Vec3f> places;
+    for (const MovingCollider& moving : moving_colliders_) {
+      std::vector<Vec3f> places, sizes;
       std::vector<std::array<float, 4>> turns;
       for (const Real time : animation_.times) {
-        const Pose pose = collider->pose_at(time);
+        const Pose pose = moving.collider->pose_at(time);
         places.push_back(y_up(pose.position.cast<float>()));
         turns.push_back(rotation(pose));
+        sizes.push_back(moving.collider->is_there(time) ? Vec3f::Ones() : Vec3f::Zero());
       }
-      const auto add_channel = [&, number = node](std::size_t output, const char* path) {
-        channels.push_back({{"sampler", samplers.size()}, {"target", {{"node", number}, {"path", path}}}});
-        samplers.push_back({{"input", input}, {"output", output}, {"interpolation", "LINEAR"}});
+      const auto add_channel = [&](std::size_t output, const char* path, const char* interpolation) {
+        channels.push_back({{"sampler", samplers.size()}, {"target", {{"node", moving.node}, {"path", path}}}});
+        samplers.push_back({{"input", input}, {"output", output}, {"interpolation", interpolation}});
       };
-      add_channel(document_.add_numbers(places), "translation");
-      add_channel(document_.add_numbers(turns), "rotation");
+      if (moving.collider->moves()) {
+        add_channel(document_.add_numbers(places), "translation", "LINEAR");
+        add_channel(document_.add_numbers(turns), "rotation", "LINEAR");
+      }
+      if (moving.comes_or_goes) add_channel(document_.add_numbers(sizes), "scale", "STEP");
     }
   }
 
@@ -404,8 +421,8 @@ class GltfExport {
   std::optional<std::size_t> front_material_, back_material_, double_sided_material_, collider_material_;
   GltfDocument document_;
   std::vector<std::size_t> moving_nodes_;
-  std::vector<std::pair<std::size_t, const AnimatedCollider*>> moving_colliders_;  ///< with their nodes
-  Positions positions_;                                                            ///< scratch
+  std::vector<MovingCollider> moving_colliders_;
+  Positions positions_;  ///< scratch
 };
 
 std::string dump(const OrderedJson& json) {

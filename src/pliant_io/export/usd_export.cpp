@@ -179,11 +179,13 @@ class UsdExport {
   /// A rigid mesh under the transform of its prim.
   void write_collider(const AnimatedCollider& collider, PrimNames& names) {
     const Mesh& surface = collider.surface;
-    if (surface.triangles.empty()) return;
+    const auto is_there = [&](Real time) { return collider.is_there(time); };
+    if (surface.triangles.empty() || std::ranges::none_of(animation_.times, is_there)) return;
     text_.line(fmt::format("def Xform \"{}\" (", names.name(collider.name)));
     text_.line(fmt::format("    customData = {{ string name = {} }}", string_text(collider.name)));
     text_.open(")");
     write_pose(collider);
+    if (!std::ranges::all_of(animation_.times, is_there)) write_visibility(collider);
     text_.open("def Mesh \"mesh\"");
     text_.line("uniform bool doubleSided = 1");
     std::vector<Index> corners;
@@ -224,6 +226,20 @@ class UsdExport {
       return fmt::format("({}, {}, {})", pose.position.x(), pose.position.y(), pose.position.z());
     });
     text_.line("uniform token[] xformOpOrder = [\"xformOp:translate\", \"xformOp:orient\"]");
+  }
+
+  /// A token holds until the next one.
+  void write_visibility(const AnimatedCollider& collider) {
+    text_.line("token visibility.timeSamples = {");
+    std::optional<bool> last;
+    for (std::size_t frame = 0; frame < animation_.times.size(); ++frame) {
+      const bool is_there = collider.is_there(animation_.times[frame]);
+      if (last != is_there) {
+        text_.line(fmt::format("    {}: \"{}\",", time_code(frame), is_there ? "inherited" : "invisible"));
+      }
+      last = is_there;
+    }
+    text_.line("}");
   }
 
   static std::vector<Eigen::Vector3f> rows_of(const Positions& rows) {

@@ -53,6 +53,7 @@ struct ViewSettings {
   Color back{0.95, 0.77, 0.55};                      ///< of the other side
   Shading shading = Shading::smooth;                 ///< smooth, or each face by itself
   bool wireframe = false;                            ///< draw the edges of the elements too
+  bool colliders = true;                             ///< draw them; hidden ones act all the same
   bool ground = true;                                ///< draw a plane below the bodies
   std::optional<Real> ground_height{};               ///< z of that plane [m]; none: a little below everything
   bool shadow = true;                                ///< on the ground
@@ -72,6 +73,7 @@ struct ViewSettings {
     field(OptionInfo{"back", "", "tone of the other side"}, self.back);
     field(OptionInfo{"shading", "", "`smooth`, or `flat`: each face by itself"}, self.shading);
     field(OptionInfo{"wireframe", "", "draw the edges of the elements too"}, self.wireframe);
+    field(OptionInfo{"colliders", "", "draw them; hidden ones act all the same"}, self.colliders);
     field(OptionInfo{"ground", "", "draw a plane below the bodies"}, self.ground);
     field(OptionInfo{"ground_height", "m", "of that plane; default: a little below everything"}, self.ground_height);
     field(OptionInfo{"shadow", "", "on the ground"}, self.shadow);
