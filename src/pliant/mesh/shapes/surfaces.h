@@ -1,5 +1,7 @@
 #pragma once
 // Round surfaces of triangles: the torus, the sphere, the cylinder.
+#include <optional>
+
 #include "pliant/core/options.h"
 #include "pliant/mesh/mesh.h"
 
@@ -54,11 +56,12 @@ constexpr std::array<std::string_view, 2> choice_names(Caps) {
 struct CylinderOptions {
   static constexpr std::string_view shape = "cylinder";
 
-  Index segments = 24;     ///< vertices around the axis, ≥ 3
-  Index rows = 11;         ///< vertices along the axis, ≥ 2
-  Real radius = 0.25;      ///< of the circle through the vertices [m], > 0
-  Real height = 1;         ///< along the axis [m], > 0
-  Caps caps = Caps::open;  ///< its ends, open or closed
+  Index segments = 24;               ///< vertices around the axis, ≥ 3
+  Index rows = 11;                   ///< vertices along the axis, ≥ 2
+  Real radius = 0.25;                ///< of the circle through the vertices [m], > 0
+  Real height = 1;                   ///< along the axis [m], > 0
+  std::optional<Real> top_radius{};  ///< of the circle at the top [m], > 0; none: `radius`; else it is a blunt cone
+  Caps caps = Caps::open;            ///< its ends, open or closed
 
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -66,12 +69,15 @@ struct CylinderOptions {
     field(OptionInfo{"rows", "", "vertices along the axis", Range{2}}, self.rows);
     field(OptionInfo{"radius", "m", "of the circle through the vertices", positive}, self.radius);
     field(OptionInfo{"height", "m", "along the axis", positive}, self.height);
+    field(OptionInfo{"top_radius", "m", "at the top, where it is another one: a skirt, a lampshade; default: `radius`",
+                     positive},
+          self.top_radius);
     field(OptionInfo{"caps", "", "its ends: `open` or `closed`"}, self.caps);
   }
 };
 
-/// A cylinder about the z axis from z = 0 up, normals outward. Vertex row·segments + a lies at angle 2πa/segments; the
-/// lids are fans about two more vertices, the bottom's and the top's middle.
+/// A cylinder, or a blunt cone, about the z axis from z = 0 up, normals outward. Vertex row·segments + a lies at angle
+/// 2πa/segments; the lids are fans about two more vertices, the bottom's and the top's middle.
 Mesh cylinder(const CylinderOptions& options);
 
 }  // namespace pliant
