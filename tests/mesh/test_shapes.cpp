@@ -300,7 +300,7 @@ TEST_CASE("options out of range are refused by name") {
   refused([] { cylinder({.segments = 2}); }, "cylinder: segments: 2 ");
   refused([] { cylinder({.rows = 1}); }, "cylinder: rows: 1 ");
   refused([] { cylinder({.height = -1}); }, "cylinder: height: -1 ");
-  refused([] { cylinder({.top_radius = 0}); }, "cylinder: top_radius: 0 ");
+  refused([] { cylinder({.top_radius = -1}); }, "cylinder: top_radius: -1 ");
   refused([] { bar({.cells = {1, 0, 1}}); }, "bar: cells[1]: 0 is out of range; give a finite number from 1");
   refused([] { bar({.size = {1, 1, 0}}); }, "bar: size[2]: 0 ");
   refused([] { chain({.links = 0}); }, "chain: links: 0 ");

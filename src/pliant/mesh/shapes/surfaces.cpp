@@ -99,7 +99,7 @@ Mesh sphere(const SphereOptions& options) {
 Mesh cylinder(const CylinderOptions& options) {
   check_options(options.shape, options);
   const Index n = options.segments;
-  const Real widening = options.top_radius.value_or(options.radius) - options.radius;
+  const Real widening = options.top_radius > 0 ? options.top_radius - options.radius : 0;
   require_vertex_count("cylinder: segments and rows", Real{1} * n * options.rows + 2);
 
   Mesh mesh;

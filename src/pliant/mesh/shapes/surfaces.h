@@ -1,7 +1,5 @@
 #pragma once
 // Round surfaces of triangles: the torus, the sphere, the cylinder.
-#include <optional>
-
 #include "pliant/core/options.h"
 #include "pliant/mesh/mesh.h"
 
@@ -56,12 +54,12 @@ constexpr std::array<std::string_view, 2> choice_names(Caps) {
 struct CylinderOptions {
   static constexpr std::string_view shape = "cylinder";
 
-  Index segments = 24;               ///< vertices around the axis, ≥ 3
-  Index rows = 11;                   ///< vertices along the axis, ≥ 2
-  Real radius = 0.25;                ///< of the circle through the vertices [m], > 0
-  Real height = 1;                   ///< along the axis [m], > 0
-  std::optional<Real> top_radius{};  ///< of the circle at the top [m], > 0; none: `radius`; else it is a blunt cone
-  Caps caps = Caps::open;            ///< its ends, open or closed
+  Index segments = 24;     ///< vertices around the axis, ≥ 3
+  Index rows = 11;         ///< vertices along the axis, ≥ 2
+  Real radius = 0.25;      ///< of the circle through the vertices [m], > 0
+  Real height = 1;         ///< along the axis [m], > 0
+  Real top_radius = 0;     ///< of the circle at the top [m], ≥ 0; 0: `radius`, else it is a blunt cone
+  Caps caps = Caps::open;  ///< its ends, open or closed
 
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -69,9 +67,9 @@ struct CylinderOptions {
     field(OptionInfo{"rows", "", "vertices along the axis", Range{2}}, self.rows);
     field(OptionInfo{"radius", "m", "of the circle through the vertices", positive}, self.radius);
     field(OptionInfo{"height", "m", "along the axis", positive}, self.height);
-    field(OptionInfo{"top_radius", "m", "at the top, where it is another one: a skirt, a lampshade; default: `radius`",
-                     positive},
-          self.top_radius);
+    field(
+        OptionInfo{"top_radius", "m", "at the top; 0: `radius`, else a blunt cone: a skirt, a lampshade", not_negative},
+        self.top_radius);
     field(OptionInfo{"caps", "", "its ends: `open` or `closed`"}, self.caps);
   }
 };
