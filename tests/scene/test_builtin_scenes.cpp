@@ -88,8 +88,8 @@ void check_sound(const Scene& scene) {
 }
 
 /// These run to their end in test cases of their own, below and in test_contact_scenes.cpp.
-constexpr std::array own_cases = {"conveyor", "dancer", "drapes",      "flagpole", "hand",  "materials", "net",
-                                  "pillow",   "slope",  "rope_bridge", "torus",    "towel", "trampoline"};
+constexpr std::array own_cases = {"ball", "conveyor", "dancer",      "drapes", "flagpole", "hand",  "materials",
+                                  "net",  "pillow",   "rope_bridge", "slope",  "torus",    "towel", "trampoline"};
 
 TEST_CASE("every built-in scene runs") {
   CHECK(builtin_scenes().size() >= 20);
