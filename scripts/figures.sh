@@ -13,7 +13,7 @@ draw_window() { # PROGRAM
   xdotool search --sync --onlyvisible --name 'trampoline - Pliant' windowfocus
   sleep 3
   xdotool mousemove 560 335 sleep 0.3 mousedown 1 sleep 0.3 mousemove 570 315 sleep 0.3 mousemove 640 150 sleep 1.5
-  import -window root "$out/window.png"
+  ffmpeg -loglevel error -y -f x11grab -draw_mouse 1 -video_size 1200x700 -i "$DISPLAY" -frames:v 1 "$out/window.png"
   xdotool mouseup 1
   kill -TERM "$program"
   wait "$program" || true # ended from outside
@@ -32,6 +32,8 @@ picture curtain curtain_wind --steps 100
 picture bridge rope_bridge --steps 170
 picture pillow pillow --steps 150 --color energy
 picture net net --steps 200
+picture towel towel
+picture dancer dancer --steps 240
 "$pliant" render torus --out "$out/torus.png" --size 960x540 --steps 140 --frames 6 --sheet --wireframe --quiet
 
 # Of the report on the torus, the last three pictures: jumps of 1 m without bending, with absolute, with signed bending.
@@ -54,8 +56,8 @@ else
   echo "figures.sh: $out/experiments.png is left as it is; it needs imagemagick" >&2
 fi
 
-if command -v xvfb-run >/dev/null && command -v xdotool >/dev/null && command -v import >/dev/null; then
+if command -v xvfb-run >/dev/null && command -v xdotool >/dev/null && command -v ffmpeg >/dev/null; then
   xvfb-run -a -s "-screen 0 1200x700x24 -noreset" bash scripts/figures.sh --window "$pliant"
 else
-  echo "figures.sh: $out/window.png is left as it is; it needs xvfb, xdotool and imagemagick" >&2
+  echo "figures.sh: $out/window.png is left as it is; it needs xvfb, xdotool and ffmpeg" >&2
 fi

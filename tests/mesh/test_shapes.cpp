@@ -206,6 +206,20 @@ TEST_CASE("a cylinder is a prism, open or closed") {
   CHECK(enclosed_volume(can) == doctest::Approx(3 * lid).epsilon(1e-14));
 }
 
+TEST_CASE("a cylinder with another radius at its top is a blunt cone") {
+  const Mesh skirt = cylinder({.segments = 6, .rows = 5, .radius = 2, .height = 3, .top_radius = 1});
+  for (Index v = 0; v < skirt.vertex_count(); ++v) {
+    const Vec3 x = row(skirt.vertices, v);
+    CHECK(x.head<2>().norm() == doctest::Approx(2 - x.z() / 3).epsilon(1e-14));
+  }
+  // Six trapezoids with sides of 2 and 1; their height has a foot of √3/2 on the floor.
+  CHECK(area(skirt) == doctest::Approx(6 * 1.5 * std::hypot(3, std::sqrt(0.75))).epsilon(1e-14));
+  const Mesh bucket =
+      cylinder({.segments = 6, .rows = 5, .radius = 2, .height = 3, .top_radius = 1, .caps = Caps::closed});
+  CHECK(enclosed_volume(bucket) == doctest::Approx((4 + 2 + 1) * 1.5 * std::sqrt(3.0)).epsilon(1e-14));
+  CHECK(is_consistently_oriented(bucket));
+}
+
 TEST_CASE("a bar's tetrahedra fill it, meet face to face, and are positive") {
   for (const TetrahedronCut cut : {TetrahedronCut::five, TetrahedronCut::six}) {
     const Mesh box = bar({.cells = {3, 4, 5}, .size = {3, 2, 1.25}, .cut = cut});
@@ -286,6 +300,7 @@ TEST_CASE("options out of range are refused by name") {
   refused([] { cylinder({.segments = 2}); }, "cylinder: segments: 2 ");
   refused([] { cylinder({.rows = 1}); }, "cylinder: rows: 1 ");
   refused([] { cylinder({.height = -1}); }, "cylinder: height: -1 ");
+  refused([] { cylinder({.top_radius = -1}); }, "cylinder: top_radius: -1 ");
   refused([] { bar({.cells = {1, 0, 1}}); }, "bar: cells[1]: 0 is out of range; give a finite number from 1");
   refused([] { bar({.size = {1, 1, 0}}); }, "bar: size[2]: 0 ");
   refused([] { chain({.links = 0}); }, "chain: links: 0 ");

@@ -115,11 +115,14 @@ TEST_CASE("where single precision does not do, that is said once") {
   CHECK(contains(simulation.warnings().front(), "precision: "));
 }
 
-TEST_CASE("in every built-in scene a step in single precision comes to the same fixed point as in double") {
+// Where bodies meet colliders the loads of friction are those of earlier iterates, so there is no one fixed point.
+TEST_CASE(
+    "in every built-in scene without colliders a step in single precision comes to the same fixed point as in double") {
   for (const BuiltinScene& builtin : builtin_scenes()) {
     const std::string name(builtin.name);
     CAPTURE(name);
     Scene scene = parse_scene(builtin.text, {}, builtin.name);
+    if (!scene.simulation.colliders().empty()) continue;
     for (int i = 0; i < 40; ++i) scene.step();
     Simulation& simulation = scene.simulation;
     CHECK(simulation.precision() == Precision::mixed);

@@ -150,7 +150,8 @@ void ParameterPanel::draw_group(std::span<const Slider> group, LiveScene& live) 
 /// A row for each option: of the solver the common ones, and the others unfold; of a force below its name.
 void ParameterPanel::draw_options(std::span<const Slider> options, LiveScene& live) {
   const bool is_solver = is_of_settings(options.front());
-  if (!is_solver) ImGui::TextDisabled("%s", options.front().heading.c_str());
+  const bool is_contact = std::holds_alternative<pliant::ContactOwner>(options.front().parameter.handle.owner);
+  if (!is_solver && !is_contact) ImGui::TextDisabled("%s", options.front().heading.c_str());
   const auto draw_those = [&](bool common) {
     for (const Slider& slider : options) {
       if (is_common(slider) != common) continue;

@@ -99,6 +99,7 @@ Mesh sphere(const SphereOptions& options) {
 Mesh cylinder(const CylinderOptions& options) {
   check_options(options.shape, options);
   const Index n = options.segments;
+  const Real widening = options.top_radius > 0 ? options.top_radius - options.radius : 0;
   require_vertex_count("cylinder: segments and rows", Real{1} * n * options.rows + 2);
 
   Mesh mesh;
@@ -109,7 +110,8 @@ Mesh cylinder(const CylinderOptions& options) {
     const auto [cos, sin] = on_circle(v % n, n);
     const Index row_index = v / n;
     const Real part = Real{1} * row_index / (options.rows - 1);
-    mesh.vertices.row(v) << options.radius * cos, options.radius * sin, options.height * part;
+    const Real radius = options.radius + part * widening;
+    mesh.vertices.row(v) << radius * cos, radius * sin, options.height * part;
   }
   for (Index first = 0; first + n < bottom; first += n) {
     for (Index i = 0; i < n; ++i) {

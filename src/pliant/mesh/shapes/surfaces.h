@@ -58,6 +58,7 @@ struct CylinderOptions {
   Index rows = 11;         ///< vertices along the axis, ≥ 2
   Real radius = 0.25;      ///< of the circle through the vertices [m], > 0
   Real height = 1;         ///< along the axis [m], > 0
+  Real top_radius = 0;     ///< of the circle at the top [m], ≥ 0; 0: `radius`, else it is a blunt cone
   Caps caps = Caps::open;  ///< its ends, open or closed
 
   template <class Self, class Visitor>
@@ -66,12 +67,15 @@ struct CylinderOptions {
     field(OptionInfo{"rows", "", "vertices along the axis", Range{2}}, self.rows);
     field(OptionInfo{"radius", "m", "of the circle through the vertices", positive}, self.radius);
     field(OptionInfo{"height", "m", "along the axis", positive}, self.height);
+    field(
+        OptionInfo{"top_radius", "m", "at the top; 0: `radius`, else a blunt cone: a skirt, a lampshade", not_negative},
+        self.top_radius);
     field(OptionInfo{"caps", "", "its ends: `open` or `closed`"}, self.caps);
   }
 };
 
-/// A cylinder about the z axis from z = 0 up, normals outward. Vertex row·segments + a lies at angle 2πa/segments; the
-/// lids are fans about two more vertices, the bottom's and the top's middle.
+/// A cylinder, or a blunt cone, about the z axis from z = 0 up, normals outward. Vertex row·segments + a lies at angle
+/// 2πa/segments; the lids are fans about two more vertices, the bottom's and the top's middle.
 Mesh cylinder(const CylinderOptions& options);
 
 }  // namespace pliant
