@@ -159,7 +159,7 @@ TEST_CASE("L-BFGS: a plain move is as short as the curvature that the matrix lac
   lbfgs.prepare({}, r, r / 10, threads);
   CHECK(lbfgs.is_plain());
   lbfgs.move(r / 10, 3.6, q, threads);  // xᵀr is 1.2
-  CHECK((q - r / 40).norm() < 1e-8);  // kept in single precision
+  CHECK((q - r / 40).norm() < 1e-8);    // kept in single precision
   lbfgs.shorten(0.5, r / 10, q);
   CHECK((q - r / 80).norm() < 1e-8);
 }
