@@ -24,7 +24,7 @@ struct Rig {
     state.colliders = {{0, placed.pose}};
   }
   void begin_at(Positions& q) { contact.begin_substep(step(), state, q, threads); }
-  ContactStep step() const { return {begin, masses, radii, pinned, {}, 1.0 / 60, 1.0 / 60}; }
+  ContactStep step() const { return {begin, masses, radii, pinned, {}, 1.0 / 60}; }
   /// Of forces and energy at q.
   ContactSums add(const Positions& q, Positions& forces) {
     forces.setZero(q.rows(), 3);

@@ -68,13 +68,8 @@ void ContactSolver::begin_substep(const State& state, Real begin, Real end, Real
   }
   system.order().gather(radii_, local_radii_);
   refreshes_ = 0;
-  const ContactStep step{work.begin.positions,
-                         work.begin.masses,
-                         local_radii_,
-                         system.is_pinned(),
-                         system.order().vertices(),
-                         system.inertia_step(),
-                         h};
+  const ContactStep step{work.begin.positions, work.begin.masses,         local_radii_,
+                         system.is_pinned(),   system.order().vertices(), h};
   contact_.begin_substep(step, state.contact, work.positions, threads);
 }
 

@@ -113,7 +113,6 @@ void System::find_pinned() {
 }
 
 void System::set_inertia(std::span<const Real> masses, Real step) {
-  inertia_step_ = step;
   inertia_weights_.resize(masses.size());
   for (std::size_t i = 0; i < masses.size(); ++i) inertia_weights_[i] = is_pinned_[i] ? 0 : masses[i] / (step * step);
   translation_weights_ = inertia_weights_;

@@ -70,8 +70,6 @@ class System {
   std::span<const char> is_pinned() const { return is_pinned_; }
   /// M/η² [N/m], 0 at pinned vertices.
   std::span<const Real> inertia_weights() const { return inertia_weights_; }
-  /// η of those [s].
-  Real inertia_step() const { return inertia_step_; }
   /// Of Y, as it was summed last [N/m].
   std::span<const Real> diagonal() const { return diagonal_; }
   std::size_t slot_count() const { return local_step_.slot_count(); }
@@ -110,7 +108,6 @@ class System {
   Positions shape_;  // in the order of the simulation
 
   std::vector<Real> inertia_weights_;
-  Real inertia_step_ = 0;
   std::vector<Real> no_weights_;
   std::vector<Real> translation_weights_;  // with what forces' groups add: Y as a translation of a component feels it
   SystemMatrix matrix_;

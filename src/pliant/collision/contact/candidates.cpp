@@ -7,7 +7,7 @@
 namespace pliant {
 namespace {
 
-/// k in units of m/η².
+/// k in units of m/h².
 constexpr Real stiffness_ratio = 50;
 /// Of r: the least distance that a move leaves.
 constexpr Real least_gap = 0.05;
@@ -28,6 +28,40 @@ std::optional<Vec3> entry(const ColliderShape& shape, const Vec3& from, const Ve
     if (gone >= length) return std::nullopt;
   }
   return from + gone / length * way;
+}
+
+/// The straight way of a vertex in the frame of a collider.
+struct Way {
+  Vec3 first, last;
+  Real begin_distance, end_distance;
+
+  Way(const ContactCollider& collider, const Vec3& from, const Vec3& to)
+      : first(collider.begin.to_frame(from)),
+        last(collider.end.to_frame(to)),
+        begin_distance(collider.shape->distance(first).distance),
+        end_distance(collider.shape->distance(last).distance) {}
+  /// How far its end may go before it meets the collider: a way can do so only where it is as long as the distances at
+  /// both ends together.
+  Real reach() const { return (begin_distance + end_distance - (last - first).norm()) / 2; }
+};
+
+/// About some vertices.
+struct Ball {
+  Vec3 center;
+  Real radius;
+
+  Ball(const Positions& positions, Index begin, Index end) {
+    const auto rows = positions.middleRows(begin, end - begin);
+    const Vec3 least = rows.colwise().minCoeff().transpose();
+    const Vec3 most = rows.colwise().maxCoeff().transpose();
+    center = (least + most) / 2;
+    radius = (most - least).norm() / 2;
+  }
+};
+
+/// How near a vertex of a contact distance that goes so far in a substep is worth a look.
+Real slack_of(Real contact_distance, Real way) {
+  return 2 * contact_distance + way / 2;
 }
 
 }  // namespace
@@ -75,11 +109,28 @@ bool Contact::is_current(Index begin, Index end, const Positions& q) const {
   return true;
 }
 
-/// All that were candidates before stay. With the distances a and b from a shape at both ends, a way of length l can
-/// meet it only where a + b ≤ l.
+/// How far the vertices of a chunk may still go from q before one of them can touch a collider, and the way from its
+/// beginning counted; 0 where each must be looked at by itself. They lie in a ball about the middle of theirs, at the
+/// beginning and now, and nearer to a collider by no more than its radius.
+void Contact::find_reaches(Chunk& chunk, Index begin, Index end, const Positions& q) const {
+  const Ball first(step_->begin, begin, end);
+  const Ball last(q, begin, end);
+  const Real spread = first.radius + last.radius;
+  const Real radius = *std::ranges::max_element(step_->radii.subspan(at(begin), at(end - begin)));
+  const Real slack = slack_of(radius, (last.center - first.center).norm() + spread);
+  chunk.reaches.clear();
+  for (const ContactCollider& each : colliders_) {
+    const Way way(each, first.center, last.center);
+    const Real reach = std::min(way.end_distance - last.radius - radius, way.reach() - spread);
+    chunk.reaches.push_back(reach >= slack ? reach : 0);
+  }
+}
+
+/// All that were candidates before stay.
 void Contact::find_candidates(Chunk& chunk, Index begin, Index end, const Positions& q) {
   std::swap(chunk.before, chunk.candidates);
   chunk.candidates.clear();
+  find_reaches(chunk, begin, end, q);
   auto old = chunk.before.begin();
   for (Index i = begin; i < end; ++i) {
     reference_.row(i) = q.row(i);
@@ -89,23 +140,23 @@ void Contact::find_candidates(Chunk& chunk, Index begin, Index end, const Positi
     const Real radius = step_->radii[at(i)];
     const Vec3 from = row(step_->begin, i);
     const Vec3 to = row(q, i);
-    const Real slack = 2 * radius + (to - from).norm() / 2;
+    const Real slack = slack_of(radius, (to - from).norm());
     for (Index c = 0; c < count_of(colliders_); ++c) {
       if (old != chunk.before.end() && old->vertex == i && old->collider == c) {
         chunk.candidates.push_back(*old++);
         continue;
       }
-      const ContactCollider& collider = colliders_[at(c)];
-      const Vec3 first = collider.begin.to_frame(from);
-      const Vec3 last = collider.end.to_frame(to);
-      const Real a = collider.shape->distance(first).distance;
-      const Real b = collider.shape->distance(last).distance;
-      const Real reach = std::min(b - radius, (a + b - (last - first).norm()) / 2);
-      if (reach >= slack) {
-        margin = std::min(margin, reach);
-      } else {
-        chunk.candidates.push_back(make_candidate(i, c, collider.end.to_space(first), a));
+      Real reach = chunk.reaches[at(c)];
+      if (!(reach > 0)) {
+        const Way way(colliders_[at(c)], from, to);
+        reach = std::min(way.end_distance - radius, way.reach());
+        if (!(reach >= slack)) {
+          chunk.candidates.push_back(
+              make_candidate(i, c, colliders_[at(c)].end.to_space(way.first), way.begin_distance));
+          continue;
+        }
       }
+      margin = std::min(margin, reach);
     }
   }
 }
@@ -121,7 +172,7 @@ ContactCandidate Contact::make_candidate(Index vertex, Index collider, const Vec
   made.begin_distance = begin_distance;
   made.radius = std::min(radius, begin_distance + radius);
   made.floor = std::min(least_gap * radius, begin_distance);
-  made.stiffness = stiffness_ratio * step_->masses[at(vertex)] / (step_->inertia_step * step_->inertia_step);
+  made.stiffness = stiffness_ratio * step_->masses[at(vertex)] / (step_->time_step * step_->time_step);
   if (!stiffening_.empty()) made.stiffness *= stiffening_[number];
   return made;
 }
@@ -183,12 +234,14 @@ void Contact::hold_back(Chunk& chunk, Index begin, Index end, Positions& q) {
     const std::span<Candidate> all = chunk.candidates;
     chunk.forces.resize(all.size());
     for (std::size_t i = 0, next = 0; i < all.size(); i = next) {
-      while (next < all.size() && all[next].vertex == all[i].vertex) ++next;
-      hold_back(all.subspan(i, next - i), chunk, q);
-      for (std::size_t k = i; k < next; ++k) {
-        look_at(all[k], row(q, all[k].vertex));
-        chunk.forces[k] = force(all[k]);
+      const Vec3 x = row(q, all[i].vertex);
+      bool is_far = true;
+      for (; next < all.size() && all[next].vertex == all[i].vertex; ++next) {
+        look_at(all[next], x);
+        is_far &= all[next].distance >= all[next].floor && !all[next].may_pass();
       }
+      if (!is_far) hold_back(all.subspan(i, next - i), chunk, q);
+      for (std::size_t k = i; k < next; ++k) chunk.forces[k] = force(all[k]);
     }
     if (chunk.held_back == before || is_current(begin, end, q)) return;
     find_candidates(chunk, begin, end, q);
@@ -211,8 +264,9 @@ void Contact::hold_back(std::span<Candidate> of_vertex, Chunk& chunk, Positions&
       ++chunk.held_back;
     }
     chunk.done.has_moved |= has_moved;
-    if (!has_moved || of_vertex.size() == 1) return;
+    if (!has_moved || of_vertex.size() == 1) break;
   }
+  for (Candidate& each : of_vertex) look_at(each, row(q, each.vertex));
 }
 
 }  // namespace pliant

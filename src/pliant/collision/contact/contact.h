@@ -1,11 +1,12 @@
 #pragma once
 // Contact with colliders, all that the solver knows of it. A vertex at the signed distance d < r from a collider has
 //
-//     E = k/2 (r − d)² + H(u),        k = κ 50 m/η²,
+//     E = k/2 (r − d)² + H(u),        k = κ 50 m/h²,
 //
 // with the slide u over the collider's surface in the step, added to what friction has let slide before, and Huber's
 // function H, whose limit μλ has the normal force λ of an earlier iterate. λ and the normal that u is across are
-// frozen between refreshes, so that all of it is a potential. η is the inertia step of the integrator.
+// frozen between refreshes, so that all of it is a potential. h is the substep: with that of the integrator's inertia,
+// contact would be stiffer in the second step of BDF2 than in its first.
 //
 // No vertex passes a collider: where the straight way of a vertex from its place at the beginning of the substep, in
 // the frame of the collider, goes in at one side and on towards another, the collider is to it, for this substep, the
@@ -38,8 +39,7 @@ struct ContactStep {
   std::span<const Real> radii;      ///< r of each vertex [m], > 0
   std::span<const char> is_pinned;  ///< pinned vertices touch nothing
   std::span<const Index> vertices;  ///< of the simulation; empty: the same
-  Real inertia_step = 0;            ///< η [s]
-  Real time_step = 0;               ///< [s]
+  Real time_step = 0;               ///< h of the substep [s]
 };
 
 /// A vertex that touches a collider at the end of a step.
@@ -123,12 +123,14 @@ class Contact {
     std::vector<Candidate> candidates;
     std::vector<Candidate> before;  // scratch
     std::vector<Force> forces;      // of each candidate
+    std::vector<Real> reaches;      // of each collider
     ContactSums sums;
     Index held_back = 0;
     HeldBack done;
   };
 
   bool is_current(Index begin, Index end, const Positions& q) const;
+  void find_reaches(Chunk& chunk, Index begin, Index end, const Positions& q) const;
   void find_candidates(Chunk& chunk, Index begin, Index end, const Positions& q);
   Candidate make_candidate(Index vertex, Index collider, const Vec3& begin, Real begin_distance) const;
   void recall(const ContactState& state, const Positions& q, Candidate& candidate) const;

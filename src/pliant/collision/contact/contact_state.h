@@ -22,7 +22,7 @@ struct ContactMemory {
 struct ContactState {
   std::vector<ColliderState> colliders;  ///< by number
   std::vector<ContactMemory> memory;     ///< by vertex, then collider
-  /// κ of each vertex, from 1: by how much its contacts are stiffer than 50 m/η²; empty: 1 for all.
+  /// κ of each vertex, from 1: by how much its contacts are stiffer than 50 m/h²; empty: 1 for all.
   std::vector<Real> stiffening;
   /// What the factor has of contact at each vertex, D [N/m], and for how many steps it would have done without; empty:
   /// nothing.
