@@ -180,6 +180,11 @@ TEST_CASE("colliders: after an edit, what was felt in the last step stays, and a
   CHECK(simulation.evaluate().contact == 0);
   CHECK(simulation.wrench(ball).force == felt.force);
   CHECK(simulation.wrench(ball).torque == felt.torque);
+  simulation.step();
+  CHECK(simulation.evaluate().contact > 0);
+  simulation.add(BodyId{0}, Position{.on = {0, 1}});  // another order of the vertices
+  CHECK(simulation.evaluate().contact == 0);
+  CHECK(simulation.evaluate().contact == 0);
   simulation.remove(simulation.find_collider("floor").value());
   simulation.remove(simulation.find_collider("box").value());
   CHECK(simulation.evaluate().contact == 0);

@@ -136,6 +136,8 @@ void Descent::factorize(const StepContext& context, WorkingState& work, StepRepo
   context.system.factorize(work.begin.masses, work.in_factor,
                            inertia_step(context.settings.integrator, context.time_step), context.settings.precision,
                            context.threads, times);
+  const IntegratorCoefficients form(work.begin, context.settings.integrator, context.time_step);
+  context.system.set_inertia(work.begin.masses, form.inertia_step());  // that of the first step of BDF2 is another
   ++report.contact.refactorizations;
 }
 

@@ -63,6 +63,7 @@ void Solver::lay_out() {
   Positions prediction;
   system_.order().scatter(work_.prediction, prediction);
   system_.lay_out();
+  contact_.contact().forget_substep();
   system_.order().gather(prediction, work_.prediction);
   work_.predicted_step = predicted_step;
   threads_.fit(settings_.threads, system_.slot_count());

@@ -74,6 +74,7 @@ bool System::needs_layout() const {
 }
 
 void System::lay_out() {
+  added_diagonal_.clear();
   choose_order();
   if (matrix_.set_groups(vertex_count_, groups())) is_analyzed_ = false;
   stamps_.clear();
@@ -119,6 +120,7 @@ void System::set_inertia(std::span<const Real> masses, Real step) {
   for (ConstraintGroup* group : groups()) {
     if (group->is_external() && group->targets().empty()) add_translation_weights(*group, translation_weights_);
   }
+  for (std::size_t i = 0; i < added_diagonal_.size(); ++i) translation_weights_[i] += added_diagonal_[i];
 }
 
 bool System::needs_factor(Real step, std::span<const Real> diagonal) const {
@@ -132,13 +134,12 @@ bool System::needs_factor(Real step, std::span<const Real> diagonal) const {
 void System::factorize(std::span<const Real> masses, std::span<const Real> diagonal, Real step, Precision precision,
                        ThreadPool& threads, SetUpTimes& times) {
   const Stopwatch watch;
+  added_diagonal_.assign(diagonal.begin(), diagonal.end());
   set_inertia(masses, step);
   sum(masses, step);
   if (!diagonal.empty()) matrix_.add_diagonal(diagonal);
-  for (std::size_t i = 0; i < diagonal.size(); ++i) translation_weights_[i] += diagonal[i];
   times.assembly = watch.seconds();
   factorize_sum(precision, threads, times);
-  added_diagonal_.assign(diagonal.begin(), diagonal.end());
   factor_step_ = step;
 }
 

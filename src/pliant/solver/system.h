@@ -40,7 +40,7 @@ class System {
   /// Takes up numbers of the groups that may have changed otherwise: targets, normals, stiffness.
   void sync_parameters() { groups_.sync_parameters(); }
 
-  /// Masses [kg] of the vertices, and η of a step [s].
+  /// Masses [kg] of the vertices, and η of a step [s]. What was factorized with Y counts in translations as before.
   void set_inertia(std::span<const Real> masses, Real step);
   /// Whether the factor is of another η, of other stiffnesses, or has another diagonal D added.
   bool needs_factor(Real step, std::span<const Real> diagonal) const;

@@ -230,6 +230,7 @@ void Contact::hold_back(Chunk& chunk, Index begin, Index end, Positions& q) {
   chunk.done = {};
   chunk.held_back = 0;
   for (int round = 0; round < most_sweeps; ++round) {
+    if (round > 0) find_candidates(chunk, begin, end, q);
     const Index before = chunk.held_back;
     const std::span<Candidate> all = chunk.candidates;
     chunk.forces.resize(all.size());
@@ -244,7 +245,6 @@ void Contact::hold_back(Chunk& chunk, Index begin, Index end, Positions& q) {
       for (std::size_t k = i; k < next; ++k) chunk.forces[k] = force(all[k]);
     }
     if (chunk.held_back == before || is_current(begin, end, q)) return;
-    find_candidates(chunk, begin, end, q);
   }
 }
 

@@ -21,8 +21,10 @@ Vec3 across(const Vec3& v, const Vec3& normal) {
 
 void Contact::set_colliders(std::vector<ContactCollider> colliders) {
   colliders_ = std::move(colliders);
-  step_.reset();
-  if (colliders_.empty()) points_.clear();
+  forget_substep();
+  if (!colliders_.empty()) return;
+  points_.clear();
+  wrenches_.clear();
 }
 
 void Contact::find_forces(const Positions& q, ThreadPool& threads) {

@@ -77,7 +77,9 @@ class Contact {
   void set_colliders(std::vector<ContactCollider> colliders);
   std::span<ContactCollider> colliders() { return colliders_; }
   bool is_active() const { return !colliders_.empty(); }
-  /// Whether there was a substep since the colliders were set: add() and what follows it ask for one.
+  /// Forgets the substep before: the order of the vertices is another, or which are pinned.
+  void forget_substep() { step_.reset(); }
+  /// Whether there is a substep that was not forgotten: find_forces() and what follows it ask for one.
   bool has_begun() const { return step_.has_value(); }
 
   /// A substep begins at the iterate q, which is held back.

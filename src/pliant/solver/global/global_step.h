@@ -18,9 +18,10 @@ class GlobalStep {
   /// Finds the ordering for the pattern of a matrix.
   void analyze(const LowerMatrix& matrix);
 
-  /// Factorizes a matrix of the pattern analyzed last. weights: M/h² of each vertex, 0 at pinned ones; components:
-  /// those that nothing holds. Both must outlive the solves. Panels are in single precision when asked for and when it
-  /// does. Throws Error(input) when the matrix is not positive definite.
+  /// Factorizes a matrix of the pattern analyzed last. weights: of each vertex M/h² and what else the
+  /// matrix has on the diagonal for it, 0 at pinned ones; components: those that nothing holds. Both must outlive the
+  /// solves. Panels are in single precision when asked for and when it does. Throws Error(input) when the matrix is not
+  /// positive definite.
   void factorize(const LowerMatrix& matrix, Precision precision, std::span<const Real> weights,
                  const Components& components, ThreadPool& threads, SetUpTimes& times);
 
