@@ -9,19 +9,14 @@
 #include "pliant/mesh/topology.h"
 #include "pliant_io/scene/builtin_scenes.h"
 #include "pliant_io/scene/scene.h"
+#include "whole_scenes.h"
 
 namespace test_builtin_scenes {
 
 namespace {
 
 using namespace pliant;
-
-/// Built without optimization, for a sanitizer say, the scenes only make a start.
-#ifdef NDEBUG
-constexpr bool runs_whole_scenes = true;
-#else
-constexpr bool runs_whole_scenes = false;
-#endif
+using pliant_tests::runs_whole_scenes;
 
 Scene load(const BuiltinScene& builtin) {
   return parse_scene(builtin.text, "", builtin.name);

@@ -12,19 +12,14 @@
 #include "pliant/pliant.h"
 #include "pliant_io/scene/builtin_scenes.h"
 #include "pliant_io/scene/scene.h"
+#include "whole_scenes.h"
 
 namespace test_contact_scenes {
 
 namespace {
 
 using namespace pliant;
-
-/// Built without optimization, for a sanitizer say, the scenes only make a start.
-#ifdef NDEBUG
-constexpr bool runs_whole_scenes = true;
-#else
-constexpr bool runs_whole_scenes = false;
-#endif
+using pliant_tests::runs_whole_scenes;
 
 constexpr Real degree = std::numbers::pi / 180;
 
