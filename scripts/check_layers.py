@@ -18,8 +18,9 @@ LAYERS = {
     "pliant/forces": ["pliant/core", "pliant/mesh", "pliant/constraints/constraint_group.h", "pliant/constraints/batch.h",
                       "pliant/constraints/reorder.h"],
     "pliant/solver": ["pliant/core", "pliant/constraints/constraint_group.h", "pliant/forces/force.h",
-                      "pliant/collision/contact"],
+                      "pliant/collision/contact", "pliant/collision/pairs"],
     "pliant/simulation": ["pliant/core", "pliant/mesh", "pliant/collision/colliders", "pliant/collision/contact",
+                          "pliant/collision/pairs", "pliant/collision/crossings.h",
                           "pliant/constraints", "pliant/forces", "pliant/solver"],
 }
 LAYERS["pliant/timeline"] = LAYERS["pliant/simulation"] + ["pliant/simulation"]
@@ -45,7 +46,7 @@ THIRD_PARTY = {
     "unsupported/Eigen/": [],
     "fmt/": ["src", "apps", "experiments", "tests"],
     "nlohmann/": ["src/pliant_io", "apps", "tests"],
-    "CLI/": ["apps"],
+    "CLI/": ["apps", "tests/pairs"],
     "zlib": ["src/pliant_io/files"],
     "cholmod": ["src/pliant/solver/global/factorization", "apps/bench"],
     "epoxy/": ["apps/render"],

@@ -79,7 +79,8 @@ std::optional<pliant::Scene> scene_of_run(const AppearanceArguments& arguments) 
 void add_appearance_options(CLI::App& command, AppearanceArguments& arguments) {
   command.add_option("--size", arguments.size, "Width and height in pixels; default: the scene's, or 1280x720")
       ->type_name("WIDTHxHEIGHT");
-  add_choice(command, "--color,--colour", arguments.color, "What colors show: none, stretch, energy or speed");
+  add_choice(command, "--color,--colour", arguments.color,
+             "What colors show: none, stretch, energy, speed, gap or contact_force");
   add_choice(command, "--shading", arguments.shading, "smooth, or flat: each face has one shade");
   command.add_flag("--wireframe", arguments.wireframe, "Draw the edges too");
 }

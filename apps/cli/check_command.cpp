@@ -185,6 +185,24 @@ Json describe_colliders(const Simulation& simulation) {
   return colliders;
 }
 
+/// Who touches what, and how; empty where nothing touches.
+Json describe_contact(const Simulation& simulation) {
+  const pliant::ContactSettings& contact = simulation.contact();
+  if (!contact.surfaces && simulation.colliders().empty()) return Json::object();
+  Json bodies = Json::array();
+  for (std::size_t i = 0; i < simulation.bodies().size(); ++i) {
+    const Body& body = simulation.bodies()[i];
+    Json& json = bodies.emplace_back(
+        Json{{"name", body.name}, {"distance", simulation.contact_distance(pliant::BodyId{static_cast<Index>(i)})}});
+    if (body.contact.friction) json["friction"] = *body.contact.friction;
+    json["self"] = contact.surfaces && body.contact.self;
+    Json names = Json::array();
+    for (const pliant::BodyId other : body.contact.ignores) names.push_back(simulation.body(other).name);
+    json["ignores"] = std::move(names);
+  }
+  return {{"surfaces", contact.surfaces}, {"friction", contact.friction}, {"bodies", std::move(bodies)}};
+}
+
 Json describe(Scene& scene) {
   Simulation& simulation = scene.simulation;
   const SystemInfo info = pliant::at_place(scene.place(), [&] { return simulation.system_info(); });
@@ -211,6 +229,7 @@ Json describe(Scene& scene) {
       {"groups", describe_groups(simulation)},
       {"forces", std::move(forces)},
       {"colliders", describe_colliders(simulation)},
+      {"contact", describe_contact(simulation)},
       {"events", scene.timeline.event_count()},
       {"files", std::move(files)},
       {"vertices", {{"all", vertices}, {"pinned", info.pinned_vertices}, {"free", vertices - info.pinned_vertices}}},
@@ -265,6 +284,24 @@ void print_colliders(const Json& colliders) {
   fmt::print("\n");
 }
 
+void print_contact(const Json& contact) {
+  if (contact.empty()) return;
+  const bool surfaces = contact["surfaces"].get<bool>();
+  fmt::print("contact: {}; friction {:.4g}\n",
+             surfaces ? "bodies touch each other, themselves and colliders" : "bodies touch colliders alone",
+             contact["friction"].get<Real>());
+  for (const Json& body : contact["bodies"]) {
+    fmt::print("  {}: distance {:.3g} m", text_of(body["name"]), body["distance"].get<Real>());
+    if (body.contains("friction")) fmt::print(", friction {:.4g}", body["friction"].get<Real>());
+    if (surfaces && !body["self"].get<bool>()) fmt::print(", does not touch itself");
+    for (const Json& other : body["ignores"]) {
+      if (!surfaces) break;
+      fmt::print("{} {}", &other == &body["ignores"].front() ? ", ignores" : ",", text_of(other));
+    }
+    fmt::print("\n");
+  }
+}
+
 void print_text(const Json& json) {
   const auto megabytes = [](const Json& bytes) { return bytes.get<Real>() * 1e-6; };
   fmt::print("{}: {}\n", text_of(json["scene"]), text_of(json["description"]));
@@ -275,6 +312,7 @@ void print_text(const Json& json) {
   for (const Json& force : json["forces"]) fmt::print(" {}", text_of(force));
   fmt::print("{}; events: {}\n", json["forces"].empty() ? " none" : "", json["events"].get<std::size_t>());
   print_colliders(json["colliders"]);
+  print_contact(json["contact"]);
   const Json& vertices = json["vertices"];
   fmt::print("vertices: {}, of which {} free and {} pinned\n", vertices["all"].get<Index>(),
              vertices["free"].get<Index>(), vertices["pinned"].get<Index>());

@@ -18,6 +18,7 @@ using pliant::Triangle;
 struct AllSurfaces {
   std::vector<CrossingBody> bodies;
   std::vector<Triangle> triangles;
+  std::vector<pliant::Edge> edges;  ///< of ropes and the like, where surfaces touch
 };
 
 AllSurfaces surfaces_of(const pliant::Simulation& simulation) {
@@ -27,6 +28,8 @@ AllSurfaces surfaces_of(const pliant::Simulation& simulation) {
     for (const auto& [a, b, c] : pliant::surface_triangles(body.mesh)) {
       all.triangles.push_back({a + body.first_vertex, b + body.first_vertex, c + body.first_vertex});
     }
+    if (!simulation.contact().surfaces) continue;
+    for (const auto& [a, b] : body.mesh.edges) all.edges.push_back({a + body.first_vertex, b + body.first_vertex});
   }
   return all;
 }
@@ -36,6 +39,21 @@ struct BodyCrossings {
   std::int64_t count = 0;
   Crossing first;
 };
+
+/// Whether surfaces touch, but not these two.
+bool is_meant_to_cross(const pliant::Simulation& simulation, std::size_t a, std::size_t b) {
+  if (!simulation.contact().surfaces) return false;
+  const auto ignores = [&](std::size_t one, std::size_t other) {
+    const std::vector<pliant::BodyId>& ignored = simulation.bodies()[one].contact.ignores;
+    return std::ranges::find(ignored, pliant::BodyId{static_cast<Index>(other)}) != ignored.end();
+  };
+  return a == b ? !simulation.bodies()[a].contact.self : ignores(a, b) || ignores(b, a);
+}
+
+/// Whether the triangle at a crossing's edge has a number in its body.
+bool has_triangle(const CrossingBody& body, const Crossing& crossing) {
+  return !body.is_solid && crossing.edge_triangles[0] >= 0;
+}
 
 auto place_in_list(const Crossing& crossing) {
   return std::tuple(crossing.edge, crossing.triangle);
@@ -60,7 +78,9 @@ std::string warning_text(const AllSurfaces& all, std::size_t edge_body, std::siz
 }  // namespace
 
 std::string edge_side_text(const CrossingBody& body, const Crossing& crossing) {
-  if (!body.is_solid) return fmt::format("triangle {}", crossing.edge_triangles[0] - body.first_triangle);
+  if (has_triangle(body, crossing)) {
+    return fmt::format("triangle {}", crossing.edge_triangles[0] - body.first_triangle);
+  }
   return fmt::format("edge {}-{}", crossing.edge[0] - body.first_vertex, crossing.edge[1] - body.first_vertex);
 }
 
@@ -72,7 +92,7 @@ std::string triangle_side_text(const CrossingBody& body, const Crossing& crossin
 }
 
 std::string both_sides_text(const CrossingBody& body, const Crossing& crossing, std::span<const Triangle> triangles) {
-  if (body.is_solid) {
+  if (!has_triangle(body, crossing)) {
     return fmt::format("{} and {}", edge_side_text(body, crossing), triangle_side_text(body, crossing, triangles));
   }
   return fmt::format("triangles {} and {}", crossing.edge_triangles[0] - body.first_triangle,
@@ -101,14 +121,16 @@ std::vector<std::string> crossing_warnings(const pliant::Simulation& simulation)
   const pliant::Positions& positions = simulation.state().positions;
   const auto note = [&](const Crossing& crossing) {
     const std::pair<std::size_t, std::size_t> bodies = bodies_of(crossing);
+    if (is_meant_to_cross(simulation, bodies.first, bodies.second)) return;
     BodyCrossings& entry = found[std::minmax(bodies.first, bodies.second)];
     if (entry.count++ == 0 || place_in_list(crossing) < place_in_list(entry.first)) entry.first = crossing;
   };
-  const bool is_complete =
-      may_be_surface(all.triangles.size(), simulation.state().vertex_count()) &&
-      pliant::visit_crossings(
-          {.positions = positions, .triangles = all.triangles, .most_effort = crossing_effort(all.triangles.size())},
-          note);
+  const bool is_complete = may_be_surface(all.triangles.size(), simulation.state().vertex_count()) &&
+                           pliant::visit_crossings({.positions = positions,
+                                                    .triangles = all.triangles,
+                                                    .edges = all.edges,
+                                                    .most_effort = crossing_effort(all.triangles.size())},
+                                                   note);
   constexpr std::size_t shown = 5;
   std::vector<std::string> warnings;
   for (const auto& [key, crossings] : found) {

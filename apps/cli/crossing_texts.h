@@ -49,7 +49,8 @@ std::string place_text(const pliant::Vec3& point);
 std::string more_text(std::int64_t count);
 
 /// A line for each body that crosses itself and each pair of bodies that cross, where they stand now; at most five, and
-/// then one with the number of the others.
+/// then one with the number of the others. Where surfaces touch, ropes count, and what is told to ignore each other
+/// does not.
 std::vector<std::string> crossing_warnings(const pliant::Simulation& simulation);
 
 }  // namespace pliant_cli

@@ -177,7 +177,7 @@ int record_scene(Scene& scene, const fs::path& folder, pliant::RunInfo info, con
   const auto open = [&] {
     const std::int64_t kept = info.resumed_from ? *info.resumed_from / scene.output.every + 1 : 0;
     recorder.emplace(folder, make_frame_writer(scene, folder, kept), scene.output.every, scene.group_names, kept,
-                     scene.collider_names);
+                     pliant::ContactColumns{scene.collider_names, scene.has_surfaces});
     info.frames = recorder->frame_count();
   };
   if (info.resumed_from) {

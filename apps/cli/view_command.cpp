@@ -14,6 +14,7 @@
 #include "interrupts.h"
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
+#include "render/scalar_fields.h"
 #include "viewer/live_source.h"
 #include "viewer/playback.h"
 #include "viewer/viewer.h"
@@ -75,9 +76,7 @@ int show(pliant_viewer::Window& window, pliant_viewer::ViewSource& source, const
 int view_run(const ViewArguments& arguments) {
   ShownRun run = shown_run(arguments);
   const pliant::ViewSettings& appearance = run.appearance;
-  if (arguments.color == pliant::ColorBy::energy) {
-    pliant::fail_input("--color: a run does not say the energy of its vertices; give its scene, or another color");
-  }
+  if (arguments.color) pliant_render::check_known_of_runs(*arguments.color);
   pliant::Animation animation = pliant::read_run(arguments.scene);
   pliant_render::RunAnnotations annotations = annotations_of(run, animation);
   pliant_viewer::Playback source(pliant_render::RunFrames(std::move(animation), std::move(annotations)), appearance,

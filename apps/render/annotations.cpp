@@ -54,8 +54,8 @@ std::optional<Legend> make_legend(const pliant::ViewSettings& appearance, const 
                                   int height) {
   if (!appearance.legend || appearance.color == pliant::ColorBy::none) return {};
   if (legend_width(height) > 0.4F * static_cast<float>(width)) return {};
-  return Legend{std::string(field_title(appearance.color)), range,
-                appearance.color == pliant::ColorBy::stretch ? 100.0F : 1.0F, color_map(appearance.color)};
+  return Legend{std::string(field_title(appearance.color)), range, field_scale(appearance.color),
+                color_map(appearance.color)};
 }
 
 std::vector<float> round_ticks(float low, float high) {

@@ -123,6 +123,10 @@ std::vector<float> find_values(const pliant::Simulation& simulation, const Rende
       return vertex_energy(simulation);
     case ColorBy::speed:
       return vertex_speed(simulation.state().velocities);
+    case ColorBy::gap:
+      return vertex_gap(simulation);
+    case ColorBy::contact_force:
+      return vertex_contact_force(simulation);
     case ColorBy::none:
       break;
   }
@@ -210,9 +214,7 @@ RunFrames::RunFrames(pliant::Animation animation, RunAnnotations annotations)
 }
 
 ClipFrame RunFrames::frame(std::size_t i, ColorBy color) const {
-  if (color == ColorBy::energy) {
-    pliant::fail_input("color: a run does not say the energy of its vertices; give its scene, or another color");
-  }
+  check_known_of_runs(color);
   pliant::Positions x;
   animation_.cache.sample(time(i), x);
   ClipFrame frame{time(i), {to_floats(x), {}, {}, {}}, {}};

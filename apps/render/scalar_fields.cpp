@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include <Eigen/LU>
+#include <fmt/format.h>
+
+#include "pliant/core/error.h"
 
 namespace pliant_render {
 namespace {
@@ -26,6 +30,16 @@ std::vector<Rgb> through(std::span<const Rgb> stops) {
     }
   }
   return map;
+}
+
+/// Of values that are finite and above zero; `otherwise` where there are none.
+float median_above_zero(std::span<const float> values, float otherwise) {
+  std::vector<float> counted;
+  std::ranges::copy_if(values, std::back_inserter(counted), [](float v) { return v > 0 && std::isfinite(v); });
+  if (counted.empty()) return otherwise;
+  const auto middle = counted.begin() + static_cast<std::ptrdiff_t>(counted.size() / 2);
+  std::ranges::nth_element(counted, middle);
+  return *middle;
 }
 
 }  // namespace
@@ -74,6 +88,36 @@ std::vector<float> vertex_speed(const pliant::Positions& velocities) {
   return speeds;
 }
 
+std::vector<float> vertex_gap(const pliant::Simulation& simulation) {
+  std::vector<float> gaps;
+  const std::vector<pliant::VertexTouch> touches = simulation.touches();
+  for (std::size_t b = 0; b < simulation.bodies().size(); ++b) {
+    const pliant::Body& body = simulation.bodies()[b];
+    const Real most = simulation.contact_distance(pliant::BodyId{static_cast<Index>(b)});
+    for (Index v = 0; v < body.mesh.vertex_count(); ++v) {
+      const Real gap = touches[static_cast<std::size_t>(body.first_vertex + v)].gap;
+      gaps.push_back(static_cast<float>(std::clamp<Real>(gap, 0, most)));
+    }
+  }
+  return gaps;
+}
+
+std::vector<float> vertex_contact_force(const pliant::Simulation& simulation) {
+  std::vector<float> forces;
+  for (const pliant::VertexTouch& each : simulation.touches()) forces.push_back(static_cast<float>(each.force.norm()));
+  return forces;
+}
+
+bool is_known_of_runs(ColorBy color) {
+  return color == ColorBy::none || color == ColorBy::stretch || color == ColorBy::speed;
+}
+
+void check_known_of_runs(ColorBy color) {
+  if (is_known_of_runs(color)) return;
+  const std::string_view what = color == ColorBy::energy ? "the energy of its vertices" : "what its vertices touch";
+  pliant::fail_input(fmt::format("color: a run does not say {}; give its scene, or another color", what));
+}
+
 std::string_view field_title(ColorBy color) {
   switch (color) {
     case ColorBy::stretch:
@@ -82,10 +126,18 @@ std::string_view field_title(ColorBy color) {
       return "elastic energy [J]";
     case ColorBy::speed:
       return "speed [m/s]";
+    case ColorBy::gap:
+      return "gap [mm]";
+    case ColorBy::contact_force:
+      return "contact [N]";
     case ColorBy::none:
       break;
   }
   return "";
+}
+
+float field_scale(ColorBy color) {
+  return color == ColorBy::stretch ? 100.0F : color == ColorBy::gap ? 1000.0F : 1.0F;
 }
 
 std::array<float, 2> field_range(ColorBy color, std::span<const float> values) {
@@ -93,6 +145,7 @@ std::array<float, 2> field_range(ColorBy color, std::span<const float> values) {
   for (const float value : values) {
     if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
   }
+  if (color == ColorBy::contact_force) largest = median_above_zero(values, largest);
   if (!(largest > 0)) largest = 1;
   return {color == ColorBy::stretch ? -largest : 0, largest};
 }

@@ -1,6 +1,7 @@
 #include "sweep/run_result.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <stdexcept>
 
@@ -45,6 +46,9 @@ constexpr std::array quantities = {
     Quantity{"deepest", "depth within the distance of contact", " [m]", Of::step},
     Quantity{"backtracks", "backtracks", " [a step]", Of::step},
     Quantity{"refactorizations", "refactorizations with contact", " [a step]", Of::step},
+    Quantity{"pairs", "pairs of surfaces that might meet", "", Of::step},
+    Quantity{"active", "pairs of surfaces that push", "", Of::step},
+    Quantity{"shortened", "moves cut by surfaces", " [a step]", Of::step},
 };
 constexpr std::array times = {
     Quantity{"ms_local", "local steps", " [ms a step]", Of::step},
@@ -59,6 +63,7 @@ std::vector<FigureInfo> make_figure_infos() {
     infos.push_back({fmt::format("{}_mean", each.column), fmt::format("mean {}{}", each.label, each.unit)});
     infos.push_back({fmt::format("{}_max", each.column), fmt::format("largest {}{}", each.label, each.unit)});
   }
+  infos.push_back({"smallest_gap_min", "smallest gap between surfaces [m]"});
   infos.push_back({"speed_sum_late", "mean total speed in the last third [m/s]"});
   infos.push_back({"time_end", "simulated time at the end [s]"});
   for (const Quantity& each : times) {
@@ -99,6 +104,10 @@ std::vector<std::optional<double>> figures_of(const MeasurementTable& table, std
     figures[3 * i] = rows.back();
     figures[3 * i + 1] = mean(rows);
     figures[3 * i + 2] = *std::ranges::max_element(rows);
+  }
+  if (const auto* gaps = table.find("smallest_gap"); gaps != nullptr && !gaps->empty()) {
+    const double least = *std::ranges::min_element(*gaps);  // infinite where none is near
+    if (std::isfinite(least)) figures[figure_index("smallest_gap_min")] = least;
   }
   if (const auto* speeds = table.find("speed_sum")) figures[figure_index("speed_sum_late")] = late_mean(table, *speeds);
   if (const auto* time = table.find("time"); time != nullptr && !time->empty()) {

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "render/scalar_fields.h"
-
 namespace pliant_viewer {
 namespace {
 

@@ -2,6 +2,7 @@
 // A recorded run, played at its own times.
 #include <map>
 
+#include "render/scalar_fields.h"
 #include "viewer/view_source.h"
 
 namespace pliant_viewer {
@@ -17,7 +18,7 @@ class Playback final : public ViewSource {
   const pliant_render::ClipFrame& frame() const override { return frame_; }
   std::shared_ptr<const pliant_render::RenderMesh> render_mesh() const override { return render_mesh_; }
   std::uint64_t restarts() const override { return 0; }
-  bool knows(pliant::ColorBy color) const override { return color != pliant::ColorBy::energy; }
+  bool knows(pliant::ColorBy color) const override { return pliant_render::is_known_of_runs(color); }
   void show(pliant::ColorBy color) override;
   pliant::ColorBy color() const override { return color_; }
   std::optional<std::array<float, 2>> range() const override;

@@ -47,7 +47,7 @@ std::vector<Slider> list_sliders(const pliant::Simulation& simulation, const std
   for (const auto& [id, collider] : simulation.colliders()) {
     add_sliders(names.next("collider", collider.name), list_parameters(simulation, id), list);
   }
-  if (!simulation.colliders().empty())
+  if (simulation.contact().surfaces || !simulation.colliders().empty())
     add_sliders("contact", list_parameters(simulation, pliant::ContactOwner{}), list);
   return list;
 }

@@ -129,9 +129,10 @@ void measure_slope(const ExperimentContext& context, Chapter& chapter) {
             fmt::format("at 16° {:.2g} mm at most in 1 s, all of these; {:.2g} mm in 60 s with implicit Euler",
                         1e3 * drift, 1e3 * minute.sheet)));
   chapter.claims.push_back(
-      reported("Without acceleration ten iterations are too few for friction, hence “automatic”", "",
-               fmt::format("acceleration none: {:.3f} m at 30° instead of {:.3f}, {:.1f} mm at 16° instead of none",
-                           plain[2].sheet, plain[2].point, 1e3 * plain[0].sheet)));
+      claim("Without acceleration ten iterations do for a sheet on a slope too: it slides as far, and sticks", "",
+            plain[1].error() < 1e-3 && plain[2].error() < 1e-3 && std::abs(plain[0].sheet) < 1e-4,
+            fmt::format("acceleration none: off by {:.1e} at 17° and {:.1e} at 30°, {:.2g} mm at 16°", plain[1].error(),
+                        plain[2].error(), 1e3 * plain[0].sheet)));
   chapter.blocks.emplace_back(std::move(table));
 }
 

@@ -53,6 +53,47 @@ class Check(unittest.TestCase):
         self.assertNotIn("colliders", self.pliant("check", "curtain").stdout)
         self.assertEqual(json.loads(self.pliant("check", "curtain", "--json").stdout)["colliders"], [])
 
+    def contact_scene(self, contact=None):
+        scene = self.folder / "s.json"
+        sheet = {"mesh": {"shape": "grid", "columns": 3, "rows": 3, "plane": "xy"}, "mass": {"total": 1}}
+        pole = {"mesh": {"shape": "chain", "links": 1, "direction": [0, 0, 1]}, "mass": {"total": 1}}
+        scene.write_text(json.dumps({
+            "pliant": 1, "contact": {"surfaces": True, "friction": 0.25},
+            "bodies": [{"name": "shirt", "contact": contact or {}, **sheet},
+                       {"name": "skin", "transform": {"translate": [0.1, 0, 0.2]}, **sheet},
+                       {"name": "pole", "transform": {"translate": [0.4, 0.3, -0.5]}, **pole}]}))
+        return scene
+
+    def test_who_touches_whom_and_how(self):
+        scene = self.contact_scene({"distance": 0.01, "friction": 0.5, "self": False, "ignores": ["pole", "skin"]})
+        info = json.loads(self.pliant("check", scene, "--json").stdout)["contact"]
+        self.assertEqual(info["surfaces"], True)
+        self.assertEqual(info["bodies"][0], {"name": "shirt", "distance": 0.01, "friction": 0.5, "self": False,
+                                             "ignores": ["pole", "skin"]})
+        self.assertEqual(info["bodies"][1], {"name": "skin", "distance": 0.125, "self": True, "ignores": []})
+        text = self.pliant("check", scene).stdout
+        self.assertIn("\ncontact: bodies touch each other, themselves and colliders; friction 0.25\n", text)
+        self.assertIn("\n  shirt: distance 0.01 m, friction 0.5, does not touch itself, ignores pole, skin\n", text)
+        self.assertIn("\n  skin: distance 0.125 m\n", text)
+        without = self.pliant("check", scene, "--set", "contact.surfaces=false").stdout
+        self.assertNotIn("contact:", without)
+        self.assertEqual(json.loads(self.pliant("check", "curtain", "--json").stdout)["contact"], {})
+        self.assertIn("contact: bodies touch each other",
+                      self.pliant("check", "curtain", "--set", "contact.surfaces=true").stdout)
+
+    def test_crossings_of_what_touches(self):
+        crossing = "warning: 'shirt' crosses 'pole': "
+        text = self.pliant("check", self.contact_scene()).stdout
+        self.assertIn(crossing, text)
+        self.assertIn("edge 0-1 of 'pole'", text)
+        self.assertIn("at (0.4, 0.3, 0) m", text)
+        self.assertIn("warning: 'skin' crosses 'pole': ", text)
+        text = self.pliant("check", self.contact_scene({"ignores": ["pole"]})).stdout
+        self.assertNotIn(crossing, text)
+        self.assertIn("warning: 'skin' crosses 'pole': ", text)
+        # A rope in a surface is nobody's business where nothing touches.
+        self.assertNotIn("crosses", self.pliant("check", self.contact_scene(), "--set", "contact.surfaces=false").stdout)
+
     def test_numbers_of_a_small_scene(self):
         scene = self.folder / "s.json"
         scene.write_text(json.dumps({

@@ -98,7 +98,7 @@ class Render(unittest.TestCase):
         width, height, rows = read_png(self.folder / "c.png")
         self.assertEqual((width, height), (64, 48))
         self.assertEqual(bytes(rows[0][:3]), b"\0\0\xff")
-        for color in ("stretch", "energy", "speed"):
+        for color in ("stretch", "energy", "speed", "gap", "contact_force"):
             self.render("chain", "--steps", 3, "--out", f"{color}.png", "--size", "96x64", "--color", color)
             self.assertGreater(len(colors(read_png(self.folder / f"{color}.png")[2])), 50)
 
@@ -134,6 +134,8 @@ class Render(unittest.TestCase):
             self.assertIn("a run is shown as it was recorded", error)
         error = self.render("run", "--out", "e.png", "--color", "energy", expect=2).stderr
         self.assertIn("color: a run does not say the energy", error)
+        error = self.render("run", "--out", "e.png", "--color", "gap", expect=2).stderr
+        self.assertIn("color: a run does not say what its vertices touch; give its scene", error)
         self.render("run", "--out", "s.png", "--color", "speed", "--size", "96x64")
 
     def test_without_ffmpeg_there_are_pictures_and_a_hint(self):

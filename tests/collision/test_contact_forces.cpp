@@ -20,7 +20,8 @@ struct Rig {
     masses.assign(count, 0.02);
     radii.assign(count, 0.1);
     pinned.assign(count, 0);
-    contact.set_colliders({{0, placed.shape.get(), Vec3::Zero(), friction, placed.pose, placed.pose}});
+    contact.set_colliders(
+        {{.shape = placed.shape.get(), .friction = friction, .begin = placed.pose, .end = placed.pose}});
     state.colliders = {{0, placed.pose}};
   }
   void begin_at(Positions& q) { contact.begin_substep(step(), state, q, threads); }

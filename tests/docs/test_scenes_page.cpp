@@ -144,6 +144,7 @@ TEST_CASE("the tables list every option") {
   check_types(static_cast<BuiltinForces*>(nullptr));
   check_types(static_cast<BuiltinColliders*>(nullptr));
   check_rows<ContactSettings>("\n### `contact`\n");
+  check_rows<BodyContact>("\n### `contact` of a body\n");
 }
 
 }  // namespace

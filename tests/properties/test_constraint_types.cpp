@@ -177,6 +177,28 @@ TEST_CASE_TEMPLATE_DEFINE("the energy does not change when the body is turned an
 }
 TEST_CASE_TEMPLATE_APPLY(rigid, BuiltinConstraints);
 
+TEST_CASE_TEMPLATE_DEFINE("what says that it turns with the body does so in the middle of a step", Type, turning) {
+  for_all<Type>([](const Mesh& mesh, const Type& options, Elastic& elastic) {
+    bool turns = true;
+    for (const auto& batch : elastic.set().batches) turns &= batch->is_rotation_invariant();
+    if (!has_frozen_normals(options)) CHECK(turns == !is_anchored<Type>);
+    if (!turns) return;
+    Random random;
+    for (int i = 0; i < 5; ++i) {
+      const Positions q = deformed(mesh, random);
+      elastic.begin_step(q);
+      const Real energy = elastic.energy(q);
+      const Positions forces = elastic.forces(q);
+      const Mat3 rotation = random.rotation();
+      const Positions elsewhere = moved(q, rotation, random.vector(10));
+      CHECK(elastic.energy(elsewhere) == doctest::Approx(energy).epsilon(1e-11));
+      const Real error = (elastic.forces(elsewhere) - forces * rotation.transpose()).cwiseAbs().maxCoeff();
+      CHECK(error <= 1e-10 * forces.cwiseAbs().maxCoeff());
+    }
+  });
+}
+TEST_CASE_TEMPLATE_APPLY(turning, BuiltinConstraints);
+
 TEST_CASE_TEMPLATE_DEFINE("the energy grows in proportion to the stiffness", Type, linear_in_stiffness) {
   for_all<Type>([](const Mesh& mesh, const Type& options, Elastic& elastic) {
     if (options.stiffness.each()) return;

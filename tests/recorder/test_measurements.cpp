@@ -216,7 +216,7 @@ TEST_CASE("colliders have columns of contact, and the forces on them add up to t
   simulation.add(body, EdgeSpring{.stiffness = 50}, "springs");
   simulation.add(Gravity{});
   simulation.add(PlaneCollider{.position = {0, 0, -0.01}, .friction = 0.5}, "floor, flat");
-  Recorder recorder(folder.path(), nullptr, 1, simulation.group_names(), 0, {"floor, flat", "ball"});
+  Recorder recorder(folder.path(), nullptr, 1, simulation.group_names(), 0, {.colliders = {"floor, flat", "ball"}});
   recorder.record(simulation, {});
   for (int i = 0; i < 300; ++i) recorder.record(simulation, simulation.step());
   const ColliderId ball = simulation.add(SphereCollider{.center = {5, 5, 5}}, "ball");
@@ -242,6 +242,30 @@ TEST_CASE("colliders have columns of contact, and the forces on them add up to t
   for (const ContactPoint& point : simulation.contacts()) force += point.force;
   CHECK(std::abs(force.z() + last("force_z_floor")) < 1e-12 * force.norm());
   CHECK(columns.at("force_z_ball") == std::vector<Real>(columns.at("step").size(), 0));
+  CHECK(header.find("smallest_gap") == std::string::npos);
+}
+
+TEST_CASE("surfaces that touch have columns of their pairs, without a collider too") {
+  const TemporaryFolder folder;
+  Simulation simulation({.iterations = 20});
+  Mesh sheet = grid({.columns = 3, .rows = 3, .plane = Plane::xy});
+  simulation.add(simulation.add_body(sheet, Mass::total(1)), Position{});
+  sheet.vertices.col(2).array() += 1;
+  simulation.add(simulation.add_body(sheet, Mass::total(1)), EdgeSpring{.stiffness = 50});
+  simulation.add(Gravity{});
+  simulation.set_contact({.distance = 0.05, .surfaces = true});
+  Recorder recorder(folder.path(), nullptr, 1, simulation.group_names(), 0, {.surfaces = true});
+  recorder.record(simulation, {});
+  for (int i = 0; i < 60; ++i) recorder.record(simulation, simulation.step());
+  const auto columns = read_columns(TemporaryFolder::read(folder.path() / "measurements.csv"));
+  CHECK(std::isinf(columns.at("smallest_gap")[5]));  // far above
+  CHECK(columns.at("active")[5] == 0);
+  CHECK(columns.at("pairs").back() >= columns.at("active").back());
+  CHECK(columns.at("active").back() > 0);
+  CHECK(columns.at("smallest_gap").back() > 0);
+  CHECK(columns.at("smallest_gap").back() < 0.05);
+  CHECK(columns.at("shortened").front() == 0);
+  CHECK(columns.at("ms_contact").back() > 0);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include "../simulation/everything.h"
 #include "../simulation/run.h"
+#include "pliant/collision/colliders/builtin.h"
 #include "render/annotations.h"
 #include "render/scalar_fields.h"
 
@@ -46,6 +47,40 @@ TEST_CASE("the energies of the vertices sum to that of the simulation") {
   CHECK(sum == doctest::Approx(whole).epsilon(1e-5));
 }
 
+TEST_CASE("gaps and forces of contact: what a sheet weighs goes through the one below into the floor") {
+  pliant::Simulation simulation({.iterations = 30, .damping = 5});
+  pliant::Mesh sheet = pliant::grid({.columns = 5, .rows = 5, .size = {0.4, 0.4}, .plane = pliant::Plane::xy});
+  for (const double height : {0.02, 0.04, 5.0}) {
+    sheet.vertices.col(2).setConstant(height);
+    const auto body = simulation.add_body(sheet, pliant::Mass::total(0.2));
+    simulation.add(body, pliant::TriangleStrain{.stiffness = 500});
+    if (height == 5) simulation.add(body, pliant::Position{});
+  }
+  simulation.add(pliant::Gravity{});
+  simulation.add(pliant::PlaneCollider{});
+  simulation.set_contact({.distance = 0.02, .surfaces = true});
+  CHECK(vertex_contact_force(simulation) == std::vector<float>(75, 0));
+  pliant_tests::advance(simulation, 120);
+  pliant::Vec3 on_low = pliant::Vec3::Zero(), on_top = pliant::Vec3::Zero();
+  const std::vector<pliant::VertexTouch> touches = simulation.touches();
+  for (std::size_t v = 0; v < 25; ++v) on_low += touches[v].force, on_top += touches[25 + v].force;
+  CHECK(on_low.z() == doctest::Approx(0.2 * 9.81).epsilon(0.01));
+  CHECK(on_top.z() == doctest::Approx(0.2 * 9.81).epsilon(0.01));
+  const std::vector<float> gaps = vertex_gap(simulation);
+  const std::vector<float> forces = vertex_contact_force(simulation);
+  for (std::size_t v = 0; v < 75; ++v) {
+    CAPTURE(v);
+    CHECK(forces[v] == doctest::Approx(touches[v].force.norm()).epsilon(1e-6));
+    if (v >= 50) {
+      CHECK(gaps[v] == 0.02F);
+      CHECK(forces[v] == 0);
+    } else {
+      CHECK(gaps[v] < 0.02F);
+      CHECK(gaps[v] > 0.018F);
+    }
+  }
+}
+
 TEST_CASE("ranges begin at zero, or have it in the middle, and are never empty") {
   const std::vector<float> values = {0.2F, -0.5F, 0.1F};
   CHECK(field_range(ColorBy::stretch, values) == std::array<float, 2>{-0.5F, 0.5F});
@@ -53,6 +88,9 @@ TEST_CASE("ranges begin at zero, or have it in the middle, and are never empty")
   CHECK(field_range(ColorBy::speed, {}) == std::array<float, 2>{0, 1});
   const std::vector<float> broken = {std::numeric_limits<float>::quiet_NaN(), 2};
   CHECK(field_range(ColorBy::energy, broken) == std::array<float, 2>{0, 2});
+  const std::vector<float> extremes = {0, 1, 0, 100, 0, 2, 0, 0};
+  CHECK(field_range(ColorBy::contact_force, extremes) == std::array<float, 2>{0, 2});
+  CHECK(field_range(ColorBy::contact_force, {}) == std::array<float, 2>{0, 1});
 }
 
 TEST_CASE("ticks are round, ascend, lie in the range, and are three to six") {

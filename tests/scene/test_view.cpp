@@ -78,8 +78,9 @@ TEST_CASE("keys of 0.1.0 are read, with a warning that names both") {
   REQUIRE(set.warnings.size() == 3);
   CHECK(set.warnings[0].starts_with("--set view.colour=energy: 'colour' is called 'color' now;"));
   CHECK(scene(R"({"color": "speed"})", {.set = {R"(view={"colour": "energy"})"}}).view.color == ColorBy::energy);
-  CHECK_THROWS_WITH(scene(R"({"colour": "red"})"),
-                    "s.json: view.colour: unknown choice 'red'; known: none, stretch, energy, speed");
+  CHECK_THROWS_WITH(
+      scene(R"({"colour": "red"})"),
+      "s.json: view.colour: unknown choice 'red'; known: none, stretch, energy, speed, gap, contact_force");
   CHECK_THROWS_WITH(scene(R"({"colour": "speed", "color": "speed"})"),
                     "s.json: view.colour: 'colour' is called 'color' now, and both stand here; keep 'color'");
   CHECK_THROWS_AS(scene(R"({"colours": "speed"})"), Error);

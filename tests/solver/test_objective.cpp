@@ -171,6 +171,26 @@ TEST_CASE("a tolerance ends the iterations early, and the step is converged to i
   CHECK(report.iterations == 7);
 }
 
+TEST_CASE("what evaluate() finds after a step has the friction of surfaces that slid in it") {
+  Simulation simulation({.iterations = 1000, .tolerance = 1e-8, .threads = 1});
+  add_gravity(simulation);
+  simulation.set_contact({.distance = 0.01, .friction = 0.3, .surfaces = true});
+  const BodyId table = simulation.add_body(grid({.columns = 5, .rows = 5, .plane = Plane::xy}), Mass::per_vertex(0.01));
+  simulation.add(table, Position{});
+  Mesh sheet = grid({.columns = 4, .rows = 4, .size = {0.3, 0.3}, .plane = Plane::xy});
+  sheet.vertices.rowwise() += Vec3(0.31, 0.32, 0.00999).transpose();
+  const Positions velocities = Vec3(1, 0, 0).transpose().replicate(sheet.vertex_count(), 1);
+  const BodyId cloth = simulation.add_body(sheet, Mass::area_density(0.2), {.velocities = velocities});
+  simulation.add(cloth, TriangleStrain{.stiffness = 1e3});
+  for (int step = 0; step < 3; ++step) {
+    const StepReport report = simulation.step();
+    CHECK(report.contact.active > 0);
+    const Evaluation evaluation = simulation.evaluate();
+    CHECK(evaluation.residual == doctest::Approx(report.residual).epsilon(1e-6));
+    CHECK(evaluation.objective() == doctest::Approx(simulation.objective_history().back()).epsilon(1e-9));
+  }
+}
+
 TEST_CASE("every step iterates at least once, whatever the tolerance") {
   Simulation simulation({.tolerance = 1e6, .start = Start::positions});
   const BodyId cloth = simulation.add_body(grid({.columns = 4, .rows = 4}), Mass::per_vertex(1e-3));

@@ -1,12 +1,16 @@
 // A step never allocates: counts what the process asks of the heap while steps are taken. Under the sanitizers, which
 // have a malloc of their own, operator new alone is counted.
 #include <atomic>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <new>
 
+#include "../collision/soups.h"
 #include "../simulation/everything.h"
 #include "pliant/collision/colliders/builtin.h"
+#include "pliant/collision/pairs/pair_search.h"
+#include "pliant/collision/pairs/planes.h"
 #include "pliant/core/error.h"
 #include "pliant/mesh/shapes.h"
 #include "pliant/timeline/timeline.h"
@@ -119,6 +123,75 @@ long allocations_of_contact(Index threads) {
   return count;
 }
 
+/// Allocations in searches for pairs of a sheet that is rolled up, whose trees are built anew on the way: the third
+/// time that it is.
+long allocations_of_pairs(int threads) {
+  ThreadPool pool(threads);
+  const Mesh mesh = grid({.columns = 60, .rows = 60});
+  const SurfacePart part{.vertex_count = mesh.vertex_count(), .triangles = mesh.triangles};
+  const Surface surface(std::span(&part, 1), mesh.vertex_count(), {});
+  PairSearch search(surface);
+  const std::vector<Real> pads(at(mesh.vertex_count()), 0.01);
+  Positions x = mesh.vertices;
+  long count = 0;
+  for (int time = 0; time < 3; ++time) {
+    const std::int64_t builds = search.build_count();
+    const long before = allocations;
+    for (int i = 0; i < 20; ++i) {
+      for (Index v = 0; v < x.rows(); ++v) {
+        const Real angle = 0.5 * i * mesh.vertices(v, 0);
+        x.row(v) = mesh.vertices.row(v) * (1 + 0.1 * i) + Eigen::RowVector3d(std::cos(angle), 0, std::sin(angle));
+      }
+      search.find(x, x, pads, pool);
+    }
+    count = allocations - before;
+    if (search.build_count() == builds) count = 1000000;  // then nothing was tested
+  }
+  return count;
+}
+
+/// Allocations while planes keep surfaces apart, the second time.
+long allocations_of_planes(int threads) {
+  pliant_tests::Random random(1);
+  pliant_tests::Soup soup = pliant_tests::random_soup(random, 24);
+  soup.finish(0.03);
+  const Positions wishes = soup.q + random.positions(static_cast<Index>(soup.q.rows()), 0.5);
+  ThreadPool pool(threads);
+  Planes planes;
+  Positions y = wishes;
+  const PlanesInput input{.begin = soup.q, .surface = soup.surface, .pairs = soup.pairs, .radii = soup.radii};
+  if (planes.shorten(input, y, pool).vertices == 0) return -1;
+  y = wishes;
+  const long before = allocations;
+  planes.shorten(input, y, pool);
+  return allocations - before;
+}
+
+/// Allocations in steps of a sheet that falls onto another one that hangs by its corners, the third time.
+long allocations_of_surfaces(Index threads) {
+  Simulation simulation({.threads = threads});
+  simulation.add(Gravity{});
+  simulation.set_contact({.friction = 0.3, .surfaces = true});
+  for (const Real width : {1.0, 0.6}) {
+    Mesh mesh = grid({.columns = 11, .rows = 11, .size = {width, width}, .plane = Plane::xy});
+    mesh.vertices.rowwise() += Eigen::RowVector3d(0.23 * (1 - width), 0.21 * (1 - width), 0.1 * (1 - width));
+    const BodyId body = simulation.add_body(std::move(mesh), Mass::area_density(0.2));
+    simulation.add(body, TriangleStrain{});
+    if (width == 1) simulation.add(body, Position{.on = {0, 10, 110, 120}});
+  }
+  const State start = simulation.state();
+  long count = 0;
+  for (int time = 0; time < 3; ++time) {
+    simulation.restore(start);
+    Index active = simulation.step().contact.active;
+    const long before = allocations;
+    for (int i = 0; i < 40; ++i) active += simulation.step().contact.active;
+    count = allocations - before;
+    if (active == 0) count = 1000000;  // then nothing was tested
+  }
+  return count;
+}
+
 /// Prints what went wrong; true when nothing did.
 bool passes(const SolverSettings& settings) {
   try {
@@ -163,6 +236,15 @@ int main() {
   for (const Index threads : {1, 2}) {
     const long count = allocations_of_contact(threads);
     if (count > 0) std::printf("%ld allocations with contact, %d threads\n", count, threads);
+    const long of_planes = allocations_of_planes(threads);
+    if (of_planes != 0) std::printf("%ld allocations of planes between surfaces, %d threads\n", of_planes, threads);
+    const long of_surfaces = allocations_of_surfaces(threads);
+    if (of_surfaces > 0) std::printf("%ld allocations with contact of surfaces, %d threads\n", of_surfaces, threads);
+    all_pass = all_pass && count == 0 && of_planes == 0 && of_surfaces == 0;
+  }
+  for (const int threads : {1, 2}) {
+    const long count = allocations_of_pairs(threads);
+    if (count > 0) std::printf("%ld allocations in searches for pairs, %d threads\n", count, threads);
     all_pass = all_pass && count == 0;
   }
   return all_pass ? 0 : 1;

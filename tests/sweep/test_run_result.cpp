@@ -99,6 +99,23 @@ TEST_CASE("the figures of contact of a run with colliders, without the start, wh
   }
 }
 
+TEST_CASE("the figures of surfaces: the smallest gap of all steps in which one was known") {
+  const auto figures_of = [](const std::string& gaps_3_and_4) {
+    return result_of(run_json("ok", 3),
+                     "step,time,pairs,active,smallest_gap,shortened\n"
+                     "0,0,0,0,inf,0\n"
+                     "1,0.1,4,1,inf,2\n" +
+                         gaps_3_and_4);
+  };
+  const auto figure = [](const RunResult& result, std::string_view name) { return result.figure(figure_index(name)); };
+  const RunResult result = figures_of("2,0.2,8,3,0.25,0\n3,0.3,0,0,0.5,1\n");
+  CHECK(figure(result, "pairs_mean") == 4.0);
+  CHECK(figure(result, "active_max") == 3.0);
+  CHECK(figure(result, "shortened_mean") == 1.0);
+  CHECK(figure(result, "smallest_gap_min") == 0.25);
+  CHECK_FALSE(figure(figures_of("2,0.2,8,3,inf,0\n3,0.3,0,0,inf,1\n"), "smallest_gap_min").has_value());
+}
+
 TEST_CASE("a run without steps has a state, and no step") {
   const std::string_view start = measurements.substr(0, measurements.find("1,0.1"));
   const RunResult result = result_of(run_json("ok", 0), start);

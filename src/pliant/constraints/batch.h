@@ -1,18 +1,16 @@
 #pragma once
 // The one loop over stencils. A constraint type is a struct with
-//
 //     static constexpr std::string_view name;
 //     static constexpr int vertices;                  // n, or dynamic_vertices: then every batch has an n of its own
 //     static constexpr int rows;                      // k
 //     static constexpr int fields;                    // numbers of rest data a constraint
 //     static constexpr bool translation_invariant;    // every row of every A sums to zero
 //     static void project(const Real* fields, const Real* z, Real* p);   // z, p: k × 3
-//
 // and, where it needs them,
-//
 //     static constexpr bool has_targets = true;       // the three fields are a point that may be moved
 //     static constexpr bool has_anchors = true;       // the first three are a point that begins where the vertices are
 //     static constexpr auto kernel = &LocalKernels::edge_spring;   // does many at once, in place of project
+//     static constexpr bool rotation_invariant = true;   // projections turn with z, in the middle of a step as well
 //     static constexpr bool is_difference = true;     // A is (−1, 1), which its kernel need not read
 //     static void begin_step(const Positions& q, std::span<const Index> stencil, Real* fields);
 #include <array>
@@ -103,6 +101,7 @@ class Batch final : public ConstraintGroup {
     take_in_order(dynamic_cast<const Batch&>(from).fields(), order, Type::fields, std::span<Real>(fields_));
   }
   bool freezes_shape() const override { return has_begin_step; }
+  bool is_rotation_invariant() const override { return rotates_along; }
   void begin_step(const StateView& state, Real) override {
     if constexpr (has_begin_step) {
       const auto n = static_cast<std::size_t>(vertices());
@@ -129,6 +128,7 @@ class Batch final : public ConstraintGroup {
  private:
   static constexpr std::size_t size = Type::rows * 3;
   static constexpr bool has_kernel = requires { Type::kernel; };
+  static constexpr bool rotates_along = requires { Type::rotation_invariant; };
   static constexpr bool has_begin_step = requires { &Type::begin_step; };
 
   /// Writes w (p − z) of constraint i; returns its energy.

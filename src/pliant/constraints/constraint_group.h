@@ -37,6 +37,10 @@ class ConstraintGroup {
   /// Rest measure of each constraint (length, area, volume, or 1), times its own stiffness where each has one.
   virtual std::span<const Real> rest_measure() const = 0;
 
+  /// Whether its energy is the same after a rotation of all vertices in the middle of a step, and its forces turn with
+  /// them. Components of such groups alone are turned to where contact is in balance.
+  virtual bool is_rotation_invariant() const { return false; }
+
   /// Called once at the start of a step, before anything reads the group: the place to freeze normals.
   virtual void begin_step(const StateView& state, Real time_step);
   /// Whether begin_step() only freezes numbers that follow from the positions, as normals do. Then energy projection

@@ -15,6 +15,7 @@ struct FlatCurvature {
   static constexpr int rows = 1;
   static constexpr int fields = 0;
   static constexpr bool translation_invariant = true;
+  static constexpr bool rotation_invariant = true;
   static constexpr auto kernel = &LocalKernels::flat_curvature;
   static void project(const Real*, const Real*, Real* p) { std::fill_n(p, 3, Real(0)); }
 };
@@ -26,6 +27,7 @@ struct AbsoluteCurvature {
   static constexpr int rows = 1;
   static constexpr int fields = 4;  // ‖z_g‖, z_g
   static constexpr bool translation_invariant = true;
+  static constexpr bool rotation_invariant = true;
   static constexpr auto kernel = &LocalKernels::absolute_curvature;
   static void project(const Real* field, const Real* z, Real* p);
 };

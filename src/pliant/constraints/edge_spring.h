@@ -41,6 +41,7 @@ struct EdgeSpringProjection {
   static constexpr int rows = 1;
   static constexpr int fields = 1;  // L
   static constexpr bool translation_invariant = true;
+  static constexpr bool rotation_invariant = true;
   static constexpr bool is_difference = true;
   static constexpr auto kernel = &LocalKernels::edge_spring;
   static void project(const Real* field, const Real* z, Real* p) {

@@ -132,6 +132,9 @@ struct OptionChecker {
     check_number(type, info, static_cast<Real>(number), 0, false);
   }
   void operator()(const OptionInfo& info, const Real& number) const { check_number(type, info, number, 0, false); }
+  void operator()(const OptionInfo& info, const std::optional<Real>& number) const {
+    if (number) check_number(type, info, *number, 0, false);
+  }
   void operator()(const OptionInfo& info, const Values& values) const { check(info, values.list(), values.each()); }
   void operator()(const OptionInfo& info, const Ragged<Real>& lists) const { check(info, lists.values, true); }
   void operator()(const OptionInfo& info, const Vec3& point) const {

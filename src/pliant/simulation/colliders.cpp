@@ -4,31 +4,11 @@
 
 #include <fmt/format.h>
 
-#include "pliant/mesh/topology.h"
 #include "pliant/simulation/transaction.h"
 #include "pliant/solver/solver.h"
 
 namespace pliant {
 namespace {
-
-/// Of the edges of a body, from the shortest on, the place whose length its contact distance goes by, and the share of
-/// that length which it is.
-constexpr Real short_edge = 0.05;
-constexpr Real share_of_edge = 0.25;
-/// Of a body without an edge [m].
-constexpr Real distance_without_edges = 0.005;
-
-Real contact_distance_of(const Mesh& mesh) {
-  std::vector<Real> lengths;
-  for (const Edge& edge : unique_edges(mesh)) {
-    const Real length = (mesh.vertices.row(edge[0]) - mesh.vertices.row(edge[1])).norm();
-    if (length > 0) lengths.push_back(length);
-  }
-  if (lengths.empty()) return distance_without_edges;
-  const auto place = lengths.begin() + static_cast<std::ptrdiff_t>(short_edge * static_cast<Real>(lengths.size()));
-  std::ranges::nth_element(lengths, place);
-  return share_of_edge * *place;
-}
 
 [[noreturn]] void fail_no_collider(ColliderId id) {
   fail_input("collider " + std::to_string(static_cast<Index>(id)) +
@@ -56,7 +36,9 @@ void check_motion(const ColliderMotion& motion, std::string_view where) {
 
 void Colliders::check_projection(const SolverSettings& settings, bool has_colliders) {
   if (!has_colliders || !(settings.energy_projection > 0)) return;
-  fail_input("energy_projection: it does not know the work of contact yet; set it to 0, or remove the colliders");
+  fail_input(
+      "energy_projection: it does not know the work of contact yet; set it to 0, or remove the colliders and "
+      "contact.surfaces");
 }
 
 ColliderId Colliders::add_collider(std::shared_ptr<const ColliderShape> shape, const Pose& pose,
@@ -99,7 +81,7 @@ void Colliders::remove(ColliderId id) {
   ContactState& contact = state_.contact;
   std::erase_if(contact.colliders, [&](const ColliderState& each) { return each.collider == number; });
   std::erase_if(contact.memory, [&](const ContactMemory& each) { return each.collider == number; });
-  if (colliders_.empty()) contact = {};
+  if (colliders_.empty() && !contact_.surfaces) contact = {};
   colliders_changed_ = true;
 }
 
@@ -146,39 +128,14 @@ const std::optional<Pose>& Colliders::target(ColliderId id) const {
 
 void Colliders::set_contact(const ContactSettings& settings) {
   check_options("contact", settings);
+  check_projection(settings_, settings.surfaces || !colliders_.empty());
+  if (!settings.surfaces && !state_.contact.pairs.empty()) {
+    if (transaction_ != nullptr) transaction_->save_colliders();
+    state_.contact.pairs.clear();
+  }
   contact_ = settings;
   colliders_changed_ = true;
-}
-
-Real Simulation::contact_distance(BodyId id) const {
-  if (contact_.distance > 0) return contact_.distance;
-  const auto place = static_cast<std::size_t>(id);
-  return place < edge_distances_.size() ? edge_distances_[place] : contact_distance_of(body(id).mesh);
-}
-
-std::span<const ContactPoint> Simulation::contacts() const {
-  return solver_->contact().points();
-}
-
-Wrench Simulation::wrench(ColliderId id) const {
-  collider(id);
-  return solver_->contact().wrench(static_cast<Index>(id));
-}
-
-void Simulation::update_colliders() {
-  std::vector<SolverCollider> colliders;
-  std::vector<Real> radii;
-  for (const auto& [id, record] : colliders_) {
-    const Vec3 surface_velocity = record.pose.rotation.conjugate() * record.motion.surface_velocity;
-    colliders.push_back({static_cast<Index>(id), record.shape, record.motion, surface_velocity,
-                         record.motion.friction.value_or(contact_.friction)});
-  }
-  for (std::size_t i = 0; !colliders.empty() && i < bodies_.size(); ++i) {
-    if (i == edge_distances_.size()) edge_distances_.push_back(contact_distance_of(bodies_[i].mesh));
-    radii.resize(radii.size() + at(bodies_[i].mesh.vertex_count()), contact_distance(BodyId{static_cast<Index>(i)}));
-  }
-  solver_->set_colliders(std::move(colliders), std::move(radii));
-  colliders_changed_ = false;
+  surfaces_changed_ = true;
 }
 
 /// Refuses what is not of this simulation.
@@ -201,6 +158,12 @@ void Colliders::check_contact(const ContactState& contact) const {
         each.vertex >= 0 && each.vertex < state_.vertex_count() && colliders_.contains(ColliderId{each.collider});
     if (!is_known) fail("a contact is of a vertex or a collider that there is not");
     if (!each.anchor.allFinite() || !(each.load >= 0 && std::isfinite(each.load))) fail("a contact is not finite");
+  }
+  const auto key_of_pair = [](const PairMemory& each) { return std::tuple{each.kind, each.features}; };
+  if (!std::ranges::is_sorted(contact.pairs, {}, key_of_pair)) fail("the pairs of surfaces are not in order");
+  for (const PairMemory& each : contact.pairs) {
+    if (each.kind > PairKind::vertex_edge || each.features[0] < 0 || each.features[1] < 0) fail("a pair is none");
+    if (!each.slide.allFinite()) fail("a pair of surfaces is not finite");
   }
   const auto fits = [&](const std::vector<Real>& numbers, Real least) {
     const auto is_in_range = [least](Real number) { return number >= least && std::isfinite(number); };

@@ -1,5 +1,5 @@
 #pragma once
-// What bodies meet. The part of Simulation that has colliders, with the state that says where they are.
+// What bodies meet: the part of Simulation that has bodies and colliders, with the state that says where they are.
 //
 //     const ColliderId ball = simulation.add(SphereCollider{.center = {0, 0, 1}, .radius = 0.3, .friction = 0.4});
 //     simulation.add(PlaneCollider{});
@@ -60,6 +60,13 @@ class Colliders {
   /// From the next step on.
   void set_contact(const ContactSettings& settings);
 
+  const std::vector<Body>& bodies() const { return bodies_; }
+  const Body& body(BodyId id) const;
+  /// How a body touches, from the next step on. Refuses to ignore itself, or a body that there is not.
+  void set_contact(BodyId id, const BodyContact& contact);
+  const BodyContact& contact(BodyId id) const { return body(id).contact; }
+  Real contact_distance(BodyId id) const;  ///< r of its vertices [m]
+
  protected:
   static void check_projection(const SolverSettings& settings, bool has_colliders);
   /// Refuses a state of contact that is not of these colliders and so many vertices.
@@ -67,11 +74,14 @@ class Colliders {
 
   SolverSettings settings_;
   State state_;
+  std::vector<Body> bodies_;
+  std::vector<std::vector<Triangle>> surface_triangles_;  // of the bodies, where they touch each other
   std::map<ColliderId, ColliderRecord> colliders_;
   ContactSettings contact_;
   Index next_collider_ = 0;
   std::vector<Real> edge_distances_;  // contact distances of the first bodies, by their edges
   bool colliders_changed_ = true;
+  bool surfaces_changed_ = true;        // bodies, or how they touch
   Transaction* transaction_ = nullptr;  // the innermost one under way
 
  private:

@@ -245,7 +245,7 @@ std::vector<Parameter> list_parameters(const Simulation& simulation) {
   for (const auto& [id, group] : simulation.groups()) list_group(simulation, id, list);
   for (const auto& [id, force] : simulation.forces()) list_force(simulation, id, list);
   for (const auto& [id, collider] : simulation.colliders()) list_collider(simulation, id, list);
-  if (!simulation.colliders().empty()) list_contact(simulation, list);
+  if (simulation.contact().surfaces || !simulation.colliders().empty()) list_contact(simulation, list);
   return list;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "pliant/collision/colliders/collider.h"
+#include "pliant/collision/contact/body_contact.h"
 #include "pliant/constraints/constraint_set.h"
 #include "pliant/forces/force_options.h"
 
@@ -21,6 +22,7 @@ struct Body {
   std::string name;
   Mesh mesh;  ///< its vertices are the rest positions
   Index first_vertex = 0;
+  BodyContact contact{};  ///< see Simulation::set_contact
 };
 
 struct BodyOptions {

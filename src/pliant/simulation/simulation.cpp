@@ -76,18 +76,12 @@ BodyId Simulation::add_body(Mesh mesh, const Mass& mass, BodyOptions options) {
   if (!state_.energy_surplus.empty()) state_.energy_surplus.resize(state_.masses.size(), 0);
   if (!state_.contact.stiffening.empty()) state_.contact.stiffening.resize(state_.masses.size(), 1);
   if (!state_.contact.in_factor.empty()) state_.contact.in_factor.resize(state_.masses.size(), 0);
+  state_.contact.pairs.clear();  // their features have other numbers now
   bodies_.push_back({std::move(options.name), std::move(mesh), first_vertex});
   groups_changed_ = true;
   colliders_changed_ = true;
+  surfaces_changed_ = true;
   return BodyId(static_cast<Index>(bodies_.size()) - 1);
-}
-
-const Body& Simulation::body(BodyId id) const {
-  const auto i = static_cast<std::size_t>(id);
-  if (i >= bodies_.size()) {
-    fail_input("body " + std::to_string(i) + " does not exist; there are " + std::to_string(bodies_.size()));
-  }
-  return bodies_[i];
 }
 
 Index Simulation::vertex(BodyId id, Index vertex_of_body) const {
@@ -103,7 +97,7 @@ void Simulation::set_settings(const SolverSettings& settings) {
   if (settings.integrator == Integrator::bdf2) {
     for (const auto& [id, force] : forces_) check_under_bdf2(*force);
   }
-  check_projection(settings, !colliders_.empty());
+  check_projection(settings, contact_.surfaces || !colliders_.empty());
   solver_->set_settings(settings);
   const bool new_limits = settings.time_step != settings_.time_step || settings.substeps != settings_.substeps;
   settings_ = settings;
@@ -192,6 +186,7 @@ void Simulation::set_state(const Positions& positions, const Positions& velociti
   state_.previous_time_step = 0;
   state_.energy_surplus.clear();
   state_.contact.memory.clear();
+  state_.contact.pairs.clear();
   state_.contact.stiffening.clear();
   state_.contact.in_factor.clear();
   solver_->forget_prediction();

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "pliant/collision/contact/contact.h"
+#include "pliant/collision/contact/vertex_touch.h"
 #include "pliant/mesh/mass.h"
 #include "pliant/simulation/colliders.h"
 #include "pliant/simulation/group_index.h"
@@ -35,8 +36,6 @@ class Simulation : public Colliders {
 
   /// Checks the mesh (check_mesh) and the masses (vertex_masses).
   BodyId add_body(Mesh mesh, const Mass& mass, BodyOptions options = {});
-  const std::vector<Body>& bodies() const { return bodies_; }
-  const Body& body(BodyId id) const;
 
   /// Adds a built-in constraint type, or any other with `info`, `visit` and a `build(BodyView, options)`.
   template <class Constraint>
@@ -120,9 +119,10 @@ class Simulation : public Colliders {
   using Colliders::add, Colliders::name, Colliders::options, Colliders::remove, Colliders::replace;
   using Colliders::set_target, Colliders::target;
 
-  Real contact_distance(BodyId id) const;  ///< r of its vertices [m]
   /// What touched at the end of the last step, by vertex, then collider; valid until the next one.
   std::span<const ContactPoint> contacts() const;
+  /// Of each vertex, what it touched then, surfaces as well; forgotten where constraints have come or gone since.
+  std::vector<VertexTouch> touches() const;
   Wrench wrench(ColliderId id) const;  ///< what a collider felt then
 
   const SolverSettings& settings() const { return settings_; }
@@ -181,8 +181,8 @@ class Simulation : public Colliders {
   void check_forces();
   void update_problem();
   void update_colliders();
+  void update_surfaces();
 
-  std::vector<Body> bodies_;
   std::map<GroupId, Group> groups_;
   GroupIndex group_index_;
   std::map<ForceId, std::unique_ptr<Force>> forces_;

@@ -57,6 +57,25 @@ void Transaction::save_colliders() {
   if (!state_ && !contact_) contact_ = simulation_.state_.contact;
 }
 
+void Transaction::save_body_contacts() {
+  if (body_contacts_) return;
+  body_contacts_.emplace();
+  for (const Body& body : simulation_.bodies_) body_contacts_->push_back(body.contact);
+}
+
+/// Of the bodies that there were when it began. True where one touches otherwise than now.
+bool Transaction::roll_back_bodies() {
+  Simulation& s = simulation_;
+  const bool has_changed = body_count_ != s.bodies_.size() || body_contacts_ || s.contact_ != contact_settings_;
+  s.bodies_.resize(body_count_);
+  if (s.edge_distances_.size() > body_count_) s.edge_distances_.resize(body_count_);
+  for (std::size_t i = 0; body_contacts_ && i < body_count_; ++i) {
+    s.bodies_[i].contact = std::move((*body_contacts_)[i]);
+  }
+  s.contact_ = contact_settings_;
+  return has_changed;
+}
+
 void Transaction::roll_back() {
   Simulation& s = simulation_;
   for (auto& [id, group] : groups_) {
@@ -90,13 +109,11 @@ void Transaction::roll_back() {
   }
   if (contact_) s.state_.contact = *std::move(contact_);
   if (colliders_) s.colliders_ = *std::move(colliders_);
-  if (colliders_ || body_count_ != s.bodies_.size() || s.contact_ != contact_settings_) s.colliders_changed_ = true;
-  s.contact_ = contact_settings_;
-  s.next_collider_ = next_collider_;
   if (!groups_.empty() || body_count_ != s.bodies_.size()) s.groups_changed_ = true;
+  if (colliders_) s.colliders_changed_ = true;
+  if (roll_back_bodies()) s.colliders_changed_ = s.surfaces_changed_ = true;
+  s.next_collider_ = next_collider_;
   if (!forces_.empty()) s.forces_changed_ = true;
-  s.bodies_.resize(body_count_);
-  if (s.edge_distances_.size() > body_count_) s.edge_distances_.resize(body_count_);
   if (s.settings_ != settings_) s.solver_->set_settings(settings_);
   s.settings_ = settings_;
   s.warned_forces_ = std::move(warned_forces_);
@@ -108,6 +125,7 @@ void Transaction::roll_back() {
 void Transaction::merge_into(Transaction& outer) {
   if (contact_ && !outer.contact_ && !outer.state_) outer.contact_ = std::move(contact_);
   if (colliders_ && !outer.colliders_) outer.colliders_ = std::move(colliders_);
+  if (body_contacts_ && !outer.body_contacts_) outer.body_contacts_ = std::move(body_contacts_);
   if (state_ && !outer.state_) outer.state_ = std::move(state_);
   for (auto& [id, numbers] : numbers_) {
     if (!outer.groups_.contains(id)) outer.numbers_.emplace(id, std::move(numbers));

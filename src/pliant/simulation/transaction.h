@@ -48,8 +48,10 @@ class Transaction {
   void save(ForceId id, std::optional<SavedForce> force);
   void save_state();
   void save_colliders();
+  void save_body_contacts();
 
   void roll_back();
+  bool roll_back_bodies();
   void merge_into(Transaction& outer);
 
   Simulation& simulation_;
@@ -71,6 +73,7 @@ class Transaction {
   std::optional<State> state_;
   std::optional<ContactState> contact_;  // unless the state was saved before
   std::optional<std::map<ColliderId, ColliderRecord>> colliders_;
+  std::optional<std::vector<BodyContact>> body_contacts_;  // of the bodies that there were
 };
 
 }  // namespace pliant

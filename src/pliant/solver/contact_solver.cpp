@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "pliant/collision/pairs/pair_resistance.h"
 #include "pliant/core/stopwatch.h"
 
 namespace pliant {
@@ -30,14 +31,41 @@ class AddedTime {
 
 }  // namespace
 
-void ContactSolver::set(std::vector<SolverCollider> colliders, std::vector<Real> radii) {
+void ContactSolver::set(std::vector<SolverCollider> colliders, std::vector<Real> radii, std::vector<Real> frictions) {
   colliders_ = std::move(colliders);
   radii_ = std::move(radii);
+  frictions_ = std::move(frictions);
   std::vector<ContactCollider> of_contact;
   for (const SolverCollider& each : colliders_) {
-    of_contact.push_back({each.number, each.shape.get(), each.surface_velocity, each.friction});
+    of_contact.push_back({each.number, each.shape.get(), each.surface_velocity, each.friction, each.has_own_friction});
   }
   contact_.set_colliders(std::move(of_contact));
+}
+
+void ContactSolver::set_surfaces(SolverSurfaces surfaces) {
+  surfaces_ = std::move(surfaces);
+  is_laid_out_ = false;
+  if (!has_pairs()) pairs_.clear();
+  pair_energy_ = 0;
+}
+
+void ContactSolver::forget_order() {
+  contact_.forget_substep();
+  pairs_.forget_substep();
+  is_laid_out_ = false;
+}
+
+void ContactSolver::lay_out_surfaces(const System& system) {
+  if (is_laid_out_) return;
+  const std::span<const Index> vertices = system.order().vertices();
+  std::vector<Index> places(vertices.size());
+  for (std::size_t i = 0; i < vertices.size(); ++i) places[at(vertices[i])] = static_cast<Index>(i);
+  Positions rest;
+  system.order().gather(surfaces_.rest, rest);
+  Surface surface(surfaces_.parts, system.vertex_count(), places);
+  surface.ignored = surfaces_.ignored;
+  pairs_.set_surface(std::move(surface), rest, surfaces_.frictions, local_radii_);
+  is_laid_out_ = true;
 }
 
 void ContactSolver::begin_step(const State& state, Real h) {
@@ -67,42 +95,139 @@ void ContactSolver::begin_substep(const State& state, Real begin, Real end, Real
     colliders[i].end = interpolate(begin_[i], end_[i], end);
   }
   system.order().gather(radii_, local_radii_);
+  system.order().gather(frictions_, local_frictions_);
   refreshes_ = 0;
-  const ContactStep step{work.begin.positions, work.begin.masses,         local_radii_,
-                         system.is_pinned(),   system.order().vertices(), h};
+  const ContactStep step{.begin = work.begin.positions,
+                         .masses = work.begin.masses,
+                         .radii = local_radii_,
+                         .is_pinned = system.is_pinned(),
+                         .vertices = system.order().vertices(),
+                         .time_step = h,
+                         .frictions = local_frictions_};
+  if (has_pairs()) {
+    lay_out_surfaces(system);
+    start_with_loads(state, system, work);
+  }
   contact_.begin_substep(step, state.contact, work.positions, threads);
+  if (!has_pairs()) return;
+  pairs_.begin_substep(step, state.contact, has_load_, work.positions, threads);
+  contact_.find_forces(work.positions, threads);
+}
+
+/// Components in which surfaces lie on each other begin with how they moved, not with what forces do to that: their
+/// last balance goes on. Finds which vertices these have.
+void ContactSolver::start_with_loads(const State& state, const System& system, WorkingState& work) {
+  has_load_.clear();
+  if (state.contact.pairs.empty()) return;
+  pairs_.find_loaded_vertices(state.contact, has_load_);
+  const std::span<const Index> component_of_vertex = system.components_of_vertices();
+  is_loaded_component_.assign(system.components().count(), 0);
+  for (std::size_t v = 0; v < has_load_.size(); ++v) {
+    if (has_load_[v] != 0) is_loaded_component_[at(component_of_vertex[v])] = 1;
+  }
+  for (Index v = 0; v < system.vertex_count(); ++v) {
+    has_load_[at(v)] = is_loaded_component_[at(component_of_vertex[at(v)])];
+    const Real weight = system.inertia_weights()[at(v)];
+    if (has_load_[at(v)] == 0 || !(weight > 0)) continue;
+    work.positions.row(v) = work.prediction.row(v) - work.forces.row(v) / weight;
+  }
+}
+
+void ContactSolver::find_forces(const Positions& q, ThreadPool& threads) {
+  contact_.find_forces(q, threads);
+  if (has_pairs()) pairs_.find_forces(q, threads);
+}
+
+void ContactSolver::subtract(Positions& r, ThreadPool& threads) {
+  contact_.subtract(r, threads);
+  if (has_pairs()) pairs_.subtract(r);
+}
+
+Real ContactSolver::curvature(const Positions& p) const {
+  return contact_.curvature(p) + (has_pairs() ? pairs_.curvature(p) : 0);
+}
+
+Real ContactSolver::stiffened_curvature(const Positions& p) const {
+  return contact_.stiffened_curvature(p) + (has_pairs() ? pairs_.stiffened_curvature(p) : 0);
+}
+
+void ContactSolver::add_diagonal(std::span<Real> diagonal) const {
+  contact_.add_diagonal(diagonal);
+  if (has_pairs()) pairs_.add_diagonal(diagonal);
+}
+
+void ContactSolver::add_resistance(const Positions& q, std::span<const Index> component_of_vertex,
+                                   std::span<RigidResistance> components) const {
+  contact_.add_resistance(component_of_vertex, components);
+  if (has_pairs()) pliant::add_resistance(pairs_.near(), q, component_of_vertex, components);
+}
+
+void ContactSolver::add_energies(std::span<const Index> component_of_vertex, std::span<Real> components) const {
+  contact_.add_energies(component_of_vertex, components);
+  if (has_pairs()) pliant::add_energies(pairs_.near(), component_of_vertex, components);
+}
+
+void ContactSolver::join_components(std::span<const Index> component_of_vertex, std::span<std::size_t> least) const {
+  if (has_pairs()) pliant::join_components(pairs_.near(), component_of_vertex, least);
+}
+
+/// Pinned vertices feel nothing.
+void ContactSolver::finish(WorkingState& work, LocalResult& local, const ContactSums& sums) {
+  local.contact = sums.energy;
+  local.residual = std::sqrt(sums.squared_residual);
+  if (!has_pairs()) return;
+  pair_energy_ = pairs_.add(work.residual);
+  local.contact += pair_energy_;
+  Real largest = 0;
+  for (Index v = 0; v < static_cast<Index>(work.residual.rows()); ++v) {
+    if (pairs_.is_pinned(v)) work.residual.row(v).setZero();
+    largest = std::max(largest, work.residual.row(v).squaredNorm());
+  }
+  local.residual = std::sqrt(largest);
 }
 
 void ContactSolver::add(WorkingState& work, LocalResult& local, ThreadPool& threads) {
   const AddedTime timed(seconds_);
-  const ContactSums sums = contact_.add(work.residual, threads);
-  local.contact = sums.energy;
-  local.residual = std::sqrt(sums.squared_residual);
+  finish(work, local, contact_.add(work.residual, threads));
 }
 
-bool ContactSolver::refresh(Index iteration, Index iterations, bool has_converged, WorkingState& work,
-                            LocalResult& local, ThreadPool& threads) {
-  if (refreshes_ == count_of(refreshed_after)) return false;
+bool ContactSolver::is_refresh_due(Index iteration, Index iterations, bool has_converged) const {
+  if (!is_active() || refreshes_ == count_of(refreshed_after)) return false;
   const Real share = refreshed_after[at(refreshes_)];
   const auto due = std::max<Index>(1, static_cast<Index>(std::lround(share * static_cast<Real>(iterations))));
-  if (iteration < due && !has_converged) return false;
-  const AddedTime timed(seconds_);
-  ++refreshes_;
-  const ContactSums sums = contact_.refresh(work.residual, threads);
-  local.contact = sums.energy;
-  local.residual = std::sqrt(sums.squared_residual);
-  return true;
+  return iteration >= due || has_converged;
 }
 
-HeldBack ContactSolver::hold_back(Positions& q, ThreadPool& threads) {
+void ContactSolver::refresh(WorkingState& work, LocalResult& local, ThreadPool& threads) {
   const AddedTime timed(seconds_);
-  return contact_.hold_back(q, threads);
+  ++refreshes_;
+  if (has_pairs()) {
+    pairs_.subtract(work.residual);
+    pairs_.refresh(work.positions, threads);
+  }
+  finish(work, local, contact_.refresh(work.residual, threads));
+}
+
+HeldBack ContactSolver::hold_back(const Positions& from, Positions& q, ThreadPool& threads) {
+  const AddedTime timed(seconds_);
+  HeldBack held = contact_.hold_back(q, threads);
+  if (!has_pairs()) return held;
+  const HeldBack by_pairs = pairs_.hold_back(from, q, threads);
+  if (by_pairs.has_moved) contact_.find_forces(q, threads);
+  held.has_moved |= by_pairs.has_moved;
+  held.has_new_potential |= by_pairs.has_new_potential;
+  pairs_.find_forces(q, threads);
+  return held;
 }
 
 void ContactSolver::commit_substep(const System& system, WorkingState& work, ThreadPool& threads, State& state,
                                    ContactReport& report) {
   const Stopwatch watch;
   contact_.commit(work.positions, system.diagonal(), state.contact, threads);
+  state.contact.pairs.clear();
+  if (has_pairs()) pairs_.commit(work.positions, system.diagonal(), state.contact, threads);
+  std::vector<Real>& stiffening = state.contact.stiffening;
+  if (std::ranges::all_of(stiffening, [](Real factor) { return factor == 1; })) stiffening.clear();
   if (work.light_steps >= light_steps_needed) work.in_factor.clear();
   state.contact.light_steps = work.in_factor.empty() ? 0 : work.light_steps;
   system.order().scatter(work.in_factor, state.contact.in_factor);
@@ -114,8 +239,34 @@ void ContactSolver::commit_substep(const System& system, WorkingState& work, Thr
     report.deepest = std::max(report.deepest, radii_[at(each.vertex)] - each.distance);
     report.friction_power += each.friction_power;
   }
+  const PairReport& pairs = pairs_.report();
+  report.pairs = pairs.pairs;
+  report.active = pairs.active;
+  report.smallest_gap = pairs.smallest_gap;
+  report.shortened += pairs.shortened;
+  report.lag = pairs.lag;
   seconds_ += watch.seconds();
   report.seconds = seconds_;
+}
+
+void ContactSolver::add_touches(const System& system, std::span<VertexTouch> touches) const {
+  for (const ContactPoint& each : contact_.points()) {
+    VertexTouch& touch = touches[at(each.vertex)];
+    touch.gap = std::min(touch.gap, each.distance);
+    touch.force += each.force;
+  }
+  if (!has_pairs() || !pairs_.has_begun()) return;
+  const std::span<const Index> vertices = system.order().vertices();
+  for (const NearPair& each : pairs_.near()) {
+    if (!each.is_active()) continue;
+    for (std::size_t j = 0; j < 4; ++j) {
+      if (each.gap.weights[j] == 0) continue;
+      const Index local = each.pair.vertices[j];
+      VertexTouch& touch = touches[at(vertices.empty() ? local : vertices[at(local)])];
+      touch.gap = std::min(touch.gap, each.gap.distance);
+      touch.force += each.force_on(j);
+    }
+  }
 }
 
 void ContactSolver::commit_step(State& state) const {

@@ -2,6 +2,8 @@
 // Contact in the steps of a solver: where a step takes the colliders, when friction is refreshed, the order of
 // vertices.
 #include "pliant/collision/contact/contact.h"
+#include "pliant/collision/contact/vertex_touch.h"
+#include "pliant/collision/pairs/pair_contact.h"
 #include "pliant/solver/system.h"
 #include "pliant/solver/working_state.h"
 
@@ -14,13 +16,29 @@ struct SolverCollider {
   ColliderMotion motion;
   Vec3 surface_velocity = Vec3::Zero();  ///< in its frame [m/s]
   Real friction = 0;                     ///< μ
+  bool has_own_friction = false;         ///< else it is that of the contact settings
+};
+
+/// The surfaces of all bodies, in the order of the simulation.
+struct SolverSurfaces {
+  std::vector<SurfacePart> parts;  ///< what they refer to must stay as it is
+  Positions rest;                  ///< m × 3 [m]
+  SurfaceFrictions frictions;      ///< of the parts
+  std::vector<char> ignored;       ///< which of their groups ignore each other, see Surface::ignored
 };
 
 class ContactSolver {
  public:
-  /// Colliders by number; r of each vertex of the simulation [m].
-  void set(std::vector<SolverCollider> colliders, std::vector<Real> radii);
-  bool is_active() const { return contact_.is_active(); }
+  /// Colliders by number; of each vertex of the simulation r [m] and μ of its body, below 0 where it has none of its
+  /// own (empty: for all).
+  void set(std::vector<SolverCollider> colliders, std::vector<Real> radii, std::vector<Real> frictions);
+  /// Surfaces that touch each other and themselves; no parts: none do.
+  void set_surfaces(SolverSurfaces surfaces);
+  bool is_active() const { return contact_.is_active() || has_pairs(); }
+  /// The order of the vertices is another, or which are pinned.
+  void forget_order();
+  /// Whether there is a substep that was not forgotten.
+  bool has_begun() const { return contact_.has_begun() && (!has_pairs() || pairs_.has_begun()); }
 
   /// What the factor is to have of contact.
   void gather(const State& state, const System& system, WorkingState& work) const;
@@ -29,28 +47,61 @@ class ContactSolver {
   /// One of its substeps, of length h [s], from share `begin` to share `end` of it, at the iterate of `work`.
   void begin_substep(const State& state, Real begin, Real end, Real h, const System& system, WorkingState& work,
                      ThreadPool& threads);
+  void find_forces(const Positions& q, ThreadPool& threads);
   /// Adds the forces that were found last to the residual, and their energy to what the local step found.
   void add(WorkingState& work, LocalResult& local, ThreadPool& threads);
-  /// Refreshes the loads of friction when it is time: at three and eight tenths of the iterations, or once they have
-  /// converged before. Returns whether it has.
-  bool refresh(Index iteration, Index iterations, bool has_converged, WorkingState& work, LocalResult& local,
-               ThreadPool& threads);
-  HeldBack hold_back(Positions& q, ThreadPool& threads);
+  /// Whether it is time to refresh the loads of friction: at three and eight tenths of the iterations, or once they
+  /// have converged before.
+  bool is_refresh_due(Index iteration, Index iterations, bool has_converged) const;
+  void refresh(WorkingState& work, LocalResult& local, ThreadPool& threads);
+  /// Takes the forces that were found last from r [N].
+  void subtract(Positions& r, ThreadPool& threads);
+  /// Holds q back on its way from `from`, and finds the forces where it then is.
+  HeldBack hold_back(const Positions& from, Positions& q, ThreadPool& threads);
+  /// pᵀ C p [N m] with the curvature C of where the forces were found last; of the contacts alone that are far stiffer
+  /// than at first.
+  Real curvature(const Positions& p) const;
+  Real stiffened_curvature(const Positions& p) const;
+  /// Adds D ⪰ C of each vertex [N/m].
+  void add_diagonal(std::span<Real> diagonal) const;
+  /// Of components that move as rigid bodies, where the forces were found last: what resists, the energies, and which
+  /// may touch each other; see pair_resistance.h.
+  void add_resistance(const Positions& q, std::span<const Index> component_of_vertex,
+                      std::span<RigidResistance> components) const;
+  void add_energies(std::span<const Index> component_of_vertex, std::span<Real> components) const;
+  void join_components(std::span<const Index> component_of_vertex, std::span<std::size_t> least) const;
   void commit_substep(const System& system, WorkingState& work, ThreadPool& threads, State& state,
                       ContactReport& report);
   void commit_step(State& state) const;
 
-  Contact& contact() { return contact_; }
+  /// What each vertex of the simulation touched at the end of the last substep: there is one for each.
+  void add_touches(const System& system, std::span<VertexTouch> touches) const;
+
+  /// Whether surfaces pushed each other where forces were added last.
+  bool pairs_push() const { return pair_energy_ > 0; }
+
   const Contact& contact() const { return contact_; }
+  const PairContact& pairs() const { return pairs_; }
 
  private:
+  bool has_pairs() const { return !surfaces_.parts.empty(); }
+  void lay_out_surfaces(const System& system);
+  void start_with_loads(const State& state, const System& system, WorkingState& work);
+  void finish(WorkingState& work, LocalResult& local, const ContactSums& sums);
+
   std::vector<SolverCollider> colliders_;
-  std::vector<Real> radii_;        // in the order of the simulation
-  std::vector<Real> local_radii_;  // in that of the solver
-  std::vector<Pose> begin_, end_;  // of the step
+  std::vector<Real> radii_, frictions_;              // in the order of the simulation
+  std::vector<Real> local_radii_, local_frictions_;  // in that of the solver
+  std::vector<Pose> begin_, end_;                    // of the step
   Contact contact_;
-  Index refreshes_ = 0;  // in this substep
-  double seconds_ = 0;   // in this step
+  SolverSurfaces surfaces_;
+  bool is_laid_out_ = false;  // the surfaces, in the order of the solver
+  PairContact pairs_;
+  std::vector<char> has_load_;             // of each vertex, whether the substep began with loads
+  std::vector<char> is_loaded_component_;  // scratch
+  Real pair_energy_ = 0;                   // where forces were added last [J]
+  Index refreshes_ = 0;                    // in this substep
+  double seconds_ = 0;                     // in this step
 };
 
 }  // namespace pliant

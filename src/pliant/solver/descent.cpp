@@ -14,6 +14,9 @@ constexpr Real good_length = 0.5;
 constexpr Real shortest_of_factor = 0.25;
 constexpr Real longest_of_factor = 8;
 
+/// Of a move that has raised the objective: what must be left of it to be worth a trial.
+constexpr Real least_share = 0.05;
+
 Real scalar_product(const Positions& a, const Positions& b) {
   return a.cwiseProduct(b).sum();
 }
@@ -26,6 +29,7 @@ void Descent::begin(const StepContext& context) {
   is_accelerated_ = chosen == Acceleration::lbfgs || (chosen == Acceleration::automatic && checks_plain_moves_);
   has_moved_ = false;
   is_first_ = true;
+  balance_.begin();
   if (is_needed()) lbfgs_.begin(context.system.vertex_count());
 }
 
@@ -37,14 +41,15 @@ LocalResult Descent::evaluate(const StepContext& context, WorkingState& work) co
 
 /// A plain move without contact is known to be good.
 bool Descent::must_go_back(const LocalResult& local) const {
-  if (!has_moved_ || (lbfgs_.is_plain() && !checks_plain_moves_)) return false;
-  return lbfgs_.has_risen(local);
+  if (!has_moved_) return false;
+  const bool is_known = lbfgs_.is_plain() && !(local.contact > 0) && !(lbfgs_.local_before().contact > 0);
+  return !is_known && lbfgs_.has_risen(local);
 }
 
 LocalResult Descent::local_step(const StepContext& context, WorkingState& work, StepReport& report) {
   LocalResult local = evaluate(context, work);
   for (Index cuts = 0; cuts <= most_cuts && must_go_back(local); ++cuts) {
-    go_back(cuts, context, work);
+    go_back(cuts, local, context, work);
     ++report.backtracks;
     const double seconds = local.seconds_projections;
     local = evaluate(context, work);
@@ -53,11 +58,16 @@ LocalResult Descent::local_step(const StepContext& context, WorkingState& work, 
   return local;
 }
 
-void Descent::go_back(Index cuts, const StepContext& context, WorkingState& work) {
-  if (!lbfgs_.is_plain()) {
-    if (context.contact.is_active()) context.contact.contact().find_forces(lbfgs_.positions_before(), context.threads);
-    lbfgs_.move_plainly(work.solution, curvature(context, work), work.positions);
-    has_moved_ = checks_plain_moves_;
+/// A move with memory that went too far is made shorter, along itself, where surfaces push each other: the memory of
+/// how stiff they are is worth more than the move. Against colliders a plain move in its place does better.
+void Descent::go_back(Index cuts, const LocalResult& local, const StepContext& context, WorkingState& work) {
+  const bool may_scale = cuts == 0 && !lbfgs_.is_plain() && context.contact.pairs_push();
+  const Real share = may_scale ? lbfgs_.best_share(local) : 0;
+  if (share > least_share) {
+    lbfgs_.scale_move(share, work.positions);
+  } else if (!lbfgs_.is_plain()) {
+    move_plainly(context, work);
+    return;
   } else {
     lbfgs_.shorten(cuts < most_cuts ? cut : 0, work.solution, work.positions);
   }
@@ -65,12 +75,26 @@ void Descent::go_back(Index cuts, const StepContext& context, WorkingState& work
   hold_back(context, work);
 }
 
-/// Where a move is cut it makes no pair, and where it meets another potential it cannot be judged.
+/// In place of the last move.
+void Descent::move_plainly(const StepContext& context, WorkingState& work) {
+  if (context.contact.is_active()) context.contact.find_forces(lbfgs_.positions_before(), context.threads);
+  lbfgs_.move_plainly(work.solution, curvature(context, work), work.positions);
+  has_moved_ = checks_plain_moves_;
+  hold_back(context, work);
+}
+
+/// Where a move is cut it makes no pair, and where it meets another potential it cannot be judged: then it is a plain
+/// one, which does not go far.
 void Descent::hold_back(const StepContext& context, WorkingState& work) {
   if (!context.contact.is_active()) return;
-  const HeldBack held = context.contact.hold_back(work.positions, context.threads);
+  const HeldBack held = context.contact.hold_back(lbfgs_.positions_before(), work.positions, context.threads);
   if (held.has_moved || held.has_new_potential) lbfgs_.forget();
-  if (held.has_new_potential) has_moved_ = false;
+  if (!held.has_new_potential) return;
+  if (lbfgs_.is_plain()) {
+    has_moved_ = false;
+  } else {
+    move_plainly(context, work);
+  }
 }
 
 void Descent::move(const LocalResult& local, const StepContext& context, WorkingState& work, StepReport& report) {
@@ -98,14 +122,14 @@ void Descent::solve(const LocalResult& local, const StepContext& context, Workin
 /// xᵀ (C − D) x, by which a plain move is shorter, with C of where the forces were found last.
 Real Descent::curvature(const StepContext& context, const WorkingState& work) const {
   if (!context.contact.is_active()) return 0;
-  return context.contact.contact().curvature(work.solution) - in_factor(work);
+  return context.contact.curvature(work.solution) - in_factor(work);
 }
 
 /// Whether contact is to go into the factor, or into it as it is now, and for how many steps more it stays there. The
 /// first is decided by how short a plain move on Y would be for the contacts alone that are far stiffer than they were
 /// at first; the second by how far D is from C.
 bool Descent::must_factorize(const StepContext& context, WorkingState& work) const {
-  const Contact& contact = context.contact.contact();
+  const ContactSolver& contact = context.contact;
   const Real along = scalar_product(work.solution, work.residual);
   const Real of_contact = in_factor(work);
   const Real resistance = along - of_contact;
@@ -130,7 +154,7 @@ Real Descent::in_factor(const WorkingState& work) {
 
 void Descent::factorize(const StepContext& context, WorkingState& work, StepReport& report) {
   work.in_factor.assign(at(context.system.vertex_count()), 0);
-  context.contact.contact().add_diagonal(work.in_factor);
+  context.contact.add_diagonal(work.in_factor);
   if (std::ranges::all_of(work.in_factor, [](Real each) { return each == 0; })) work.in_factor.clear();
   SetUpTimes times;
   context.system.factorize(work.begin.masses, work.in_factor,
@@ -143,7 +167,12 @@ void Descent::factorize(const StepContext& context, WorkingState& work, StepRepo
 
 void Descent::check_last_move(const StepContext& context, WorkingState& work, StepReport& report) {
   if (!has_moved_ || (lbfgs_.is_plain() && !checks_plain_moves_)) return;
-  local_step(context, work, report);
+  LocalResult local = local_step(context, work, report);
+  settle(context, work, local);
+}
+
+void Descent::settle(const StepContext& context, WorkingState& work, LocalResult& local) {
+  if (context.contact.is_active() && balance_.settle(context, work, local)) forget();
 }
 
 }  // namespace pliant

@@ -3,7 +3,7 @@
 // contact, to which the factor is no bound. Of each move the objective is seen where it led; one that has raised it is
 // taken back, made plainly, and then shortened.
 #include "pliant/solver/acceleration/lbfgs.h"
-#include "pliant/solver/step_context.h"
+#include "pliant/solver/rigid_balance.h"
 
 namespace pliant {
 
@@ -15,6 +15,8 @@ class Descent {
   bool is_needed() const { return is_accelerated_ || checks_plain_moves_; }
   /// What the local step finds at the iterate, after moves have been taken back that must be.
   LocalResult local_step(const StepContext& context, WorkingState& work, StepReport& report);
+  /// Moves free components that touch something rigidly to where they are in balance.
+  void settle(const StepContext& context, WorkingState& work, LocalResult& local);
   /// The objective is another one from here on.
   void forget() { lbfgs_.forget(); }
   /// q ← q + α p, not into a collider.
@@ -28,15 +30,17 @@ class Descent {
 
   LocalResult evaluate(const StepContext& context, WorkingState& work) const;
   bool must_go_back(const LocalResult& local) const;
-  void go_back(Index cuts, const StepContext& context, WorkingState& work);
+  void go_back(Index cuts, const LocalResult& local, const StepContext& context, WorkingState& work);
   void solve(const LocalResult& local, const StepContext& context, WorkingState& work, StepReport& report);
   Real curvature(const StepContext& context, const WorkingState& work) const;
   bool must_factorize(const StepContext& context, WorkingState& work) const;
   static Real in_factor(const WorkingState& work);
   void factorize(const StepContext& context, WorkingState& work, StepReport& report);
+  void move_plainly(const StepContext& context, WorkingState& work);
   void hold_back(const StepContext& context, WorkingState& work);
 
   Lbfgs lbfgs_;
+  RigidBalance balance_;
   bool is_accelerated_ = false;
   bool checks_plain_moves_ = false;  // contact: the factor is no bound
   bool has_moved_ = false;           // and the objective is still the one that the move was made for

@@ -63,7 +63,7 @@ void Solver::lay_out() {
   Positions prediction;
   system_.order().scatter(work_.prediction, prediction);
   system_.lay_out();
-  contact_.contact().forget_substep();
+  contact_.forget_order();
   system_.order().gather(prediction, work_.prediction);
   work_.predicted_step = predicted_step;
   threads_.fit(settings_.threads, system_.slot_count());
@@ -84,8 +84,8 @@ Evaluation Solver::evaluate(const State& state) {
   system_.set_inertia(work_.begin.masses, is_predicted ? work_.predicted_step : substep());
   work_.positions = work_.begin.positions;
   LocalResult found = system_.local_step(work_.positions, work_.prediction, work_.residual, threads_.pool());
-  if (is_predicted && !is_new && contact_.contact().has_begun()) {
-    contact_.contact().find_forces(work_.positions, threads_.pool());
+  if (is_predicted && !is_new && contact_.has_begun()) {
+    contact_.find_forces(work_.positions, threads_.pool());
     contact_.add(work_, found, threads_.pool());
   }
   Evaluation evaluation{found.residual, found.inertia, found.elastic};

@@ -26,9 +26,15 @@ class Solver {
   void set_groups(Index vertex_count, std::vector<ConstraintGroup*> groups);
   void set_forces(std::vector<Force*> forces) { forces_.set(std::move(forces)); }
   /// Colliders by number, and how near to them each vertex comes to rest [m]. They cost nothing.
-  void set_colliders(std::vector<SolverCollider> colliders, std::vector<Real> radii) {
-    contact_.set(std::move(colliders), std::move(radii));
+  void set_colliders(std::vector<SolverCollider> colliders, std::vector<Real> radii, std::vector<Real> frictions) {
+    contact_.set(std::move(colliders), std::move(radii), std::move(frictions));
   }
+
+  /// What each vertex touched at the end of the last step; forgotten once the order of the vertices is another.
+  void add_touches(std::span<VertexTouch> touches) const { contact_.add_touches(system_, touches); }
+
+  /// Surfaces that touch each other and themselves; they take r of set_colliders().
+  void set_surfaces(SolverSurfaces surfaces) { contact_.set_surfaces(std::move(surfaces)); }
 
   /// Asked before each iteration whether the step is to be given up; none: never.
   void set_stop(std::function<bool()> stop) { stop_ = std::move(stop); }

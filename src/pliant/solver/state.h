@@ -1,4 +1,6 @@
 #pragma once
+#include <limits>
+
 #include "pliant/collision/contact/contact_state.h"
 #include "pliant/core/state_view.h"
 
@@ -67,7 +69,12 @@ struct ContactReport {
   Real friction_power = 0;     ///< that friction takes away in the last substep [W]
   Index held_back = 0;         ///< moves of vertices that were cut at a surface
   Index refactorizations = 0;  ///< with contact in the factor
-  double seconds = 0;          ///< to find them, add them up and hold back what meets a surface
+  Index pairs = 0;             ///< of features of surfaces nearer than twice r at its end
+  Index active = 0;            ///< of those, that push each other at its end
+  Real smallest_gap = std::numeric_limits<Real>::infinity();  ///< between them at its end [m]
+  Real lag = 0;  ///< how far pinned vertices are behind where they should be, held up by what is in their way [m]
+  Index shortened = 0;  ///< moves of vertices that were cut so that no surface passes through another
+  double seconds = 0;   ///< to find them, add them up and hold back what meets a surface
 };
 
 /// What a step tells about itself.

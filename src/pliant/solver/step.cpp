@@ -127,9 +127,11 @@ LocalResult Solver::local_step(const State& state, Index iteration, StepReport& 
   threads_.begin_iteration();
   const Stopwatch watch;
   LocalResult local = descent_.local_step(context(state), work_, report);
-  if (contact_.is_active() && contact_.refresh(iteration, settings_.iterations, local.residual <= settings_.tolerance,
-                                               work_, local, threads_.pool())) {
-    descent_.forget();
+  if (contact_.is_refresh_due(iteration, settings_.iterations, local.residual <= settings_.tolerance)) {
+    descent_.settle(context(state), work_, local);
+    const bool touches = local.contact > 0;
+    contact_.refresh(work_, local, threads_.pool());
+    if (touches || local.contact > 0) descent_.forget();
   }
   if (!std::isfinite(local.residual)) report_divergence(context(state), work_);
   if (history_.size() < history_.capacity()) history_.push_back(local.objective());

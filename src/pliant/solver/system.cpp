@@ -86,6 +86,7 @@ void System::lay_out() {
   find_pinned();
   components_ = find_components(matrix_.matrix());
   free_components_ = find_free_components(components_, groups(), is_pinned_);
+  freedom_ = find_freedom(free_components_, groups());
   component_of_vertex_ = component_of_vertex(components_);
   local_step_.set_components(component_of_vertex_);
   is_laid_out_ = true;
@@ -118,7 +119,8 @@ void System::set_inertia(std::span<const Real> masses, Real step) {
   for (std::size_t i = 0; i < masses.size(); ++i) inertia_weights_[i] = is_pinned_[i] ? 0 : masses[i] / (step * step);
   translation_weights_ = inertia_weights_;
   for (ConstraintGroup* group : groups()) {
-    if (group->is_external() && group->targets().empty()) add_translation_weights(*group, translation_weights_);
+    if (!group->is_external() || !group->targets().empty()) continue;
+    add_translation_weights(*group, translation_weights_);
   }
   for (std::size_t i = 0; i < added_diagonal_.size(); ++i) translation_weights_[i] += added_diagonal_[i];
 }

@@ -65,8 +65,11 @@ class System {
   /// Those that set_groups() was given.
   std::span<ConstraintGroup* const> groups_of_simulation() const { return simulation_groups_; }
   const Components& components() const { return components_; }
+  /// The component of each vertex.
+  std::span<const Index> components_of_vertices() const { return component_of_vertex_; }
   /// Those that nothing holds.
   const Components& free_components() const { return free_components_; }
+  RigidFreedom freedom(std::size_t free_component) const { return freedom_[free_component]; }
   std::span<const char> is_pinned() const { return is_pinned_; }
   /// M/η² [N/m], 0 at pinned vertices.
   std::span<const Real> inertia_weights() const { return inertia_weights_; }
@@ -104,6 +107,7 @@ class System {
   std::vector<char> none_pinned_;
   Components components_, free_components_;
   std::vector<Index> component_of_vertex_;
+  std::vector<RigidFreedom> freedom_;  // of each free component
 
   Positions shape_;  // in the order of the simulation
 

@@ -242,6 +242,28 @@ std::vector<ContactMemory> read_memory(const Node& node) {
   return memory;
 }
 
+/// What friction remembers of pairs of surfaces.
+std::vector<PairMemory> read_pairs(const Node& node) {
+  const Node features = node.require("pairs");
+  features.require_list();
+  if (features.size() % 3 != 0) features.fail("has no three numbers for each pair; take another checkpoint");
+  std::vector<PairMemory> pairs(features.size() / 3);
+  std::vector<Real> slides(features.size());
+  read_numbers(node.require("slides"), slides);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    Index kind = 0;
+    read(features[3 * i], kind);
+    if (kind < 0 || kind > static_cast<Index>(PairKind::vertex_edge)) {
+      features.fail(fmt::format("has the kind {}; take another checkpoint", kind));
+    }
+    pairs[i].kind = static_cast<PairKind>(kind);
+    read(features[3 * i + 1], pairs[i].features[0]);
+    read(features[3 * i + 2], pairs[i].features[1]);
+    pairs[i].slide = {slides[3 * i], slides[3 * i + 1], slides[3 * i + 2]};
+  }
+  return pairs;
+}
+
 /// Whether colliders and contacts are those of the simulation, Simulation::restore() says.
 ContactState read_contact(const Node& node, const State& fresh) {
   constexpr Index most_light_steps = 1000;
@@ -253,12 +275,14 @@ ContactState read_contact(const Node& node, const State& fresh) {
     if (const auto target = entry.find("target")) collider.target = read_pose(*target);
   });
   contact.memory = read_memory(node);
-  const Node stiffening = node.require("stiffening");
-  if (!stiffening.is_bytes() || !stiffening.bytes().empty()) contact.stiffening.resize(fresh.masses.size());
-  read_numbers(stiffening, contact.stiffening);
-  const Node in_factor = node.require("in_factor");
-  if (!in_factor.is_bytes() || !in_factor.bytes().empty()) contact.in_factor.resize(fresh.masses.size());
-  read_numbers(in_factor, contact.in_factor);
+  contact.pairs = read_pairs(node);
+  const auto read_of_vertices = [&](const char* key, std::vector<Real>& numbers) {
+    const Node entry = node.require(key);
+    if (!entry.is_bytes() || !entry.bytes().empty()) numbers.resize(fresh.masses.size());
+    read_numbers(entry, numbers);
+  };
+  read_of_vertices("stiffening", contact.stiffening);
+  read_of_vertices("in_factor", contact.in_factor);
   read(node.require("light_steps"), contact.light_steps);
   if (contact.light_steps < 0 || contact.light_steps > most_light_steps) {
     node.require("light_steps").fail(fmt::format("{} is out of range; take another checkpoint", contact.light_steps));

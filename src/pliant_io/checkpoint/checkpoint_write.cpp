@@ -93,7 +93,15 @@ Json write_contact(const ContactState& contact) {
     touched.push_back(each.collider);
     numbers.insert(numbers.end(), {each.anchor.x(), each.anchor.y(), each.anchor.z(), each.load});
   }
+  std::vector<Index> features;  // of each pair of surfaces the kind and two numbers
+  std::vector<Real> slides;
+  for (const PairMemory& each : contact.pairs) {
+    features.insert(features.end(), {static_cast<Index>(each.kind), each.features[0], each.features[1]});
+    slides.insert(slides.end(), each.slide.begin(), each.slide.end());
+  }
   return {{"colliders", std::move(colliders)},
+          {"pairs", std::move(features)},
+          {"slides", bytes_of(slides)},
           {"vertices", std::move(vertices)},
           {"touched", std::move(touched)},
           {"anchors_and_loads", bytes_of(numbers)},
@@ -113,7 +121,7 @@ Json write_state(const State& state) {
                         {"positions", bytes_of(state.previous_positions)},
                         {"velocities", bytes_of(state.previous_velocities)}};
   }
-  if (!state.contact.colliders.empty()) json["contact"] = write_contact(state.contact);
+  if (!state.contact.is_empty()) json["contact"] = write_contact(state.contact);
   if (!state.energy_surplus.empty()) json["energy_surplus"] = bytes_of(state.energy_surplus);
   return json;
 }

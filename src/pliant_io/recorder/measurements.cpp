@@ -41,7 +41,7 @@ constexpr std::array after_elastic = {
     Column{"ms_total", [](const Measurements& row) { return 1e3 * row.report.seconds_total; }},
 };
 
-/// Where there are colliders.
+/// Where there are colliders, or surfaces touch.
 constexpr std::array of_contact = {
     Column{"contacts", [](const Measurements& row) { return static_cast<Real>(row.report.contact.contacts); }},
     Column{"deepest", [](const Measurements& row) { return row.report.contact.deepest; }},
@@ -51,6 +51,14 @@ constexpr std::array of_contact = {
     Column{"refactorizations",
            [](const Measurements& row) { return static_cast<Real>(row.report.contact.refactorizations); }},
     Column{"ms_contact", [](const Measurements& row) { return 1e3 * row.report.contact.seconds; }},
+};
+
+/// Where surfaces touch.
+constexpr std::array of_surfaces = {
+    Column{"pairs", [](const Measurements& row) { return static_cast<Real>(row.report.contact.pairs); }},
+    Column{"active", [](const Measurements& row) { return static_cast<Real>(row.report.contact.active); }},
+    Column{"smallest_gap", [](const Measurements& row) { return row.report.contact.smallest_gap; }},
+    Column{"shortened", [](const Measurements& row) { return static_cast<Real>(row.report.contact.shortened); }},
 };
 
 struct WrenchColumn {
@@ -129,14 +137,21 @@ Measurements measure(Simulation& simulation, const StepReport& report) {
 
 namespace {
 
-std::string column_names(const std::vector<std::string>& groups, const std::vector<std::string>& colliders) {
+bool has_contact(const ContactColumns& contact) {
+  return contact.surfaces || !contact.colliders.empty();
+}
+
+std::string column_names(const std::vector<std::string>& groups, const ContactColumns& contact) {
   std::string line = "step";
   for (const Column& column : before_elastic) line += fmt::format(",{}", column.name);
   for (const std::string& name : groups) line += ',' + csv_field("elastic_" + name);
   for (const Column& column : after_elastic) line += fmt::format(",{}", column.name);
-  if (colliders.empty()) return line + '\n';
+  if (!has_contact(contact)) return line + '\n';
   for (const Column& column : of_contact) line += fmt::format(",{}", column.name);
-  for (const std::string& name : colliders) {
+  if (contact.surfaces) {
+    for (const Column& column : of_surfaces) line += fmt::format(",{}", column.name);
+  }
+  for (const std::string& name : contact.colliders) {
     for (const WrenchColumn& column : of_wrench) line += ',' + csv_field(fmt::format("{}_{}", column.name, name));
   }
   return line + '\n';
@@ -188,11 +203,12 @@ std::vector<std::optional<std::size_t>> NamedColumns::places_of(const std::vecto
 }
 
 MeasurementsWriter::MeasurementsWriter(const std::filesystem::path& path, const std::vector<std::string>& groups,
-                                       std::int64_t kept_rows, const std::vector<std::string>& colliders)
-    : file_(open(path, column_names(groups, colliders), kept_rows)),
+                                       std::int64_t kept_rows, const ContactColumns& contact)
+    : file_(open(path, column_names(groups, contact), kept_rows)),
       elastic_(groups),
-      wrenches_(colliders),
-      has_contact_(!colliders.empty()) {}
+      wrenches_(contact.colliders),
+      has_contact_(has_contact(contact)),
+      has_surfaces_(contact.surfaces) {}
 
 void MeasurementsWriter::add(const Measurements& row) {
   std::string line = std::to_string(row.step);
@@ -203,6 +219,7 @@ void MeasurementsWriter::add(const Measurements& row) {
   for (const Real energy : elastic_.values(row.groups, row.elastic)) line += fmt::format(",{}", energy);
   add_columns(after_elastic, row);
   if (has_contact_) add_columns(of_contact, row);
+  if (has_surfaces_) add_columns(of_surfaces, row);
   for (const Wrench& wrench : wrenches_.values(row.colliders, row.wrenches)) add_columns(of_wrench, wrench);
   file_.write(line + '\n');
   file_.flush();

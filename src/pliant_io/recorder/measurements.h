@@ -34,6 +34,12 @@ struct Measurements {
 /// Measures the state; costs one local step.
 Measurements measure(Simulation& simulation, const StepReport& report);
 
+/// What of contact has columns.
+struct ContactColumns {
+  std::vector<std::string> colliders{};  ///< names; one that comes later may be among them
+  bool surfaces = false;                 ///< whether bodies touch each other or themselves at any time
+};
+
 /// Columns of what has names, which several may share: each takes the next column of its name.
 class NamedColumns {
  public:
@@ -60,12 +66,12 @@ class NamedColumns {
 /// back to the same bits.
 class MeasurementsWriter {
  public:
-  /// Makes the file and writes the names of the columns; `groups` and `colliders` have columns: one that is not there
-  /// has 0, a group that is not among them counts in the total alone. Without colliders there are no columns of
-  /// contact. Or goes on behind the first `kept_rows` rows of the file that is there.
+  /// Makes the file and writes the names of the columns; `groups` and colliders have columns: one that is not there
+  /// has 0, a group that is not among them counts in the total alone. Without colliders and surfaces there are no
+  /// columns of contact. Or goes on behind the first `kept_rows` rows of the file that is there.
   /// @throws Error (output); Error (input): that file has other columns, or fewer rows
   MeasurementsWriter(const std::filesystem::path& path, const std::vector<std::string>& groups,
-                     std::int64_t kept_rows = 0, const std::vector<std::string>& colliders = {});
+                     std::int64_t kept_rows = 0, const ContactColumns& contact = {});
 
   void add(const Measurements& row);
 
@@ -74,6 +80,7 @@ class MeasurementsWriter {
   NamedColumns elastic_;
   NamedColumns wrenches_;
   bool has_contact_;
+  bool has_surfaces_;
 };
 
 }  // namespace pliant

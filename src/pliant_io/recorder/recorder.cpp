@@ -31,10 +31,10 @@ void resume_run(const fs::path& folder, RunInfo info, const Simulation& simulati
 }
 
 Recorder::Recorder(fs::path folder, std::unique_ptr<FrameWriter> frames, std::int64_t every,
-                   const std::vector<std::string>& groups, std::int64_t kept, const std::vector<std::string>& colliders)
+                   const std::vector<std::string>& groups, std::int64_t kept, const ContactColumns& contact)
     : folder_(std::move(folder)),
       frames_(std::move(frames)),
-      measurements_(folder_ / "measurements.csv", groups, kept, colliders),
+      measurements_(folder_ / "measurements.csv", groups, kept, contact),
       every_(every),
       frame_count_(frames_ ? kept : 0) {
   if (every < 1) fail_input(fmt::format("records every {} steps are not possible; give a number from 1 up", every));

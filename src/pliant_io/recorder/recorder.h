@@ -26,12 +26,11 @@ void end_run(const std::filesystem::path& folder, const RunInfo& info, const Sim
 class Recorder {
  public:
   /// Opens the files in a prepared folder. `frames` may be null. every ≥ 1: steps from record to record. `groups` have
-  /// columns in measurements.csv, and so have `colliders`; one that comes later may be among them. kept: records of an
+  /// columns in measurements.csv, and so has `contact`; a group that comes later may be among them. kept: records of an
   /// earlier run that stay, for one that goes on.
   /// @throws Error (output), as do all members; Error (input) when those records are not there.
   Recorder(std::filesystem::path folder, std::unique_ptr<FrameWriter> frames, std::int64_t every,
-           const std::vector<std::string>& groups, std::int64_t kept = 0,
-           const std::vector<std::string>& colliders = {});
+           const std::vector<std::string>& groups, std::int64_t kept = 0, const ContactColumns& contact = {});
 
   /// Records the state if its step is a multiple of `every`; to be called at the start and after every step.
   void record(Simulation& simulation, const StepReport& report);

@@ -84,11 +84,14 @@ void read_simulation(const Node& root, Scene& scene) {
   }
   SceneReader reader(scene.simulation);
   for_each_entry(root, "bodies", [&](const Node& node) { reader.read_body(node); });
+  Index body = 0;
+  for_each_entry(root, "bodies", [&](const Node& node) { reader.read_body_contact(node, BodyId{body++}); });
   reader.read_gravity(root.find("gravity"));
   for_each_entry(root, "forces", [&](const Node& node) { reader.read_force(node); });
   if (const auto contact = root.find("contact")) reader.read_contact(*contact);
   for_each_entry(root, "colliders", [&](const Node& node) { reader.read_collider(node); });
   reader.read_events(root, scene.timeline);
+  scene.has_surfaces = scene.simulation.contact().surfaces || reader.has_later_surfaces;
   std::ranges::move(reader.warnings, std::back_inserter(scene.warnings));
   scene.group_names = all_names(scene.simulation.group_names(), std::move(reader.later_groups));
   std::vector<std::string> colliders;

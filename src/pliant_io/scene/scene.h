@@ -41,6 +41,7 @@ struct Scene {
   std::vector<SceneFile> files;             ///< of its meshes and maps, each once
   std::vector<std::string> group_names;     ///< of the groups there are, and behind them those that events add
   std::vector<std::string> collider_names;  ///< the same of colliders
+  bool has_surfaces = false;                ///< whether surfaces touch at the start, or once an event has acted
 
   std::vector<std::string> warnings;  ///< with their places: keys whose names are old, loose vertices
 

@@ -96,7 +96,8 @@ SchemaJson body_schema() {
                         {"start_positions", list_schema(schema_reference("vector"))},
                         {"velocity", schema_reference("vector")},
                         {"velocities", list_schema(schema_reference("vector"))},
-                        {"constraints", list_schema(constraint_schema())}},
+                        {"constraints", list_schema(constraint_schema())},
+                        {"contact", schema_reference("body_contact")}},
                        {"mesh", "mass"});
 }
 

@@ -32,9 +32,9 @@ struct Camera {
 };
 
 /// What the color of a surface tells.
-enum class ColorBy { none, stretch, energy, speed };
-constexpr std::array<std::string_view, 4> choice_names(ColorBy) {
-  return {"none", "stretch", "energy", "speed"};
+enum class ColorBy { none, stretch, energy, speed, gap, contact_force };
+constexpr std::array<std::string_view, 6> choice_names(ColorBy) {
+  return {"none", "stretch", "energy", "speed", "gap", "contact_force"};
 }
 
 /// Surfaces with a normal that turns from face to face, or with one for each face.
@@ -64,8 +64,10 @@ struct ViewSettings {
   static void visit(Self& self, Visitor&& field) {
     field(OptionInfo{"camera", "", "where the picture is taken from"}, self.camera);
     field(OptionInfo{"background", "", "behind everything"}, self.background);
-    field(OptionInfo{"color", "", "of the bodies by `stretch`, `energy` or `speed`, or in two tones: `none`"},
-          self.color);
+    field(
+        OptionInfo{"color", "",
+                   "of the bodies by `stretch`, `energy`, `speed`, `gap` or `contact_force`, or in two tones: `none`"},
+        self.color);
     field(OptionInfo{"color_range", "", "values at the two ends of the color map; default: those of all frames"},
           self.color_range);
     field(OptionInfo{"legend", "", "show the color map and its range"}, self.legend);

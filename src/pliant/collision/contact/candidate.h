@@ -14,10 +14,11 @@ struct ContactCandidate {
   bool has_anchor = false;
   Vec3 begin = Vec3::Zero();  ///< where it was at the beginning, carried by the collider
   Real begin_distance = 0;
-  Real radius = 0;     ///< r, or less where the vertex begins inside
-  Real floor = 0;      ///< least distance that a move may leave
-  Real stiffness = 0;  ///< k [N/m]
-  Real load = 0;       ///< λ of friction [N]
+  Real radius = 0;       ///< r, or less where the vertex begins inside
+  Real floor = 0;        ///< least distance that a move may leave
+  Real stiffness = 0;    ///< k [N/m]
+  Real load = 0;         ///< λ of friction [N]
+  Real coefficient = 0;  ///< μ
   Vec3 anchor = Vec3::Zero();
   Vec3 friction_normal = Vec3::UnitZ();
   // Where the vertex was looked at last; of a half-space the normal stays.
@@ -27,8 +28,7 @@ struct ContactCandidate {
   Real guard_offset = 0;  ///< of the half-space along its normal
 
   Potential push() const { return normal_potential(stiffness, radius, distance); }
-  /// With the coefficient of friction μ.
-  Friction friction(Real coefficient) const {
+  Friction friction() const {
     const Real limit = coefficient * load;
     if (!has_anchor || !(limit > 0)) return {};
     const Vec3 way = place - anchor;

@@ -2,13 +2,13 @@
 #include <algorithm>
 #include <limits>
 
+#include "pliant/collision/contact/body_contact.h"
 #include "pliant/collision/contact/contact.h"
+#include "pliant/collision/contact/stiffness.h"
 
 namespace pliant {
 namespace {
 
-/// k in units of m/h².
-constexpr Real stiffness_ratio = 50;
 /// Of r: the least distance that a move leaves.
 constexpr Real least_gap = 0.05;
 /// Cosine between the normals where a way goes in and where it ends, below which it goes on to another side.
@@ -174,7 +174,14 @@ ContactCandidate Contact::make_candidate(Index vertex, Index collider, const Vec
   made.floor = std::min(least_gap * radius, begin_distance);
   made.stiffness = stiffness_ratio * step_->masses[at(vertex)] / (step_->time_step * step_->time_step);
   if (!stiffening_.empty()) made.stiffness *= stiffening_[number];
+  made.coefficient = coefficient(vertex, colliders_[at(collider)]);
   return made;
+}
+
+Real Contact::coefficient(Index vertex, const ContactCollider& collider) const {
+  if (step_->frictions.empty() || step_->frictions[at(vertex)] < 0) return collider.friction;
+  const std::optional<Real> of_collider = collider.has_own_friction ? std::optional(collider.friction) : std::nullopt;
+  return friction_between(step_->frictions[at(vertex)], of_collider, collider.friction);
 }
 
 /// What the last step has left of a contact.

@@ -3,15 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pliant/collision/contact/stiffness.h"
+
 namespace pliant {
 namespace {
-
-/// κ of a vertex goes up where it is pressed below this share of r, and slowly down above the other one.
-constexpr Real pressed_gap = 0.3;
-constexpr Real light_gap = 0.6;
-constexpr Real stiffer = 2;
-constexpr Real softer = 0.98;
-constexpr Real far_stiffer = 4;
 
 Vec3 across(const Vec3& v, const Vec3& normal) {
   return v - normal * normal.dot(v);
@@ -43,6 +38,35 @@ ContactSums Contact::add(Positions& r, ThreadPool& threads) {
     add_up(chunk, begin, end, r);
   });
   return total();
+}
+
+void Contact::subtract(Positions& r, ThreadPool& threads) {
+  for_each_chunk(threads, [&](Chunk& chunk, Index, Index) {
+    for (const Force& each : chunk.forces) r.row(each.vertex) -= each.force.transpose();
+  });
+}
+
+void Contact::add_resistance(std::span<const Index> component_of_vertex, std::span<RigidResistance> components) const {
+  for (const Chunk& chunk : chunks_) {
+    for (const Candidate& each : chunk.candidates) {
+      const Potential pushed = each.push();
+      const Friction rubbed = each.friction();
+      RigidResistance& sum = components[at(component_of_vertex[at(each.vertex)])];
+      sum.energy += pushed.energy + rubbed.energy;
+      if (pushed.curvature > 0) sum.add_spring(each.place, each.normal, pushed.curvature);
+      if (!(rubbed.curvature > 0)) continue;
+      const bool slides = rubbed.curvature < each.stiffness;
+      const Vec3 along = slides ? Vec3(rubbed.force.stableNormalized()) : each.friction_normal.unitOrthogonal();
+      if (!slides || sum.sliding == SlidingFriction::bounded) sum.add_spring(each.place, along, rubbed.curvature);
+      sum.add_spring(each.place, each.friction_normal.cross(along), rubbed.curvature);
+    }
+  }
+}
+
+void Contact::add_energies(std::span<const Index> component_of_vertex, std::span<Real> components) const {
+  for (const Chunk& chunk : chunks_) {
+    for (const Force& each : chunk.forces) components[at(component_of_vertex[at(each.vertex)])] += each.energy;
+  }
 }
 
 ContactSums Contact::refresh(Positions& r, ThreadPool& threads) {
@@ -117,7 +141,7 @@ Real Contact::stiffened_curvature(const Positions& p) const {
 Real Contact::curvature(const Candidate& candidate, const Vec3& way) const {
   const Real along = candidate.normal.dot(way);
   const Real sum = candidate.push().curvature * along * along;
-  const Real of_friction = friction(candidate).curvature;
+  const Real of_friction = candidate.friction().curvature;
   if (!(of_friction > 0)) return sum;
   return sum + of_friction * across(way, candidate.friction_normal).squaredNorm();
 }
@@ -125,7 +149,7 @@ Real Contact::curvature(const Candidate& candidate, const Vec3& way) const {
 void Contact::add_diagonal(std::span<Real> diagonal) const {
   for (const Chunk& chunk : chunks_) {
     for (const Candidate& each : chunk.candidates) {
-      diagonal[at(each.vertex)] += std::max(each.push().curvature, friction(each).curvature);
+      diagonal[at(each.vertex)] += std::max(each.push().curvature, each.friction().curvature);
     }
   }
 }
@@ -149,7 +173,6 @@ void Contact::commit(const Positions& q, std::span<const Real> diagonal, Contact
     for (Candidate& each : of_vertex) keep(each, state);
   }
   add_up_wrenches();
-  if (std::ranges::all_of(state.stiffening, [](Real factor) { return factor == 1; })) state.stiffening.clear();
 }
 
 void Contact::keep(Candidate& candidate, ContactState& state) {
@@ -165,7 +188,7 @@ ContactMemory Contact::memory_of(const Candidate& candidate) const {
   const ContactCollider& collider = colliders_[at(candidate.collider)];
   const Vec3 slide = across(candidate.place - candidate.anchor, candidate.friction_normal);
   const Real length = slide.norm();
-  const Real most = collider.friction * candidate.load / candidate.stiffness;
+  const Real most = candidate.coefficient * candidate.load / candidate.stiffness;
   Vec3 anchor = candidate.anchor;
   if (length > most) anchor += (1 - most / length) * slide;
   return {number_of(candidate.vertex), collider.number, collider.end.to_frame(anchor), candidate.load};
@@ -185,7 +208,7 @@ void Contact::stiffen(const Candidate& candidate, std::span<const Real> diagonal
 }
 
 ContactPoint Contact::point_of(const Candidate& candidate) const {
-  const Friction rubbed = friction(candidate);
+  const Friction rubbed = candidate.friction();
   ContactPoint point;
   point.vertex = number_of(candidate.vertex);
   point.collider = colliders_[at(candidate.collider)].number;

@@ -19,6 +19,7 @@
 
 #include "pliant/collision/contact/candidate.h"
 #include "pliant/collision/contact/contact_state.h"
+#include "pliant/collision/contact/rigid_resistance.h"
 #include "pliant/core/thread_pool.h"
 
 namespace pliant {
@@ -29,17 +30,19 @@ struct ContactCollider {
   const ColliderShape* shape = nullptr;
   Vec3 surface_velocity = Vec3::Zero();  ///< in its frame [m/s]
   Real friction = 0;                     ///< μ
+  bool has_own_friction = false;         ///< else a body's own goes before it
   Pose begin{}, end{};                   ///< of the substep
 };
 
 /// What contact is told of a substep. Must outlive it.
 struct ContactStep {
-  const Positions& begin;           ///< qₙ [m]
-  std::span<const Real> masses;     ///< [kg]
-  std::span<const Real> radii;      ///< r of each vertex [m], > 0
-  std::span<const char> is_pinned;  ///< pinned vertices touch nothing
-  std::span<const Index> vertices;  ///< of the simulation; empty: the same
-  Real time_step = 0;               ///< h of the substep [s]
+  const Positions& begin;             ///< qₙ [m]
+  std::span<const Real> masses;       ///< [kg]
+  std::span<const Real> radii;        ///< r of each vertex [m], > 0
+  std::span<const char> is_pinned;    ///< pinned vertices touch nothing
+  std::span<const Index> vertices;    ///< of the simulation; empty: the same
+  Real time_step = 0;                 ///< h of the substep [s]
+  std::span<const Real> frictions{};  ///< μ of each vertex' body, below 0 for none of its own; empty: none has
 };
 
 /// A vertex that touches a collider at the end of a step.
@@ -91,6 +94,12 @@ class Contact {
   void find_forces(const Positions& q, ThreadPool& threads);
   /// Adds the forces that were found last to r [N].
   ContactSums add(Positions& r, ThreadPool& threads);
+  /// Takes the forces that were found last from r [N].
+  void subtract(Positions& r, ThreadPool& threads);
+  /// Adds up what contact resists rigid motions of each component with, where the forces were found last.
+  void add_resistance(std::span<const Index> component_of_vertex, std::span<RigidResistance> components) const;
+  /// Adds up the energies of the forces that were found last, of each component [J].
+  void add_energies(std::span<const Index> component_of_vertex, std::span<Real> components) const;
   /// After add(): takes the present loads for friction and corrects r. Returns the new sums.
   ContactSums refresh(Positions& r, ThreadPool& threads);
 
@@ -101,7 +110,7 @@ class Contact {
   /// The same, of those alone that are far stiffer than at first, κ > 4.
   Real stiffened_curvature(const Positions& p) const;
 
-  /// What stays when the substep has ended at q. diagonal: of Y [N/m].
+  /// What stays when the substep has ended at q. diagonal: of Y [N/m]. κ stands for every vertex then.
   void commit(const Positions& q, std::span<const Real> diagonal, ContactState& state, ThreadPool& threads);
 
   /// Of the last substep, by vertex of the simulation, then collider.
@@ -144,15 +153,13 @@ class Contact {
   bool guard(Candidate& candidate) const;
   void hold_back(Chunk& chunk, Index begin, Index end, Positions& q);
   void hold_back(std::span<Candidate> of_vertex, Chunk& chunk, Positions& q) const;
-  Friction friction(const Candidate& candidate) const {
-    return candidate.friction(colliders_[at(candidate.collider)].friction);
-  }
+  Real coefficient(Index vertex, const ContactCollider& collider) const;
   Real curvature(const Candidate& candidate, const Vec3& way) const;
   void freeze(Candidate& candidate) const;
   Vec3 carried(const Candidate& candidate, const Vec3& point) const;
   Force force(const Candidate& candidate) const {
     const Potential pushed = candidate.push();
-    const Friction rubbed = friction(candidate);
+    const Friction rubbed = candidate.friction();
     return {candidate.vertex, pushed.force * candidate.normal + rubbed.force, pushed.energy + rubbed.energy};
   }
   static void add_up(Chunk& chunk, Index begin, Index end, const Positions& r);

@@ -7,8 +7,10 @@ namespace pliant {
 struct ContactSettings {
   /// r [m], ≥ 0: how far from a surface vertices come to rest; 0: of each body a quarter of its short edges.
   Real distance = 0;
-  /// μ ≥ 0 of Coulomb's law, where a collider has none of its own.
+  /// μ ≥ 0 of Coulomb's law, where neither side has its own.
   Real friction = 0.3;
+  /// Whether bodies touch each other and themselves. Costs several times a plain step.
+  bool surfaces = false;
 
   friend bool operator==(const ContactSettings&, const ContactSettings&) = default;
 
@@ -18,8 +20,10 @@ struct ContactSettings {
                      "how far from a surface vertices come to rest; 0: of each body a quarter of its short edges",
                      not_negative},
           self.distance);
-    field(OptionInfo{"friction", "", "μ of Coulomb's law, where a collider has none of its own", not_negative},
+    field(OptionInfo{"friction", "", "μ of Coulomb's law, where neither side has its own", not_negative},
           self.friction);
+    field(OptionInfo{"surfaces", "", "whether bodies touch each other and themselves, and nothing passes through them"},
+          self.surfaces);
   }
 };
 

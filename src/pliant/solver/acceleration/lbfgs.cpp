@@ -80,6 +80,19 @@ bool Lbfgs::has_risen(const LocalResult& now) const {
   return !(now.objective() <= before + rounding * before);
 }
 
+Real Lbfgs::best_share(const LocalResult& now) const {
+  const Real slope = last_.moves[pair_count_];
+  const Real rise = now.objective() - local_before_.objective();
+  return has_moved_ && rise + slope > 0 ? slope / (2 * (rise + slope)) : 0;
+}
+
+void Lbfgs::scale_move(Real share, Positions& q) {
+  q = positions_before_ + share * (q - positions_before_);
+  const Kept factor = static_cast<Kept>(share);
+  for (Kept& each : moves_[pair_count_]) each *= factor;
+  last_.moves[pair_count_] *= share;
+}
+
 void Lbfgs::move_plainly(const Positions& x, Real curvature, Positions& q) {
   if (has_moved_) {
     std::swap(solutions_[0], solutions_[pair_count_]);

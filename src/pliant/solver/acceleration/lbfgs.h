@@ -30,6 +30,10 @@ class Lbfgs {
   void forget();
   /// Whether the last move has raised the objective, by more than rounding does, or it is NaN.
   bool has_risen(const LocalResult& now) const;
+  /// Of the last move, which led to `now`: the minimum of the parabola through both objectives and the slope at first.
+  Real best_share(const LocalResult& now) const;
+  /// Makes the last move, which led to q, `share` times as long; it is no plain one.
+  void scale_move(Real share, Positions& q);
   /// Takes the last move back, makes the plain one in its place, with the x that it was made from, and forgets the
   /// pairs.
   void move_plainly(const Positions& x, Real curvature, Positions& q);
@@ -43,8 +47,9 @@ class Lbfgs {
   void move(const Positions& x, Real curvature, Positions& q, ThreadPool& threads);
   /// Of the move that was prepared or made last.
   bool is_plain() const { return is_plain_; }
-  /// From where the last move went.
+  /// From where the last move went, and what the local step found there.
   const Positions& positions_before() const { return positions_before_; }
+  const LocalResult& local_before() const { return local_before_; }
 
  private:
   static constexpr std::size_t most_vectors = memory + 1;

@@ -9,9 +9,14 @@
 namespace pliant {
 namespace {
 
+/// Whether a force brings it: it holds nothing.
+bool is_of_force(ConstraintGroup& group) {
+  return group.is_external() && group.targets().empty();
+}
+
 /// Marks the vertices of constraints that a translation does not leave as they are.
 void mark_anchored(ConstraintGroup& group, std::vector<char>& is_anchored) {
-  if (group.is_external() && group.targets().empty()) return;  // a force's: it holds nothing
+  if (is_of_force(group)) return;
   for (std::size_t i = 0; i < at(group.shape().count); ++i) {
     bool holds = false;
     for (std::size_t r = 0; r < static_cast<std::size_t>(group.shape().rows); ++r) {
@@ -81,6 +86,25 @@ Components find_free_components(const Components& components, std::span<Constrai
     free.starts.push_back(free.vertices.size());
   }
   return free;
+}
+
+std::vector<RigidFreedom> find_freedom(const Components& free, std::span<ConstraintGroup* const> groups) {
+  std::vector<RigidFreedom> of_vertices;
+  for (ConstraintGroup* group : groups) {
+    if (group->is_rotation_invariant()) continue;
+    const RigidFreedom most = is_of_force(*group) ? RigidFreedom::none : RigidFreedom::translations;
+    for (const Index vertex : group->stencil()) {
+      if (at(vertex) >= of_vertices.size()) of_vertices.resize(at(vertex) + 1, RigidFreedom::all);
+      of_vertices[at(vertex)] = std::min(of_vertices[at(vertex)], most);
+    }
+  }
+  std::vector<RigidFreedom> freedom(free.count(), RigidFreedom::all);
+  for (std::size_t i = 0; i < free.count(); ++i) {
+    for (const Index vertex : free.component(i)) {
+      if (at(vertex) < of_vertices.size()) freedom[i] = std::min(freedom[i], of_vertices[at(vertex)]);
+    }
+  }
+  return freedom;
 }
 
 }  // namespace pliant

@@ -27,4 +27,11 @@ Components find_components(const LowerMatrix& matrix);
 Components find_free_components(const Components& components, std::span<ConstraintGroup* const> groups,
                                 std::span<const char> is_pinned);
 
+/// The rigid motions that leave the constraints of a component as they are. None for one that a force acts on through
+/// constraints, as the air does: they resist every motion.
+enum class RigidFreedom : char { none, translations, all };
+
+/// Of each free component.
+std::vector<RigidFreedom> find_freedom(const Components& free, std::span<ConstraintGroup* const> groups);
+
 }  // namespace pliant

@@ -26,7 +26,8 @@ void check_rows(const Node& node, std::string_view key, Index vertex_count) {
 }  // namespace
 
 void SceneReader::read_body(const Node& node) {
-  node.check_keys({"name", "mesh", "transform", "mass", "start_positions", "velocity", "velocities", "constraints"});
+  node.check_keys(
+      {"name", "mesh", "transform", "mass", "start_positions", "velocity", "velocities", "constraints", "contact"});
   BodyOptions options;
   options.name = fmt::format("body {}", bodies.size());
   read_optional(node, "name", options.name);
@@ -135,13 +136,17 @@ BodyId SceneReader::read_body_name(const Node& node) const {
     if (own != bodies_of.end() && own->second.size() == 1) return own->second.front();
   }
   if (!given) node.fail("there are several bodies; name one with the key 'body'");
+  return named_body(*given);
+}
+
+BodyId SceneReader::named_body(const Node& node) const {
   std::string name;
-  read(*given, name);
+  read(node, name);
   const auto found = bodies.find(name);
   if (found != bodies.end()) return found->second;
   std::vector<std::string_view> names;
   for (const auto& [known, id] : bodies) names.push_back(known);
-  given->fail(fmt::format("unknown body '{}'; {}", printable(name), suggestion_text(name, names)));
+  node.fail(fmt::format("unknown body '{}'; {}", printable(name), suggestion_text(name, names)));
 }
 
 }  // namespace pliant

@@ -69,6 +69,26 @@ void SceneReader::read_contact(const Node& node) {
   node.locate([&] { simulation.set_contact(settings); });
 }
 
+void SceneReader::read_body_contact(const Node& body, BodyId id) {
+  const auto node = body.find("contact");
+  if (!node) return;
+  BodyContact contact;
+  read_options(*node, contact, {"ignores"});
+  if (const auto names = node->find("ignores")) contact.ignores = read_ignored(*names, id);
+  node->locate([&] { simulation.set_contact(id, contact); });
+}
+
+std::vector<BodyId> SceneReader::read_ignored(const Node& names, BodyId id) const {
+  names.require_list();
+  std::vector<BodyId> ignored;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const BodyId other = named_body(names[i]);
+    if (other == id) names[i].fail("this is the body itself; give \"self\": false to let it not touch itself");
+    ignored.push_back(other);
+  }
+  return ignored;
+}
+
 void SceneReader::read_collider(const Node& node) {
   ColliderOptions options = read_collider_options(node);
   const std::string name = own_name(node, type_of(options));

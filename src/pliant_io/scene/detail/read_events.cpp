@@ -55,6 +55,7 @@ class EventReader {
   Timeline::Edit read_collider_change(const std::string& name, ColliderOptions& options);
   Timeline::Edit read_settings(const Node& value);
   Timeline::Edit read_contact(const Node& value);
+  Timeline::Edit read_body_contact(const Node& value, BodyId body);
   Timeline::Edit read_gravity(const Node& value);
   Timeline::Edit read_add(const Node& value);
   Timeline::Edit read_remove(const Node& name);
@@ -189,12 +190,13 @@ Timeline::Edit EventReader::read_collider_change(const std::string& name, Collid
 template <class Settings>
 class SomeSettings {
  public:
-  explicit SomeSettings(const Node& node) {
-    read_options(node, given_);
+  explicit SomeSettings(const Node& node, Keys more_keys = {}) {
+    read_options(node, given_, more_keys);
     Settings::visit(given_, [&](const OptionInfo& info, const auto&) {
       if (node.has(info.name)) names_.emplace_back(info.name);
     });
-    if (names_.empty()) node.fail("no setting is given; name one with its new value");
+    const bool has_more = std::ranges::any_of(more_keys, [&](std::string_view key) { return node.has(key); });
+    if (names_.empty() && !has_more) node.fail("no setting is given; name one with its new value");
   }
 
   Settings over(Settings settings) const {
@@ -222,9 +224,20 @@ Timeline::Edit EventReader::read_settings(const Node& value) {
 }
 
 Timeline::Edit EventReader::read_contact(const Node& value) {
-  node_.check_keys(keys("contact"));
-  return [some = SomeSettings<ContactSettings>(value)](Simulation& simulation, Timeline&) {
-    simulation.set_contact(some.over(simulation.contact()));
+  node_.check_keys(keys("contact", {"body"}));
+  if (const auto body = node_.find("body")) return read_body_contact(value, scene_.named_body(*body));
+  const SomeSettings<ContactSettings> some(value);
+  scene_.has_later_surfaces |= some.over({}).surfaces;
+  return [some](Simulation& simulation, Timeline&) { simulation.set_contact(some.over(simulation.contact())); };
+}
+
+Timeline::Edit EventReader::read_body_contact(const Node& value, BodyId body) {
+  std::optional<std::vector<BodyId>> ignored;
+  if (const auto names = value.find("ignores")) ignored = scene_.read_ignored(*names, body);
+  return [some = SomeSettings<BodyContact>(value, {"ignores"}), ignored, body](Simulation& simulation, Timeline&) {
+    BodyContact contact = some.over(simulation.contact(body));
+    if (ignored) contact.ignores = *ignored;
+    simulation.set_contact(body, contact);
   };
 }
 

@@ -31,6 +31,7 @@ struct SceneReader {
   std::map<std::string, ColliderOptions, std::less<>> colliders = {};
   std::vector<std::string> later_groups = {};     ///< names of groups that events add, each time
   std::vector<std::string> later_colliders = {};  ///< of colliders
+  bool has_later_surfaces = false;                ///< an event lets surfaces touch
   std::vector<std::string> warnings = {};         ///< of what is read otherwise than one might expect, with its place
 
   SceneBody body(BodyId id) const {
@@ -44,6 +45,10 @@ struct SceneReader {
   void read_gravity(const std::optional<Node>& node);
   void read_force(const Node& node);
   void read_contact(const Node& node);
+  /// What its object says of its contact, if that is there: after all bodies, of which it may name others.
+  void read_body_contact(const Node& body, BodyId id);
+  /// The bodies that a body's contact ignores.
+  std::vector<BodyId> read_ignored(const Node& names, BodyId id) const;
   void read_collider(const Node& node);
   /// The lists "moves" and "events". They are read in the order in which they act, each as what its predecessors leave,
   /// and tried out; the simulation is as before then. `root`: the scene.
@@ -52,6 +57,8 @@ struct SceneReader {
   /// The body that the object's key "body" names; without the key, the only one that stands in the same text, or the
   /// only one there is.
   BodyId read_body_name(const Node& node) const;
+  /// The body of that name; refuses a name that there is not.
+  BodyId named_body(const Node& name) const;
 
   /// The group of a name; refuses a name that there is not.
   GroupEntry& group(const Node& name);

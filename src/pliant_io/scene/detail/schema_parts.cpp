@@ -175,6 +175,20 @@ SchemaJson change_schema() {
   return schema;
 }
 
+SchemaJson body_contact_schema() {
+  SchemaJson properties = options_properties<BodyContact>();
+  properties["ignores"] = list_schema(text_schema("name of a body that it does not touch"));
+  return object_schema(std::move(properties));
+}
+
+/// Of a body, to tell it from an event of the scene's contact.
+SchemaJson body_contact_event_schema() {
+  const SchemaJson body = {{"body", text_schema("name of the body")}};
+  SchemaJson schema = timed_schema("contact", schema_reference("body_contact"), body);
+  schema["required"].push_back("body");
+  return schema;
+}
+
 SchemaJson add_schema() {
   const SchemaJson body = {{"body", text_schema("name of the body; default: the only one")}};
   return {{"oneOf", {closed_reference("constraint", body), schema_reference("force"), schema_reference("collider")}}};
@@ -234,6 +248,7 @@ SchemaJson part_definitions() {
           {"constraint", {{"oneOf", constraint_choices(static_cast<BuiltinConstraints*>(nullptr))}}},
           {"force", {{"oneOf", force_choices()}}},
           {"contact", object_schema(options_properties<ContactSettings>())},
+          {"body_contact", body_contact_schema()},
           {"collider", {{"oneOf", collider_choices()}}}};
 }
 
@@ -257,9 +272,9 @@ SchemaJson event_definitions() {
           {"event",
            {{"oneOf",
              {change_schema(), timed_schema("settings", schema_reference("settings")),
-              timed_schema("contact", schema_reference("contact")), timed_schema("gravity", gravity),
-              timed_schema("add", add_schema()), timed_schema("remove", name), std::move(release),
-              timed_move_schema("move"), follow_schema(), timed_schema("stop", group, index)}}}}};
+              timed_schema("contact", schema_reference("contact")), body_contact_event_schema(),
+              timed_schema("gravity", gravity), timed_schema("add", add_schema()), timed_schema("remove", name),
+              std::move(release), timed_move_schema("move"), follow_schema(), timed_schema("stop", group, index)}}}}};
 }
 
 }  // namespace pliant

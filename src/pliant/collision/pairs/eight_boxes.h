@@ -1,0 +1,112 @@
+#pragma once
+// Boxes in single precision, eight side by side, so that eight are tested against eight at once. The types are those of
+// the compiler's vector extensions, four numbers wide: every x86-64 and ARM processor has such registers.
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
+#include "pliant/core/types.h"
+
+namespace pliant::collision {
+
+using FourFloats = float __attribute__((vector_size(16)));
+using FourIndices = std::int32_t __attribute__((vector_size(16)));
+
+constexpr std::size_t boxes_side_by_side = 8;
+
+/// The greatest float that is not above x, or the least not below it; past the range of floats its ends. Both are
+/// monotone, so what meets in double precision meets after it.
+inline float rounded_down(Real x) {
+  constexpr float limit = std::numeric_limits<float>::max();
+  if (!(x > -Real{limit})) return -limit;
+  if (x >= Real{limit}) return limit;
+  const auto nearest = static_cast<float>(x);
+  return Real{nearest} > x ? std::nextafterf(nearest, -limit) : nearest;
+}
+inline float rounded_up(Real x) {
+  return -rounded_down(-x);
+}
+
+/// From low to high; the fourth numbers are 0.
+struct FloatBox {
+  FourFloats low, high;
+
+  bool meets(const FloatBox& other) const {
+    const auto misses = (low > other.high) | (other.low > high);
+    return misses[0] == 0 && misses[1] == 0 && misses[2] == 0;
+  }
+  void add(const FloatBox& other) {
+    low = low < other.low ? low : other.low;
+    high = high > other.high ? high : other.high;
+  }
+};
+
+struct alignas(64) EightBoxes {
+  float low[3][boxes_side_by_side];
+  float high[3][boxes_side_by_side];
+
+  void set(std::size_t i, const FloatBox& box) {
+    for (std::size_t a = 0; a < 3; ++a) low[a][i] = box.low[a], high[a][i] = box.high[a];
+  }
+  /// It meets nothing then.
+  void set_empty(std::size_t i) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      low[a][i] = std::numeric_limits<float>::infinity(), high[a][i] = -std::numeric_limits<float>::infinity();
+    }
+  }
+  bool is_empty(std::size_t i) const { return low[0][i] > high[0][i]; }
+  FloatBox hull() const {
+    FloatBox box{};
+    for (std::size_t a = 0; a < 3; ++a) {
+      box.low[a] = *std::min_element(low[a], low[a] + boxes_side_by_side);
+      box.high[a] = *std::max_element(high[a], high[a] + boxes_side_by_side);
+    }
+    return box;
+  }
+};
+
+/// One bit for each number of a comparison.
+inline unsigned bits_of(FourIndices mask) {
+#ifdef __SSE2__
+  return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(mask)));
+#else
+  return (mask[0] != 0 ? 1U : 0U) | (mask[1] != 0 ? 2U : 0U) | (mask[2] != 0 ? 4U : 0U) | (mask[3] != 0 ? 8U : 0U);
+#endif
+}
+
+inline FourFloats four_of(float x) {
+  return FourFloats{x, x, x, x};
+}
+inline FourIndices four_of(Index x) {
+  return FourIndices{x, x, x, x};
+}
+
+inline FourFloats four_at(const float* from) {
+  FourFloats four;
+  __builtin_memcpy(&four, from, sizeof four);
+  return four;
+}
+inline FourIndices four_at(const Index* from) {
+  FourIndices four;
+  __builtin_memcpy(&four, from, sizeof four);
+  return four;
+}
+
+/// Bit j: box j of b meets box i of a.
+inline unsigned meeting_row(const EightBoxes& a, std::size_t i, const EightBoxes& b) {
+  unsigned bits = 0;
+  for (std::size_t half = 0; half < 2; ++half) {
+    FourIndices meets = four_of(Index{-1});
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      meets &= (four_of(a.low[axis][i]) <= four_at(&b.high[axis][4 * half])) &
+               (four_at(&b.low[axis][4 * half]) <= four_of(a.high[axis][i]));
+    }
+    bits |= bits_of(meets) << (4 * half);
+  }
+  return bits;
+}
+
+}  // namespace pliant::collision

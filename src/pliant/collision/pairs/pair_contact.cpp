@@ -1,0 +1,279 @@
+#include "pliant/collision/pairs/pair_contact.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pliant/collision/contact/stiffness.h"
+
+namespace pliant {
+// ---- what lasts
+// ------------------------------------------------------------------------------------------------------
+
+void PairContact::set_surface(Surface surface, const Positions& rest, SurfaceFrictions frictions,
+                              std::vector<Real> radii) {
+  clear();
+  surface_ = std::move(surface);
+  frictions_ = std::move(frictions);
+  radii_ = std::move(radii);
+  list_.set_surface(*surface_, rest, radii_);
+}
+
+void PairContact::clear() {
+  forget_substep();
+  list_.clear();
+  weights_.clear();
+  near_.clear();
+  surface_.reset();
+  report_ = {};
+}
+
+void PairContact::find_loaded_vertices(const ContactState& state, std::vector<char>& is_loaded) const {
+  is_loaded.assign(surface_->body.size(), 0);
+  for (const PairMemory& each : state.pairs) {
+    const auto mark = [&](Index vertex) { is_loaded[at(vertex)] = 1; };
+    const auto mark_one_of = [&](const auto& features, Index number) {
+      if (number < count_of(features)) mark(features[at(number)][0]);
+    };
+    const Index first = each.features[0];
+    const Index second = each.features[1];
+    if (each.kind == PairKind::edge_edge) {
+      mark_one_of(surface_->edges, first);
+    } else if (first < count_of(surface_->vertices)) {
+      mark(surface_->vertices[at(first)]);
+    }
+    if (each.kind == PairKind::vertex_triangle) {
+      mark_one_of(surface_->triangles, second);
+    } else {
+      mark_one_of(surface_->edges, second);
+    }
+  }
+}
+
+// ---- who may touch whom in a substep
+// ---------------------------------------------------------------------------------
+
+void PairContact::begin_substep(const ContactStep& step, const ContactState& state, std::span<const char> has_load,
+                                Positions& q, ThreadPool& threads) {
+  step_.emplace(step);
+  begin_ = step.begin;
+  report_ = {};
+  stiffening_.assign(step.masses.size(), 1);
+  for (std::size_t i = 0; i < state.stiffening.size(); ++i) {
+    stiffening_[i] = state.stiffening[step.vertices.empty() ? i : at(step.vertices[i])];
+  }
+  memory_ = state.pairs;
+  list_.begin(step.is_pinned);
+  weights_.clear();
+  near_.clear();
+  pinned_.clear();
+  std::ranges::copy_if(surface_->vertices, std::back_inserter(pinned_), [&](Index v) { return is_pinned(v); });
+  targets_ = q;
+  shorten(step.begin, q, threads);
+  list(q, threads);
+  for (NearPair& each : near_) {
+    each.push(q, step.begin);
+    const auto is_loaded = [&](Index v) { return !has_load.empty() && has_load[at(v)] != 0; };
+    if (std::ranges::any_of(each.pair.vertices, is_loaded)) each.freeze(q, step.begin);
+  }
+}
+
+/// The pairs that count, as they are listed and weighed now. All lists are in the order of pairs.
+void PairContact::collect() {
+  std::swap(near_, near_before_);
+  near_.clear();
+  auto old = near_before_.begin();
+  auto each = memory_.begin();
+  const std::span<const PairList::Near> listed = list_.near();
+  for (std::size_t i = 0; i < listed.size(); ++i) {
+    const Real weight = weights_.weights()[i];
+    if (!(weight > 0)) continue;
+    const Pair& pair = listed[i].pair;
+    while (old != near_before_.end() && old->pair < pair) ++old;
+    if (old != near_before_.end() && old->pair == pair) {
+      near_.push_back(*old);
+    } else {
+      near_.push_back(make_near(pair, listed[i].radius));
+      const auto key = std::pair(pair.kind, pair.features);
+      while (each != memory_.end() && std::pair(each->kind, each->features) < key) ++each;
+      if (each != memory_.end() && std::pair(each->kind, each->features) == key)
+        near_.back().slide_before = each->slide;
+    }
+    near_.back().weight = weight;
+    near_.back().gap = weights_.gaps()[i];
+    near_.back().place = static_cast<Index>(i);
+  }
+}
+
+void PairContact::list(const Positions& q, ThreadPool& threads) {
+  if (!list_.update(q, threads)) return;
+  weights_.update(list_, *surface_, q, threads);
+  collect();
+}
+
+NearPair PairContact::make_near(const Pair& pair, Real radius) const {
+  NearPair made;
+  made.pair = pair;
+  made.radius = radius;
+  const auto of_vertex = [&](Index v) { return stiffening_[at(v)] * step_->masses[at(v)]; };
+  Index stiffest = pair.vertices[0];
+  if (pair.kind == PairKind::edge_edge) {
+    for (const Index v : pair.vertices) {
+      if (of_vertex(v) > of_vertex(stiffest)) stiffest = v;
+    }
+  }
+  made.stiffening = stiffening_[at(stiffest)];
+  made.stiffness = stiffness_ratio * of_vertex(stiffest) / (step_->time_step * step_->time_step);
+  const Index a = surface_->body[at(pair.vertices[0])];
+  const Index b = surface_->body[at(pair.vertices[static_cast<std::size_t>(pair.first_side())])];
+  made.friction = frictions_.between(a, b);
+  return made;
+}
+
+// ---- from iterate to iterate
+// -----------------------------------------------------------------------------------------
+
+/// What is in the way is pushed ahead by contact forces meanwhile.
+HeldBack PairContact::hold_back(const Positions& from, Positions& q, ThreadPool& threads) {
+  HeldBack held;
+  for (const Index v : pinned_) q.row(v) = targets_.row(v);
+  held.has_moved = shorten(from, q, threads);
+  held.has_new_potential =
+      std::ranges::any_of(pinned_, [&](Index v) { return (q.row(v).array() != from.row(v).array()).any(); });
+  return held;
+}
+
+/// What slides along a plane may come to where nothing was searched for.
+bool PairContact::shorten(const Positions& from, Positions& q, ThreadPool& threads) {
+  constexpr int most_searches = 10;
+  wish_ = q;
+  list_.begin_way(from, wish_);
+  for (int i = 0; i < most_searches; ++i) {
+    const PairList::OnTheWay& found = list_.on_the_way(from, threads);
+    q = wish_;
+    if (found.pairs.empty()) return false;
+    const PlanesInput input{
+        .begin = from, .surface = *surface_, .pairs = found.pairs, .distances = found.distances, .radii = radii_};
+    const Shortened done = planes_.shorten(input, q, threads);
+    if (!list_.covers(q)) continue;
+    report_.shortened += done.vertices;
+    return done.vertices > 0;
+  }
+  q = from;
+  report_.shortened += count_of(surface_->vertices);
+  return true;
+}
+
+void PairContact::find_forces(const Positions& q, ThreadPool& threads) {
+  list(q, threads);
+  list_.go_to(q);
+  for_each_chunk_of(near_.size(), pairs_of_chunk, threads, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      NearPair& near = near_[i];
+      const Real bound = list_.bound(list_.near()[at(near.place)]);
+      if (bound < near.radius || near.load > 0) {
+        near.look(q, begin_);
+      } else {
+        near.pass(bound);
+      }
+    }
+  });
+}
+
+Real PairContact::add(Positions& r) const {
+  Real energy = 0;
+  for (const NearPair& each : near_) {
+    if (!each.is_active()) continue;
+    energy += each.energy();
+    for (std::size_t j = 0; j < 4; ++j) r.row(each.pair.vertices[j]) += each.force_on(j).transpose();
+  }
+  return energy;
+}
+
+void PairContact::subtract(Positions& r) const {
+  for (const NearPair& each : near_) {
+    if (!each.is_active()) continue;
+    for (std::size_t j = 0; j < 4; ++j) r.row(each.pair.vertices[j]) -= each.force_on(j).transpose();
+  }
+}
+
+void PairContact::refresh(const Positions& q, ThreadPool& threads) {
+  list_.go_to(q);
+  weights_.refresh(list_, *surface_, q, threads);
+  collect();
+  for (NearPair& each : near_) {
+    each.push(q, begin_);
+    each.freeze(q, begin_);
+  }
+}
+
+Real PairContact::curvature(const Positions& p) const {
+  Real sum = 0;
+  for (const NearPair& each : near_) {
+    if (each.is_active()) sum += each.curvature(p);
+  }
+  return sum;
+}
+
+Real PairContact::stiffened_curvature(const Positions& p) const {
+  Real sum = 0;
+  for (const NearPair& each : near_) {
+    if (each.is_active() && each.stiffening > far_stiffer) sum += each.curvature(p);
+  }
+  return sum;
+}
+
+void PairContact::add_diagonal(std::span<Real> diagonal) const {
+  for (const NearPair& each : near_) {
+    if (!each.is_active()) continue;
+    Real sum = 0, sum_of_friction = 0;
+    for (std::size_t j = 0; j < 4; ++j) {
+      sum += std::abs(each.gap.weights[j]);
+      sum_of_friction += std::abs(each.friction_weights[j]);
+    }
+    for (std::size_t j = 0; j < 4; ++j) {
+      diagonal[at(each.pair.vertices[j])] +=
+          each.pushed.curvature * std::abs(each.gap.weights[j]) * sum +
+          each.rubbed.curvature * std::abs(each.friction_weights[j]) * sum_of_friction;
+    }
+  }
+}
+
+// ---- the end of a substep
+// --------------------------------------------------------------------------------------------
+
+void PairContact::commit(const Positions& q, std::span<const Real> diagonal, ContactState& state, ThreadPool& threads) {
+  find_forces(q, threads);
+  report_.pairs = count_of(list_.near());
+  for (const Index v : pinned_) report_.lag = std::max(report_.lag, (q.row(v) - targets_.row(v)).norm());
+  report_.active = 0;
+  report_.smallest_gap = std::numeric_limits<Real>::infinity();
+  const auto stiffen = [&](Index v, Real share_of_radius) {
+    if (!(share_of_radius < light_gap)) return;
+    const Real before = stiffening_[at(v)];
+    const Real plain = stiffness_ratio * step_->masses[at(v)] / (step_->time_step * step_->time_step);
+    const Real most = std::max<Real>(1, diagonal[at(v)] / plain);
+    const Index number = step_->vertices.empty() ? v : step_->vertices[at(v)];
+    Real& factor = state.stiffening[at(number)];
+    factor =
+        std::max(factor, share_of_radius < pressed_gap ? std::min(stiffer * before, std::max(most, before)) : before);
+  };
+  for (const PairList::Near& each : list_.near()) {
+    if (list_.bound(each) < report_.smallest_gap) {
+      report_.smallest_gap = std::min(report_.smallest_gap, measure(q, each.pair).distance);
+    }
+  }
+  for (const NearPair& each : near_) {
+    for (const Index v : each.pair.vertices) stiffen(v, each.gap.distance / each.radius);
+    if (each.pushed.force > 0) ++report_.active;
+    if (!(each.load > 0) || !(each.pushed.force > 0)) {
+      if (each.pushed.force > 0) state.pairs.push_back({each.pair.kind, each.pair.features, Vec3::Zero()});
+      continue;
+    }
+    const Real most = each.friction * each.load / (each.weight * each.stiffness);
+    const Real length = each.slide.norm();
+    state.pairs.push_back(
+        {each.pair.kind, each.pair.features, length > most ? Vec3(most / length * each.slide) : each.slide});
+  }
+}
+
+}  // namespace pliant

@@ -1,0 +1,102 @@
+#pragma once
+// Contact of bodies with each other and with themselves, all that the solver knows of it. Two features of surfaces at
+// a distance d < r have the energy
+//
+//     E = φ(d) + H(u),      k = κ 50 m/h²,
+//
+// with the potential of pair_potential.h and the friction of contact/potential.h; a vertex that is near a triangle or a
+// loose edge has the stiffness of its own mass. Two edges push only as far as none of their vertices does that work: k
+// is the largest of the four times a weight w between 0 and 1. Loads, normals, closest points that friction goes by,
+// and w are frozen between refreshes, so that all of it is a potential.
+//
+// Nothing passes through anything: each iterate is free of crossings if the one before was, see planes.h.
+//
+// All vertices are in the order of the solver; pairs are numbered in that of the simulation.
+#include "pliant/collision/contact/body_contact.h"
+#include "pliant/collision/contact/contact.h"
+#include "pliant/collision/pairs/near_pair.h"
+#include "pliant/collision/pairs/pair_weights.h"
+#include "pliant/collision/pairs/planes.h"
+
+namespace pliant {
+
+/// What pairs of a substep have come to.
+struct PairReport {
+  Index pairs = 0;      ///< nearer than twice r
+  Index active = 0;     ///< that push
+  Index shortened = 0;  ///< vertices whose moves were cut, each as often as it was
+  Real smallest_gap = std::numeric_limits<Real>::infinity();  ///< [m]
+  Real lag = 0;                                               ///< of pinned vertices behind where they should be [m]
+};
+
+class PairContact {
+ public:
+  /// Surfaces at rest (m × 3) [m]; friction of the parts; r of each vertex [m].
+  void set_surface(Surface surface, const Positions& rest, SurfaceFrictions frictions, std::vector<Real> radii);
+  /// Nothing touches from now on.
+  void clear();
+  bool is_active() const { return surface_.has_value(); }
+  bool is_pinned(Index vertex) const { return step_->is_pinned[at(vertex)] != 0; }
+  bool has_begun() const { return step_.has_value(); }
+  void forget_substep() { step_.reset(); }
+
+  /// Of each vertex, whether a pair in which it was pushed in the step before: where bodies lie on each other.
+  void find_loaded_vertices(const ContactState& state, std::vector<char>& is_loaded) const;
+  /// A substep begins with the iterate q, which is held back. has_load: of each vertex,
+  /// whether q begins in the balance of the last step, so that its loads are right; empty: of none. Throws Error(input)
+  /// where too many pairs are near each other.
+  void begin_substep(const ContactStep& step, const ContactState& state, std::span<const char> has_load, Positions& q,
+                     ThreadPool& threads);
+
+  /// Takes pinned vertices on to where they should be, if they are held up, and q back so far that nothing passes
+  /// through anything on the way from `from`, where the last forces were found. Pinned vertices that have moved make
+  /// another objective.
+  HeldBack hold_back(const Positions& from, Positions& q, ThreadPool& threads);
+  /// Finds the forces at q.
+  void find_forces(const Positions& q, ThreadPool& threads);
+  /// Adds the forces that were found last to r [N]; returns their energy [J].
+  Real add(Positions& r) const;
+  void subtract(Positions& r) const;
+  /// Takes the present loads for friction, and weighs edges anew.
+  void refresh(const Positions& q, ThreadPool& threads);
+
+  /// pᵀ C p [N m] with the curvature C where the forces were found last; of those alone whose κ > 4.
+  Real curvature(const Positions& p) const;
+  Real stiffened_curvature(const Positions& p) const;
+  /// Adds D ⪰ C of each vertex [N/m].
+  void add_diagonal(std::span<Real> diagonal) const;
+
+  /// What stays when the substep has ended at q. diagonal: of Y [N/m]. Raises κ in `state`, which has those of the next
+  /// substep.
+  void commit(const Positions& q, std::span<const Real> diagonal, ContactState& state, ThreadPool& threads);
+  const PairReport& report() const { return report_; }
+  std::span<const NearPair> near() const { return near_; }
+
+ private:
+  bool shorten(const Positions& from, Positions& q, ThreadPool& threads);
+  void list(const Positions& q, ThreadPool& threads);
+  void collect();
+  NearPair make_near(const Pair& pair, Real radius) const;
+
+  static constexpr std::size_t pairs_of_chunk = 256;
+
+  std::optional<Surface> surface_;
+  SurfaceFrictions frictions_;
+  std::vector<Real> radii_;
+
+  std::optional<ContactStep> step_;
+  Positions begin_;                 // qₙ, of which forces are still asked when the state has gone on
+  std::vector<Real> stiffening_;    // κ, in the solver's order
+  std::vector<PairMemory> memory_;  // of the step before
+  std::vector<Index> pinned_;       // vertices of the surface
+  Positions targets_;               // where they should be
+  Positions wish_;                  // where a move would lead
+  PairList list_;
+  PairWeights weights_;
+  std::vector<NearPair> near_;         // whose weight is above 0, in the order of pairs
+  std::vector<NearPair> near_before_;  // scratch
+  Planes planes_;
+  PairReport report_;
+};
+
+}  // namespace pliant

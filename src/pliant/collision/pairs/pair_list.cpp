@@ -1,0 +1,218 @@
+#include "pliant/collision/pairs/pair_list.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pliant {
+namespace {
+
+/// Of r: how much farther apart than r a pair may be to be listed.
+constexpr Real list_slack = 1;
+/// Of r: by how much boxes around ways are larger than these.
+constexpr Real pad_of_ways = 0.1;
+/// Of a bound: ways that are shorter bring nothing together. A little less than Planes has it.
+constexpr Real free_share_of_bound = 0.89;
+constexpr Real certain_share = 1e-6;  // of r
+
+/// The largest of one side's corners and the largest of the other's together.
+Real sum_of_sides(const Pair& pair, const std::vector<Real>& numbers) {
+  const auto first = static_cast<std::size_t>(pair.first_side());
+  Real a = 0, b = 0;
+  for (std::size_t j = 0; j < 4; ++j) {
+    Real& side = j < first ? a : b;
+    side = std::max(side, numbers[at(pair.vertices[j])]);
+  }
+  return a + b;
+}
+
+/// The distance of the sides' boxes: the pair is no nearer.
+Real box_distance(const Positions& q, const Pair& pair) {
+  const auto first = static_cast<std::size_t>(pair.first_side());
+  Real sum = 0;
+  for (Index axis = 0; axis < 3; ++axis) {
+    const auto x = [&](std::size_t j) { return q(pair.vertices[j], axis); };
+    const Real a = x(0), b = x(3);
+    Real low_a = a, high_a = a, low_b = b, high_b = b;
+    for (std::size_t j = 1; j < 3; ++j) {
+      Real& low = j < first ? low_a : low_b;
+      Real& high = j < first ? high_a : high_b;
+      low = std::min(low, x(j));
+      high = std::max(high, x(j));
+    }
+    const Real apart = std::max({low_a - high_b, low_b - high_a, Real(0)});
+    sum += apart * apart;
+  }
+  return std::sqrt(sum);
+}
+
+}  // namespace
+
+void PairList::set_surface(const Surface& surface, const Positions& rest, std::span<const Real> radii) {
+  clear();
+  surface_ = &surface;
+  search_.emplace(surface);
+  radii_.assign(radii.begin(), radii.end());
+  pads_.resize(radii.size());
+  std::ranges::transform(radii, pads_.begin(), [](Real r) { return pad_of_ways * r; });
+  find_own_radii(rest);
+}
+
+void PairList::clear() {
+  search_.reset();
+  surface_ = nullptr;
+  near_.clear();
+  gaps_.clear();
+  is_listed_ = false;
+}
+
+/// Two surfaces rest as far apart as the mean of their own distances.
+Real PairList::radius_of(const Pair& pair) const {
+  const auto second = static_cast<std::size_t>(pair.first_side());
+  return (radii_[at(pair.vertices[0])] + radii_[at(pair.vertices[second])]) / 2;
+}
+
+void PairList::find_own_radii(const Positions& rest) {
+  own_radii_.clear();
+  std::vector<Real> pads(radii_.size());
+  std::ranges::transform(radii_, pads.begin(), [](Real r) { return r / 2; });
+  ThreadPool one(1);
+  for (const Pair& pair : search_->find(rest, rest, pads, one)) {
+    const Index body = surface_->body[at(pair.vertices[0])];
+    if (surface_->body[at(pair.vertices[static_cast<std::size_t>(pair.first_side())])] != body) continue;
+    const Real distance = measure(rest, pair).distance;
+    if (distance < radius_of(pair)) own_radii_.push_back({pair, distance});
+  }
+}
+
+void PairList::begin(std::span<const char> is_pinned) {
+  search_->set_held(is_pinned);
+  is_listed_ = false;
+}
+
+// ---- near pairs
+
+bool PairList::is_listed(const Positions& q) const {
+  return is_listed_ && std::ranges::all_of(surface_->vertices, [&](Index v) {
+           const Real room = list_slack / 2 * radii_[at(v)];
+           return (q.row(v) - reference_.row(v)).squaredNorm() < room * room;
+         });
+}
+
+bool PairList::update(const Positions& q, ThreadPool& threads) {
+  if (is_listed(q)) return false;
+  list(q, threads);
+  return true;
+}
+
+/// All pairs that can be nearer than r while no vertex has gone farther from here than half the slack.
+void PairList::list(const Positions& q, ThreadPool& threads) {
+  const std::span<const Pair> pairs = search_->find(q, q, radii_, threads);
+  listed_chunks_.resize(std::max(listed_chunks_.size(), pairs.size() / pairs_of_chunk + 1));
+  for_each_chunk_of(pairs.size(), pairs_of_chunk, threads, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+    listed_chunks_[chunk].clear();
+    for (std::size_t i = begin; i < end; ++i) {
+      const Real radius = radius_of(pairs[i]);
+      const Real reach = (1 + list_slack) * radius;  // begin_way() counts on it for all pairs
+      if (!(box_distance(q, pairs[i]) < reach)) continue;
+      const Gap gap = measure(q, pairs[i]);
+      if (gap.distance < reach) listed_chunks_[chunk].push_back({{pairs[i], radius, gap.distance}, gap});
+    }
+  });
+  near_.clear();
+  gaps_.clear();
+  for (std::size_t i = 0; i * pairs_of_chunk < pairs.size(); ++i) {
+    for (const Listed& each : listed_chunks_[i]) {
+      near_.push_back(each.near);
+      gaps_.push_back(each.gap);
+    }
+  }
+  take_own_radii();
+  reference_ = q;
+  gone_.assign(at(static_cast<Index>(q.rows())), 0);
+  is_listed_ = true;
+}
+
+/// Both lists are in the order of pairs.
+void PairList::take_own_radii() {
+  auto own = own_radii_.begin();
+  for (Near& each : near_) {
+    while (own != own_radii_.end() && own->pair < each.pair) ++own;
+    if (own == own_radii_.end()) return;
+    if (own->pair == each.pair) each.radius = own->radius;
+  }
+}
+
+void PairList::go_to(const Positions& q) {
+  gone_.resize(at(static_cast<Index>(q.rows())));
+  for (Index v = 0; v < static_cast<Index>(q.rows()); ++v) gone_[at(v)] = (q.row(v) - reference_.row(v)).norm();
+}
+
+Real PairList::bound(const Near& near) const {
+  return near.distance - sum_of_sides(near.pair, gone_);
+}
+
+// ---- ways
+
+void PairList::begin_way(const Positions& from, const Positions& to) {
+  const auto count = static_cast<Index>(to.rows());
+  ways_.resize(at(count));
+  is_short_ = is_listed_;
+  if (is_listed_) go_to(from);
+  for (Index v = 0; v < count; ++v) {
+    ways_[at(v)] = (to.row(v) - from.row(v)).norm();
+    is_short_ = is_short_ && gone_[at(v)] + ways_[at(v)] < 0.9 * (1 + list_slack) / 2 * radii_[at(v)];
+  }
+  if (is_short_) return;
+  low_ = from.cwiseMin(to);
+  high_ = from.cwiseMax(to);
+}
+
+bool PairList::covers(const Positions& q) {
+  const auto is_inside = [&](Index v) {
+    const Real pad = pads_[at(v)] / 2;
+    return (low_.row(v) - q.row(v)).maxCoeff() <= pad && (q.row(v) - high_.row(v)).maxCoeff() <= pad;
+  };
+  if (is_short_ || std::ranges::all_of(surface_->vertices, is_inside)) return true;
+  low_ = low_.cwiseMin(q);
+  high_ = high_.cwiseMax(q);
+  return false;
+}
+
+/// A bound below certain_share of r is nothing that rounding could not undo.
+void PairList::add_on_the_way(const Pair& pair, Real bound, OnTheWay& found) const {
+  const bool is_certain = bound > certain_share * radii_[at(pair.vertices[0])];
+  if (is_certain && sum_of_sides(pair, ways_) < free_share_of_bound * bound) return;
+  found.pairs.push_back(pair);
+  found.distances.push_back(std::max<Real>(0, bound));
+}
+
+const PairList::OnTheWay& PairList::on_the_way(const Positions& from, ThreadPool& threads) {
+  const std::span<const Pair> pairs = is_short_ ? std::span<const Pair>{} : search_->find(low_, high_, pads_, threads);
+  const std::size_t count = is_short_ ? near_.size() : pairs.size();
+  const Real longest = 2 * *std::ranges::max_element(ways_) / free_share_of_bound +
+                       (is_short_ ? 2 * *std::ranges::max_element(gone_) : Real{0});
+  const Real most_certain = certain_share * *std::ranges::max_element(radii_);
+  way_chunks_.resize(std::max(way_chunks_.size(), count / pairs_of_chunk + 1));
+  for_each_chunk_of(count, pairs_of_chunk, threads, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+    OnTheWay& found = way_chunks_[chunk];
+    found.pairs.clear();
+    found.distances.clear();
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!is_short_) {
+        add_on_the_way(pairs[i], box_distance(from, pairs[i]), found);
+      } else if (!(near_[i].distance > longest + most_certain)) {
+        add_on_the_way(near_[i].pair, bound(near_[i]), found);
+      }
+    }
+  });
+  on_the_way_.pairs.clear();
+  on_the_way_.distances.clear();
+  for (std::size_t i = 0; i * pairs_of_chunk < count; ++i) {
+    const OnTheWay& found = way_chunks_[i];
+    on_the_way_.pairs.insert(on_the_way_.pairs.end(), found.pairs.begin(), found.pairs.end());
+    on_the_way_.distances.insert(on_the_way_.distances.end(), found.distances.begin(), found.distances.end());
+  }
+  return on_the_way_;
+}
+
+}  // namespace pliant

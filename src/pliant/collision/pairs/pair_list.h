@@ -1,0 +1,97 @@
+#pragma once
+// Which pairs may touch in a substep: those that are near at an iterate, and those that may meet on the way to the
+// next. Moves from iterate to iterate are short, so a list of near pairs lasts for several, and tells of short ways
+// too.
+#include <optional>
+
+#include "pliant/collision/pairs/gap.h"
+#include "pliant/collision/pairs/pair_search.h"
+
+namespace pliant {
+
+class PairList {
+ public:
+  struct Near {
+    Pair pair;
+    Real radius = 0;    ///< r, or less where the surfaces are nearer at rest [m]
+    Real distance = 0;  ///< where it was listed [m]
+  };
+
+  /// Surfaces at rest (m × 3) [m], and r of each vertex [m]. The surface must stay.
+  void set_surface(const Surface& surface, const Positions& rest, std::span<const Real> radii);
+  void clear();
+  /// A substep begins.
+  void begin(std::span<const char> is_pinned);
+
+  /// Lists what is near at q anew if what is listed may not be all. Returns whether it has. Throws Error(input) where
+  /// too many pairs are near each other.
+  bool update(const Positions& q, ThreadPool& threads);
+  /// Nearer than twice r, in the order of pairs, where they were listed.
+  std::span<const Near> near() const { return near_; }
+  /// Of these pairs, where they were listed.
+  std::span<const Gap> gaps() const { return gaps_; }
+  /// What bound() is about.
+  void go_to(const Positions& q);
+  /// A near pair is no nearer than that [m].
+  Real bound(const Near& near) const;
+
+  /// Pairs that may meet on straight ways, and their distances or less where these begin [m].
+  struct OnTheWay {
+    std::vector<Pair> pairs;
+    std::vector<Real> distances;
+  };
+  /// Vertices are to go from here to there.
+  void begin_way(const Positions& from, const Positions& to);
+  /// Those that may meet on it. Throws as update() does.
+  const OnTheWay& on_the_way(const Positions& from, ThreadPool& threads);
+  /// Whether these are all if the way ends at q, no farther from where it began; the next search is for that, too.
+  bool covers(const Positions& q);
+
+ private:
+  struct OwnRadius {
+    Pair pair;
+    Real radius;
+  };
+  struct Listed {
+    Near near;
+    Gap gap;
+  };
+
+  void find_own_radii(const Positions& rest);
+  bool is_listed(const Positions& q) const;
+  void list(const Positions& q, ThreadPool& threads);
+  void take_own_radii();
+  void add_on_the_way(const Pair& pair, Real bound, OnTheWay& found) const;
+  Real radius_of(const Pair& pair) const;
+
+  static constexpr std::size_t pairs_of_chunk = 512;
+
+  const Surface* surface_ = nullptr;
+  std::optional<PairSearch> search_;
+  std::vector<Real> radii_, pads_;
+  std::vector<OwnRadius> own_radii_;  // of pairs that are nearer than r at rest, in the order of pairs
+
+  Positions reference_;  // where the near pairs were listed
+  bool is_listed_ = false;
+  std::vector<Near> near_;
+  std::vector<Gap> gaps_;
+  std::vector<Real> gone_;  // since then [m]
+
+  Positions low_, high_;    // the corners of boxes around ways
+  std::vector<Real> ways_;  // lengths [m]
+  bool is_short_ = false;   // so that no pair can meet that is not near
+  std::vector<std::vector<Listed>> listed_chunks_;
+  std::vector<OnTheWay> way_chunks_;
+  OnTheWay on_the_way_;
+};
+
+/// Calls visit(chunk, begin, end) for chunks of `size` in [0, count).
+template <class Visit>
+void for_each_chunk_of(std::size_t count, std::size_t size, ThreadPool& threads, Visit&& visit) {
+  threads.parallel_for(static_cast<Index>((count + size - 1) / size), [&](Index i) {
+    const std::size_t begin = at(i) * size;
+    visit(at(i), begin, std::min(count, begin + size));
+  });
+}
+
+}  // namespace pliant

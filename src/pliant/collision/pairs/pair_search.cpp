@@ -1,0 +1,190 @@
+#include "pliant/collision/pairs/pair_search.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "pliant/core/error.h"
+
+namespace pliant {
+
+using collision::BoxTree;
+using collision::FloatBox;
+using collision::MeetingItems;
+using collision::OwnedTree;
+
+namespace {
+
+/// Vertices or pairs that a thread takes at once.
+constexpr Index items_of_chunk = 1024;
+
+/// The places in Surface::vertices of the corners of each item, one after another.
+template <class Item>
+std::vector<Index> places_of_corners(std::span<const Item> items, std::span<const Index> places) {
+  std::vector<Index> corners;
+  corners.reserve(items.size() * std::tuple_size_v<Item>);
+  for (const Item& item : items) {
+    for (const Index vertex : item) corners.push_back(places[at(vertex)]);
+  }
+  return corners;
+}
+
+FloatBox box_of_way(const Positions& begin, const Positions& end, Index vertex, Real pad) {
+  FloatBox box{};
+  for (Eigen::Index a = 0; a < 3; ++a) {
+    const auto& [low, high] = std::minmax(begin(vertex, a), end(vertex, a));
+    box.low[a] = collision::rounded_down(low - pad);
+    box.high[a] = collision::rounded_up(high + pad);
+  }
+  return box;
+}
+
+}  // namespace
+
+PairSearch::PairSearch(const Surface& surface, std::int64_t most)
+    : surface_(&surface), most_(most), boxes_(surface.vertices.size()) {
+  std::vector<Index> place_of_vertex(surface.body.size(), -1);
+  for (std::size_t i = 0; i < surface.vertices.size(); ++i) {
+    place_of_vertex[at(surface.vertices[i])] = static_cast<Index>(i);
+  }
+  std::vector<Index> all_vertices(surface.vertices.size());
+  std::iota(all_vertices.begin(), all_vertices.end(), 0);
+  const std::span edges(surface.edges);
+  const std::span loose = edges.subspan(at(surface.loose_begin));
+  const auto add = [&](std::vector<Index> corners, Index corner_count) {
+    std::vector<Index> body;
+    for (std::size_t c = 0; c < corners.size(); c += at(corner_count)) {
+      body.push_back(surface.body[at(surface.vertices[at(corners[c])])]);
+    }
+    items_.push_back({BoxTree(std::move(corners), corner_count), std::move(body), {}, {}});
+  };
+  add(places_of_corners(std::span(surface.triangles), place_of_vertex), 3);
+  add(places_of_corners(edges, place_of_vertex), 2);
+  add(std::move(all_vertices), 1);
+  add(places_of_corners(loose, place_of_vertex), 2);
+  const Index height =
+      std::ranges::max_element(items_, {}, [](const Items& items) { return items.tree.height(); })->tree.height();
+  for (Items& items : items_) items.tree.raise(height);
+}
+
+void PairSearch::set_held(std::span<const char> is_held) {
+  const auto set = [&](std::size_t place, std::size_t count, auto&& corners_of) {
+    std::vector<char>& held = items_[place].is_held;
+    held.resize(is_held.empty() ? 0 : count);
+    for (std::size_t i = 0; i < held.size(); ++i) {
+      held[i] = std::ranges::all_of(corners_of(i), [&](Index v) { return is_held[at(v)] != 0; }) ? 1 : 0;
+    }
+    items_[place].owned_build = -1;
+  };
+  set(triangles_place, surface_->triangles.size(), [&](std::size_t i) { return surface_->triangles[i]; });
+  set(edges_place, surface_->edges.size(), [&](std::size_t i) { return surface_->edges[i]; });
+  set(vertices_place, surface_->vertices.size(), [&](std::size_t i) { return std::array{surface_->vertices[i]}; });
+  const auto loose = at(surface_->loose_begin);
+  set(loose_edges_place, surface_->edges.size() - loose, [&](std::size_t i) { return surface_->edges[loose + i]; });
+}
+
+void PairSearch::set_boxes(const Positions& begin, const Positions& end, std::span<const Real> pads, ThreadPool& pool) {
+  const Index count = count_of(surface_->vertices);
+  pool.parallel_for((count + items_of_chunk - 1) / items_of_chunk, [&](Index chunk) {
+    const Index chunk_end = std::min(count, (chunk + 1) * items_of_chunk);
+    for (Index i = chunk * items_of_chunk; i < chunk_end; ++i) {
+      const Index vertex = surface_->vertices[at(i)];
+      boxes_[at(i)] = box_of_way(begin, end, vertex, pads[at(vertex)]);
+    }
+  });
+}
+
+/// Where all pairs are wanted there are none, which is quicker.
+void PairSearch::update_owners(Items& items) {
+  const bool all_wanted = items.is_held.empty() && std::ranges::all_of(surface_->meets_itself, std::identity{}) &&
+                          std::ranges::none_of(surface_->ignored, std::identity{});
+  if (all_wanted) {
+    items.owned_build = -1;
+  } else if (items.owned_build != items.tree.build_count()) {
+    items.owners.set(items.tree, items.body, items.is_held);
+    items.owned_build = items.tree.build_count();
+  }
+}
+
+OwnedTree PairSearch::owned(std::size_t place) const {
+  const Items& items = items_[place];
+  return {&items.tree, items.owned_build < 0 ? nullptr : &items.owners};
+}
+
+std::span<const Pair> PairSearch::find(const Positions& begin, const Positions& end, std::span<const Real> pads,
+                                       ThreadPool& pool) {
+  set_boxes(begin, end, pads, pool);
+  std::array<bool, places> is_fit{};
+  for (std::size_t place = 0; place < places; ++place) is_fit[place] = items_[place].tree.refit(boxes_, pool);
+  if (!std::ranges::all_of(is_fit, std::identity{})) {
+    pool.parallel_for(places, [&](Index place) {
+      if (!is_fit[at(place)]) items_[at(place)].tree.build(boxes_);
+    });
+    for (std::size_t place = 0; place < places; ++place) {
+      if (!is_fit[place]) items_[place].tree.refit(boxes_, pool);
+    }
+  }
+  for (Items& items : items_) update_owners(items);
+  std::array<std::int64_t, 4> offsets{};
+  for (std::size_t k = 0; k < meeting_.size(); ++k) {
+    const auto& [kind, a, b] = kinds[k];
+    if (!meeting_[k].find(*surface_, owned(a), owned(b), most_ - offsets[k], pool)) {
+      pairs_.clear();
+      fail(kinds[k], end);
+    }
+    offsets[k + 1] = offsets[k] + meeting_[k].count();
+  }
+  pairs_.resize(static_cast<std::size_t>(offsets.back()));
+  for (std::size_t k = 0; k < meeting_.size(); ++k) {
+    MeetingItems& meeting = meeting_[k];
+    const PairKind kind = kinds[k].kind;
+    const Index count = items_[kinds[k].a].tree.item_count();
+    meeting.sort(count, pool);
+    Pair* const to = pairs_.data() + offsets[k];
+    pool.parallel_for((count + items_of_chunk - 1) / items_of_chunk, [&](Index chunk) {
+      const Index chunk_end = std::min(count, (chunk + 1) * items_of_chunk);
+      for (Index i = chunk * items_of_chunk; i < chunk_end; ++i) {
+        for (Index p = meeting.begin(i); p < meeting.begin(i + 1); ++p) to[p] = pair_of(kind, i, meeting.second(p));
+      }
+    });
+  }
+  return pairs_;
+}
+
+Pair PairSearch::pair_of(PairKind kind, Index first, Index second) const {
+  const Surface& surface = *surface_;
+  if (kind == PairKind::edge_edge) {
+    const auto& [a, b] = surface.edges[at(first)];
+    const auto& [c, d] = surface.edges[at(second)];
+    return {kind, 0, {first, second}, {a, b, c, d}};
+  }
+  const Index vertex = surface.vertices[at(first)];
+  if (kind == PairKind::vertex_triangle) {
+    const auto& [a, b, c] = surface.triangles[at(second)];
+    return {kind, surface.owned_by_triangle[at(second)], {first, second}, {vertex, a, b, c}};
+  }
+  const Index edge = surface.loose_begin + second;
+  const auto& [a, b] = surface.edges[at(edge)];
+  return {kind, surface.owned_by_edge[at(second)], {first, edge}, {vertex, a, b, b}};
+}
+
+void PairSearch::fail(const Kind& kind, const Positions& end) const {
+  const Index item = MeetingItems::crowded_item(*surface_, owned(kind.a), owned(kind.b), most_);
+  const Index vertex = kind.kind == PairKind::edge_edge ? surface_->edges[at(item)][0] : surface_->vertices[at(item)];
+  const auto place = std::ranges::find(surface_->vertices, vertex) - surface_->vertices.begin();
+  fail_input(fmt::format(
+      "contact: more than {} pairs of vertices, edges and triangles are near each other or would pass each other in "
+      "one step, many of them at vertex {} of body {}, which goes to ({:g}, {:g}, {:g}) m: move surfaces that lie in "
+      "one place apart, or reduce the contact distance or the time step",
+      most_, surface_->vertex_in_body[static_cast<std::size_t>(place)], surface_->body[at(vertex)], end(vertex, 0),
+      end(vertex, 1), end(vertex, 2)));
+}
+
+std::int64_t PairSearch::build_count() const {
+  std::int64_t sum = 0;
+  for (const Items& items : items_) sum += items.tree.build_count();
+  return sum;
+}
+
+}  // namespace pliant

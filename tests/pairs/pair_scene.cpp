@@ -1,0 +1,75 @@
+#include "tests/pairs/pair_scene.h"
+
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "pliant/collision/crossings.h"
+#include "pliant/core/error.h"
+#include "tests/pairs/body_scenes.h"
+#include "tests/pairs/cloth_scenes.h"
+
+namespace pliant_tests {
+
+using namespace pliant;
+
+Index PairScene::frames() const {
+  return static_cast<Index>(std::lround(duration / simulation.settings().time_step));
+}
+
+StepReport PairScene::step() {
+  if (move) move(simulation);
+  return simulation.step();
+}
+
+std::span<const PairSceneEntry> pair_scenes() {
+  static constexpr std::array entries{
+      PairSceneEntry{"drape", "a sheet on a sphere above a floor, 5 s", drape},
+      PairSceneEntry{"rotating_sphere", "a sheet on a sphere that begins to turn, 4 s", rotating_sphere},
+      PairSceneEntry{"twist", "a strip whose ends turn four times against each other, 8 s", twist},
+      PairSceneEntry{"fold", "an upright strip folds onto a floor, 5 s", fold},
+      PairSceneEntry{"stack", "five sheets fall on a sphere, 4 s", stack},
+      PairSceneEntry{"block", "8.8 kg of rubber on a pinned sheet of 72 g above a floor, 5 s", block},
+      PairSceneEntry{"fall", "a sheet hits a sphere with 5.5 m/s, 1 s", fall},
+      PairSceneEntry{"two_sheets", "a sheet falls on a pinned one, 3 s", two_sheets},
+      PairSceneEntry{"slope2_gentle", "a sheet on a pinned one, at 16 degrees, 1 s", slope2_gentle},
+      PairSceneEntry{"slope2_steep", "a sheet on a pinned one, at 30 degrees, 1 s", slope2_steep},
+      PairSceneEntry{"layers_free", "a sheet slides on a free one on a plane, 2 s", two_layers_free},
+      PairSceneEntry{"rope", "a coil of rope falls on a pinned sheet, 3 s", rope},
+      PairSceneEntry{"coil", "an upright rope falls on a floor and itself, 3 s", coil},
+      PairSceneEntry{"pile", "soft boxes and balls fall into each other on a floor, 5 s", pile},
+      PairSceneEntry{"collision", "two soft boxes fly at each other, 1 s", collision_of_two}};
+  return entries;
+}
+
+PairScene make_pair_scene(std::string_view name, const PairOptions& options) {
+  std::string names;
+  for (const PairSceneEntry& entry : pair_scenes()) {
+    if (entry.name == name) return entry.make(options);
+    names += (names.empty() ? "" : ", ") + std::string(entry.name);
+  }
+  fail_input("no scene '" + std::string(name) + "'; choose one of " + names);
+}
+
+std::int64_t count_crossings(const Simulation& simulation) {
+  std::vector<Triangle> triangles;
+  std::vector<Edge> edges;
+  for (const Body& body : simulation.bodies()) {
+    for (Triangle each : surface_triangles(body.mesh)) {
+      for (Index& vertex : each) vertex += body.first_vertex;
+      triangles.push_back(each);
+    }
+    for (Edge each : body.mesh.edges) {
+      for (Index& vertex : each) vertex += body.first_vertex;
+      edges.push_back(each);
+    }
+  }
+  return find_crossings({simulation.state().positions, triangles, edges}, 0).count;
+}
+
+Real rms_speed(const Simulation& simulation) {
+  const Positions& v = simulation.state().velocities;
+  return v.rows() == 0 ? 0 : std::sqrt(v.squaredNorm() / static_cast<Real>(v.rows()));
+}
+
+}  // namespace pliant_tests

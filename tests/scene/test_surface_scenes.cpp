@@ -1,0 +1,125 @@
+// The built-in scenes in which surfaces touch: nothing ever passes through anything, and each shows what it promises.
+#include <algorithm>
+#include <functional>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "pliant/collision/crossings.h"
+#include "pliant/pliant.h"
+#include "pliant_io/scene/builtin_scenes.h"
+#include "pliant_io/scene/scene.h"
+#include "whole_scenes.h"
+
+namespace test_surface_scenes {
+
+using namespace pliant;
+using pliant_tests::runs_whole_scenes;
+
+namespace {
+
+Scene load_scene(std::string_view name) {
+  const auto found = std::ranges::find(builtin_scenes(), name, &BuiltinScene::name);
+  REQUIRE(found != builtin_scenes().end());
+  return parse_scene(found->text, "", found->name);
+}
+
+/// All triangles of a simulation; and its edges, of which a rope has no others.
+struct Surfaces {
+  std::vector<Triangle> triangles;
+  std::vector<Edge> edges;
+
+  explicit Surfaces(const Simulation& simulation) {
+    for (const Body& body : simulation.bodies()) {
+      const Index first = body.first_vertex;
+      for (const auto& [a, b, c] : surface_triangles(body.mesh)) triangles.push_back({first + a, first + b, first + c});
+      for (const auto& [a, b] : body.mesh.edges) edges.push_back({first + a, first + b});
+    }
+  }
+  std::int64_t crossings(const Simulation& simulation) const {
+    return find_crossings({.positions = simulation.state().positions, .triangles = triangles, .edges = edges}).count;
+  }
+};
+
+/// Steps to the end of the scene, or only a few; f(simulation, step) after each.
+void run_without_crossings(std::string_view name, const std::function<void(const Simulation&, std::int64_t)>& f) {
+  Scene scene = load_scene(name);
+  const Surfaces surfaces(scene.simulation);
+  const std::int64_t steps = runs_whole_scenes ? scene.steps : 20;
+  REQUIRE(surfaces.crossings(scene.simulation) == 0);
+  for (std::int64_t i = 1; i <= steps; ++i) {
+    CAPTURE(i);
+    scene.step();
+    REQUIRE(surfaces.crossings(scene.simulation) == 0);
+    if (runs_whole_scenes) f(scene.simulation, i == steps ? -1 : i);  // −1: the end
+  }
+  CHECK(scene.simulation.warnings().empty());
+}
+
+Real mean_height(const Simulation& simulation, std::size_t body) {
+  const Body& it = simulation.bodies()[body];
+  return simulation.state().positions.middleRows(it.first_vertex, it.mesh.vertex_count()).col(2).mean();
+}
+
+Real highest(const Simulation& simulation) {
+  return simulation.state().positions.col(2).maxCoeff();
+}
+
+}  // namespace
+
+TEST_CASE("scene layers: all five sheets lie on the ball, the higher the smaller") {
+  run_without_crossings("layers", [](const Simulation& simulation, std::int64_t step) {
+    if (step != -1) return;
+    for (std::size_t i = 1; i < 5; ++i) CHECK(mean_height(simulation, i) > mean_height(simulation, i - 1));
+    CHECK(highest(simulation) > 0.4);
+    CHECK(simulation.state().velocities.rowwise().norm().maxCoeff() < 1);
+  });
+}
+
+TEST_CASE("scene twist: the strip becomes a rope of cloth, and hangs as a strip at the end") {
+  Real narrow = 1;
+  run_without_crossings("twist", [&](const Simulation& simulation, std::int64_t step) {
+    const Positions& x = simulation.state().positions;
+    if (step == 400) {
+      narrow = 0;
+      for (Index j = 0; j < 13; ++j) {  // the column in the middle
+        const Vec3 from_middle = (x.row(37 * j + 18) - x.row(37 * 6 + 18)).transpose();
+        narrow = std::max(narrow, from_middle.norm());
+      }
+    }
+    if (step == -1) CHECK(x.col(2).minCoeff() < 0);
+  });
+  if (runs_whole_scenes) CHECK(narrow < 0.075);  // of 0.15 at rest
+}
+
+TEST_CASE("scene fold: a strip of 1.2 m lies in a heap of a quarter of its length") {
+  run_without_crossings("fold", [](const Simulation& simulation, std::int64_t step) {
+    if (step != -1) return;
+    const Positions& x = simulation.state().positions;
+    CHECK(x.col(1).maxCoeff() - x.col(1).minCoeff() < 0.4);
+    CHECK(highest(simulation) > 0.02);
+    CHECK(highest(simulation) < 0.15);
+  });
+}
+
+TEST_CASE("scene pile: a dozen blocks come to rest in the crate, or on its wall") {
+  run_without_crossings("pile", [](const Simulation& simulation, std::int64_t step) {
+    if (step != -1) return;
+    const Positions& x = simulation.state().positions;
+    CHECK(x.leftCols(2).cwiseAbs().maxCoeff() < 0.6);  // one may lean over a wall
+    CHECK(simulation.state().velocities.rowwise().norm().maxCoeff() < 0.5);
+    CHECK(highest(simulation) > 0.2);
+  });
+}
+
+TEST_CASE("scene rope_coil: the rope lies in coils, several upon each other") {
+  run_without_crossings("rope_coil", [](const Simulation& simulation, std::int64_t step) {
+    if (step != -1) return;
+    const Positions& x = simulation.state().positions;
+    CHECK(x.col(0).maxCoeff() - x.col(0).minCoeff() < 0.4);
+    CHECK(highest(simulation) > 0.02);
+    CHECK(highest(simulation) < 0.2);
+  });
+}
+
+}  // namespace test_surface_scenes
