@@ -119,8 +119,7 @@ TEST_CASE("pair loads: without friction a sheet slides on a sheet as it falls" *
   CHECK(slope.way() / slope.exact_way(steps) == doctest::Approx(1).epsilon(0.01));
 }
 
-TEST_CASE("pair loads: a sheet that slides on a free one gives it its momentum, less what the floor takes" *
-          doctest::skip(!runs_whole_scenes)) {
+TEST_CASE("pair loads: a sheet that slides on a free one gives it its momentum, less what the floor takes") {
   PairOptions options;
   options.settings.iterations = 20;
   PairScene scene = two_layers_free(options);
@@ -131,6 +130,7 @@ TEST_CASE("pair loads: a sheet that slides on a free one gives it its momentum, 
   const Real most = 0.3 * weight_of(scene.simulation) / 60;
   CHECK(after < begin);
   CHECK(after > begin - 1.05 * most);
+  if (!runs_whole_scenes) return;
   for (int i = 0; i < 119; ++i) scene.step();
   CHECK(std::abs(momentum(scene.simulation).x()) < 1e-3 * begin);
 }
