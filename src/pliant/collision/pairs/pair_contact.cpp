@@ -154,9 +154,10 @@ bool PairContact::shorten(const Positions& from, Positions& q, ThreadPool& threa
     const PlanesInput input{
         .begin = from, .surface = *surface_, .pairs = found.pairs, .distances = found.distances, .radii = radii_};
     const Shortened done = planes_.shorten(input, q, threads);
-    if (!list_.covers(q)) continue;
+    if (done.vertices == 0) return false;
+    if (!list_.covers(from, q)) continue;
     report_.shortened += done.vertices;
-    return done.vertices > 0;
+    return true;
   }
   q = from;
   report_.shortened += count_of(surface_->vertices);
@@ -165,7 +166,6 @@ bool PairContact::shorten(const Positions& from, Positions& q, ThreadPool& threa
 
 void PairContact::find_forces(const Positions& q, ThreadPool& threads) {
   list(q, threads);
-  list_.go_to(q);
   for_each_chunk_of(near_.size(), pairs_of_chunk, threads, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       NearPair& near = near_[i];

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace pliant {
 namespace {
@@ -13,6 +14,8 @@ constexpr Real pad_of_ways = 0.1;
 /// Of a bound: ways that are shorter bring nothing together. A little less than Planes has it.
 constexpr Real free_share_of_bound = 0.89;
 constexpr Real certain_share = 1e-6;  // of r
+/// About so many vertices are asked where all go.
+constexpr std::size_t vertices_asked = 256;
 
 /// The largest of one side's corners and the largest of the other's together.
 Real sum_of_sides(const Pair& pair, const std::vector<Real>& numbers) {
@@ -62,7 +65,7 @@ void PairList::clear() {
   surface_ = nullptr;
   near_.clear();
   gaps_.clear();
-  is_listed_ = false;
+  is_listed_ = is_of_before_ = false;
 }
 
 /// Two surfaces rest as far apart as the mean of their own distances.
@@ -84,22 +87,23 @@ void PairList::find_own_radii(const Positions& rest) {
   }
 }
 
+/// What was near in the substep before tells of the first way: of nothing else, for a step goes by its own state alone.
 void PairList::begin(std::span<const char> is_pinned) {
+  is_of_before_ = (is_listed_ || is_of_before_) && std::ranges::equal(is_held_, is_pinned);
+  is_held_.assign(is_pinned.begin(), is_pinned.end());
   search_->set_held(is_pinned);
   is_listed_ = false;
+  has_been_held_back_ = false;
 }
 
 // ---- near pairs
 
-bool PairList::is_listed(const Positions& q) const {
-  return is_listed_ && std::ranges::all_of(surface_->vertices, [&](Index v) {
-           const Real room = list_slack / 2 * radii_[at(v)];
-           return (q.row(v) - reference_.row(v)).squaredNorm() < room * room;
-         });
-}
-
 bool PairList::update(const Positions& q, ThreadPool& threads) {
-  if (is_listed(q)) return false;
+  if (is_listed_) {
+    go_to(q);
+    const auto has_room = [&](Index v) { return gone_[at(v)] < list_slack / 2 * radii_[at(v)]; };
+    if (std::ranges::all_of(surface_->vertices, has_room)) return false;
+  }
   list(q, threads);
   return true;
 }
@@ -130,6 +134,7 @@ void PairList::list(const Positions& q, ThreadPool& threads) {
   reference_ = q;
   gone_.assign(at(static_cast<Index>(q.rows())), 0);
   is_listed_ = true;
+  is_of_before_ = false;
 }
 
 /// Both lists are in the order of pairs.
@@ -142,9 +147,29 @@ void PairList::take_own_radii() {
   }
 }
 
+void PairList::find_lengths(const Positions& a, const Positions& b, const Vec3& common,
+                            std::vector<Real>& lengths) const {
+  const auto count = static_cast<Index>(b.rows());
+  lengths.resize(at(count));
+  for (Index v = 0; v < count; ++v) lengths[at(v)] = (row(b, v) - row(a, v) - common).norm();
+}
+
+/// The middle of a box about some of them: whatever it is, bounds hold.
+Vec3 PairList::common_way(const Positions& a, const Positions& b) const {
+  const std::span<const Index> vertices = surface_->vertices;
+  const std::size_t stride = vertices.size() / vertices_asked + 1;
+  Vec3 low = Vec3::Constant(std::numeric_limits<Real>::infinity());
+  Vec3 high = -low;
+  for (std::size_t i = 0; i < vertices.size(); i += stride) {
+    const Vec3 way = row(b, vertices[i]) - row(a, vertices[i]);
+    low = low.cwiseMin(way);
+    high = high.cwiseMax(way);
+  }
+  return (low + high) / 2;
+}
+
 void PairList::go_to(const Positions& q) {
-  gone_.resize(at(static_cast<Index>(q.rows())));
-  for (Index v = 0; v < static_cast<Index>(q.rows()); ++v) gone_[at(v)] = (q.row(v) - reference_.row(v)).norm();
+  find_lengths(reference_, q, common_way(reference_, q), gone_);
 }
 
 Real PairList::bound(const Near& near) const {
@@ -154,20 +179,40 @@ Real PairList::bound(const Near& near) const {
 // ---- ways
 
 void PairList::begin_way(const Positions& from, const Positions& to) {
-  const auto count = static_cast<Index>(to.rows());
-  ways_.resize(at(count));
-  is_short_ = is_listed_;
-  if (is_listed_) go_to(from);
-  for (Index v = 0; v < count; ++v) {
-    ways_[at(v)] = (to.row(v) - from.row(v)).norm();
-    is_short_ = is_short_ && gone_[at(v)] + ways_[at(v)] < 0.9 * (1 + list_slack) / 2 * radii_[at(v)];
-  }
-  if (is_short_) return;
-  low_ = from.cwiseMin(to);
-  high_ = from.cwiseMax(to);
+  way_end_ = to;
+  if (is_listed_ || is_of_before_) go_to(from);
+  take_way(from, to, !has_been_held_back_);
 }
 
-bool PairList::covers(const Positions& q) {
+/// Between the ends of a way no vertex is farther from what is common to all than at one of them.
+void PairList::take_way(const Positions& from, const Positions& to, bool is_relative) {
+  is_relative_ = is_relative;
+  common_ = is_relative ? common_way(from, to) : Vec3::Zero();
+  find_lengths(from, to, common_, ways_);
+  is_short_ = is_listed_ || (is_of_before_ && is_relative);
+  if (is_short_) {
+    if (is_relative) find_lengths(reference_, to, common_way(reference_, to), gone_at_end_);
+    is_short_ = std::ranges::all_of(surface_->vertices, [&](Index v) {
+      const Real gone = is_relative ? std::max(gone_[at(v)], gone_at_end_[at(v)]) : gone_[at(v)] + ways_[at(v)];
+      return gone < 0.9 * (1 + list_slack) / 2 * radii_[at(v)];
+    });
+  }
+  if (!is_short_) set_boxes(from, to);
+}
+
+/// In a frame that goes as all do, things meet where they meet in space.
+void PairList::set_boxes(const Positions& from, const Positions& to) {
+  high_ = to.rowwise() - common_.transpose();
+  low_ = from.cwiseMin(high_);
+  high_ = high_.cwiseMax(from);
+}
+
+bool PairList::covers(const Positions& from, const Positions& q) {
+  if (is_relative_) {
+    has_been_held_back_ = true;
+    take_way(from, way_end_, false);
+    return false;
+  }
   const auto is_inside = [&](Index v) {
     const Real pad = pads_[at(v)] / 2;
     return (low_.row(v) - q.row(v)).maxCoeff() <= pad && (q.row(v) - high_.row(v)).maxCoeff() <= pad;
@@ -187,23 +232,37 @@ void PairList::add_on_the_way(const Pair& pair, Real bound, OnTheWay& found) con
 }
 
 const PairList::OnTheWay& PairList::on_the_way(const Positions& from, ThreadPool& threads) {
-  const std::span<const Pair> pairs = is_short_ ? std::span<const Pair>{} : search_->find(low_, high_, pads_, threads);
-  const std::size_t count = is_short_ ? near_.size() : pairs.size();
-  const Real longest = 2 * *std::ranges::max_element(ways_) / free_share_of_bound +
-                       (is_short_ ? 2 * *std::ranges::max_element(gone_) : Real{0});
+  if (is_short_) {
+    collect_near_on_the_way(threads);
+    if (!is_of_before_ || on_the_way_.pairs.empty()) return on_the_way_;
+    is_short_ = false;
+    set_boxes(from, way_end_);
+  }
+  const std::span<const Pair> pairs = search_->find(low_, high_, pads_, threads);
+  collect_on_the_way(pairs.size(), threads, [&](std::size_t i, OnTheWay& found) {
+    add_on_the_way(pairs[i], box_distance(from, pairs[i]), found);
+  });
+  return on_the_way_;
+}
+
+void PairList::collect_near_on_the_way(ThreadPool& threads) {
   const Real most_certain = certain_share * *std::ranges::max_element(radii_);
+  const Real longest =
+      2 * (*std::ranges::max_element(ways_) / free_share_of_bound + *std::ranges::max_element(gone_)) + most_certain;
+  collect_on_the_way(near_.size(), threads, [&](std::size_t i, OnTheWay& found) {
+    if (!(near_[i].distance > longest)) add_on_the_way(near_[i].pair, bound(near_[i]), found);
+  });
+}
+
+/// add(i, found) adds pair i of so many if it belongs there.
+template <class Add>
+void PairList::collect_on_the_way(std::size_t count, ThreadPool& threads, Add&& add) {
   way_chunks_.resize(std::max(way_chunks_.size(), count / pairs_of_chunk + 1));
   for_each_chunk_of(count, pairs_of_chunk, threads, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
     OnTheWay& found = way_chunks_[chunk];
     found.pairs.clear();
     found.distances.clear();
-    for (std::size_t i = begin; i < end; ++i) {
-      if (!is_short_) {
-        add_on_the_way(pairs[i], box_distance(from, pairs[i]), found);
-      } else if (!(near_[i].distance > longest + most_certain)) {
-        add_on_the_way(near_[i].pair, bound(near_[i]), found);
-      }
-    }
+    for (std::size_t i = begin; i < end; ++i) add(i, found);
   });
   on_the_way_.pairs.clear();
   on_the_way_.distances.clear();
@@ -212,7 +271,6 @@ const PairList::OnTheWay& PairList::on_the_way(const Positions& from, ThreadPool
     on_the_way_.pairs.insert(on_the_way_.pairs.end(), found.pairs.begin(), found.pairs.end());
     on_the_way_.distances.insert(on_the_way_.distances.end(), found.distances.begin(), found.distances.end());
   }
-  return on_the_way_;
 }
 
 }  // namespace pliant

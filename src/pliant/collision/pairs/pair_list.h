@@ -40,12 +40,13 @@ class PairList {
     std::vector<Pair> pairs;
     std::vector<Real> distances;
   };
-  /// Vertices are to go from here to there.
+  /// Vertices are to go from here to there. What is common to all ways brings nothing together.
   void begin_way(const Positions& from, const Positions& to);
   /// Those that may meet on it. Throws as update() does.
   const OnTheWay& on_the_way(const Positions& from, ThreadPool& threads);
-  /// Whether these are all if the way ends at q, no farther from where it began; the next search is for that, too.
-  bool covers(const Positions& q);
+  /// Whether these are all if some of the vertices are held back, and the way ends at q, no farther from where it
+  /// began; the next search is for that, too.
+  bool covers(const Positions& from, const Positions& q);
 
  private:
   struct OwnRadius {
@@ -58,7 +59,15 @@ class PairList {
   };
 
   void find_own_radii(const Positions& rest);
-  bool is_listed(const Positions& q) const;
+  /// Of vertices that go from a to b: how far each goes, apart from `common`.
+  void find_lengths(const Positions& a, const Positions& b, const Vec3& common, std::vector<Real>& lengths) const;
+  /// Of those, what is common to all ways, so that the longest of the rest is short.
+  Vec3 common_way(const Positions& a, const Positions& b) const;
+  void take_way(const Positions& from, const Positions& to, bool is_relative);
+  void set_boxes(const Positions& from, const Positions& to);
+  void collect_near_on_the_way(ThreadPool& threads);
+  template <class Add>
+  void collect_on_the_way(std::size_t count, ThreadPool& threads, Add&& add);
   void list(const Positions& q, ThreadPool& threads);
   void take_own_radii();
   void add_on_the_way(const Pair& pair, Real bound, OnTheWay& found) const;
@@ -73,13 +82,20 @@ class PairList {
 
   Positions reference_;  // where the near pairs were listed
   bool is_listed_ = false;
+  bool is_of_before_ = false;  // they are of the substep before
+  std::vector<char> is_held_;
   std::vector<Near> near_;
   std::vector<Gap> gaps_;
-  std::vector<Real> gone_;  // since then [m]
+  std::vector<Real> gone_;  // since then, apart from what all have gone [m]
 
-  Positions low_, high_;    // the corners of boxes around ways
-  std::vector<Real> ways_;  // lengths [m]
-  bool is_short_ = false;   // so that no pair can meet that is not near
+  Positions low_, high_;             // the corners of boxes around ways
+  Positions way_end_;                // where they were to lead
+  Vec3 common_ = Vec3::Zero();       // to all of them [m]
+  std::vector<Real> ways_;           // lengths [m]
+  std::vector<Real> gone_at_end_;    // scratch [m]
+  bool is_short_ = false;            // so that no pair can meet that is not near
+  bool is_relative_ = false;         // lengths are apart from what all go
+  bool has_been_held_back_ = false;  // in this substep
   std::vector<std::vector<Listed>> listed_chunks_;
   std::vector<OnTheWay> way_chunks_;
   OnTheWay on_the_way_;
