@@ -69,6 +69,7 @@ PairSearch::PairSearch(const Surface& surface, std::int64_t most)
 }
 
 void PairSearch::set_held(std::span<const char> is_held) {
+  if (std::ranges::none_of(is_held, std::identity{})) is_held = {};
   const auto set = [&](std::size_t place, std::size_t count, auto&& corners_of) {
     std::vector<char>& held = items_[place].is_held;
     held.resize(is_held.empty() ? 0 : count);
