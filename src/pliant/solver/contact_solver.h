@@ -64,10 +64,13 @@ class ContactSolver {
   Real stiffened_curvature(const Positions& p) const;
   /// Adds D ⪰ C of each vertex [N/m].
   void add_diagonal(std::span<Real> diagonal) const;
-  /// Of components that move as rigid bodies, where the forces were found last: what resists, the energies, and which
-  /// may touch each other; see pair_resistance.h.
+  /// Of components that move as rigid bodies: vertices that may touch something, and what that does to the components
+  /// with those vertices at q; see pair_resistance.h.
+  bool is_anything_near() const { return contact_.is_anything_near() || (has_pairs() && !pairs_.near().empty()); }
+  void add_touching(std::span<const Index> component_of_vertex, std::vector<Index>& vertices) const;
   void add_resistance(const Positions& q, std::span<const Index> component_of_vertex,
                       std::span<RigidResistance> components) const;
+  /// The energies where the forces were found last, and which components may touch each other.
   void add_energies(std::span<const Index> component_of_vertex, std::span<Real> components) const;
   void join_components(std::span<const Index> component_of_vertex, std::span<std::size_t> least) const;
   void commit_substep(const System& system, WorkingState& work, ThreadPool& threads, State& state,

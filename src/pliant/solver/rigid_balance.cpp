@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace pliant {
@@ -10,51 +11,222 @@ namespace {
 /// Of the energies of inertia and contact: what a motion must gain to be worth it. A force out of balance by 3e-6 of
 /// the weight gains as much.
 constexpr Real worthwhile = 1e-11;
+/// The same of a motion after the first, which costs next to nothing.
+constexpr Real worth_going_on = 1e-13;
 /// Of the size of a component that touches nothing.
 constexpr Real least_shift = 1e-6;
-constexpr int most_motions = 8;
+constexpr int most_motions = 12;
+constexpr int most_ways = 3;
 constexpr Real shorter = 0.4;
-constexpr int most_trials = 3;  // of motions without those that have gone back
+constexpr int most_trials = 3;  // of ways without those that have gone back
 
 }  // namespace
 
 bool RigidBalance::settle(const StepContext& context, WorkingState& work, LocalResult& local) {
-  if (context.system.free_components().count() == 0) return false;
+  if (context.system.free_components().count() == 0 || !context.contact.is_anything_near()) return false;
   if (!has_masses_) find_masses(context.system, work.positions);
-  for (Part& part : parts_) {
-    part.sliding = SlidingFriction::as_it_is;
-    part.share = 1;
-  }
+  for (Part& part : parts_) part.share_of_way = 1;
   bool has_moved = false;
-  for (int i = 0; i < most_motions && find_motions(context, work); ++i) has_moved |= try_motions(context, work, local);
+  for (int i = 0; i < most_ways && find_placements(context, work); ++i) {
+    has_moved |= go_there(context, work, local);
+    if (is_as_expected()) break;
+  }
   return has_moved;
+}
+
+// ---- where forces are in balance
+
+/// Contact is asked only where there may be something to gain: without it a motion would gain more. Returns whether
+/// anything is to go elsewhere.
+bool RigidBalance::find_placements(const StepContext& context, const WorkingState& work) {
+  find_moments(context.system, work);
+  if (!find_motions(false)) return false;
+  for (Part& part : parts_) part.placement_now = {};
+  find_touching(context, work);
+  ask_contact(context, work);
+  std::swap(resistances_, trial_result_);
+  for (Part& part : parts_) part.moments.subtract_contact(resistances_[part.component].force);
+  energies_asked_before_.clear();
+  for (const RigidResistance& each : resistances_) energies_asked_before_.push_back(each.energy);
+  for (int i = 0; i < most_motions && find_motions(true); ++i) {
+    ask_contact(context, work);
+    if (!judge_motions()) continue;
+    for (Part& part : parts_) part.placement_now = part.placement;
+    ask_contact(context, work);
+    std::swap(resistances_, trial_result_);
+  }
+  return std::ranges::any_of(parts_, &Part::moves);
+}
+
+/// Where the masses are matters for how far a step of Newton's method goes, not for where it ends: once a substep.
+void RigidBalance::find_masses(const System& system, const Positions& q) {
+  const Components& free = system.free_components();
+  parts_.assign(free.count(), {});
+  part_of_component_.assign(system.components().count(), -1);
+  for (std::size_t i = 0; i < free.count(); ++i) {
+    Part& part = parts_[i];
+    const std::span<const Index> vertices = free.component(i);
+    part.component = at(system.components_of_vertices()[at(vertices.front())]);
+    part.freedom = system.freedom(i);
+    part_of_component_[part.component] = static_cast<Index>(i);
+    Vec3 first = Vec3::Zero();
+    for (const Index v : vertices) {
+      const Real w = system.inertia_weights()[at(v)];
+      part.weight += w;
+      first += w * row(q, v);
+    }
+    part.center = first / part.weight;
+    Mat3 second = Mat3::Zero();
+    for (const Index v : vertices) {
+      const Vec3 arm = row(q, v) - part.center;
+      second += system.inertia_weights()[at(v)] * arm * arm.transpose();
+    }
+    part.inertia = second.trace() * Mat3::Identity() - second;
+  }
+  has_masses_ = true;
+}
+
+void RigidBalance::find_moments(const System& system, const WorkingState& work) {
+  const Components& free = system.free_components();
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    Part& part = parts_[i];
+    part.placement = part.placement_now = {};
+    part.rise = part.rise_now = 0;
+    part.sliding = SlidingFriction::as_it_is;
+    part.share_of_motion = 1;
+    part.is_tried = part.moves = false;
+    if (part.freedom == RigidFreedom::none) continue;
+    part.moments = RigidMoments(part.center, free.component(i), system.inertia_weights(), work);
+  }
+}
+
+void RigidBalance::find_touching(const StepContext& context, const WorkingState& work) {
+  const std::span<const Index> component_of_vertex = context.system.components_of_vertices();
+  touching_.clear();
+  context.contact.add_touching(component_of_vertex, touching_);
+  trial_.resize(work.positions.rows(), 3);
+  joined_.resize(context.system.components().count());
+  std::iota(joined_.begin(), joined_.end(), std::size_t{0});
+  context.contact.join_components(component_of_vertex, joined_);
+}
+
+/// Of all components where they are under trial.
+void RigidBalance::ask_contact(const StepContext& context, const WorkingState& work) {
+  const std::span<const Index> component_of_vertex = context.system.components_of_vertices();
+  for (const Index v : touching_) {
+    const Index place = part_of_component_[at(component_of_vertex[at(v)])];
+    const Vec3 x = row(work.positions, v);
+    trial_.row(v) = (place < 0 ? x : parts_[at(place)].placement_now.place(parts_[at(place)].center, x)).transpose();
+  }
+  trial_result_.assign(context.system.components().count(), {});
+  for (const Part& part : parts_) {
+    trial_result_[part.component].center = part.center;
+    trial_result_[part.component].sliding = part.sliding;
+  }
+  context.contact.add_resistance(trial_, component_of_vertex, trial_result_);
+}
+
+/// What touches nothing any more moves as well: an iteration may have thrown it up.
+bool RigidBalance::find_motions(bool knows_contact) {
+  bool is_any = false;
+  for (Part& part : parts_) is_any |= find_motion(knows_contact ? &resistances_[part.component] : nullptr, part);
+  return is_any;
+}
+
+/// Whether weight and inertia would shift it by more than rounding does, compared with its size. In flight they do not
+/// after a global solve, which is exact for translations, and the energy of inertia is no measure: there is none.
+bool RigidBalance::is_misplaced(const Part& part, const Motion& force) {
+  return force.head<3>().squaredNorm() / part.weight > least_shift * least_shift * part.inertia.trace();
+}
+
+/// Sets where the component is to be tried, and whether it is.
+bool RigidBalance::find_motion(const RigidResistance* contact, Part& part) {
+  using Matrix = Eigen::Matrix<Real, 6, 6>;
+  part.is_tried = false;
+  part.placement_now = part.placement;
+  part.rise_now = part.rise;
+  if (part.freedom == RigidFreedom::none) return false;
+  const Motion force =
+      contact != nullptr ? Motion(part.moments.force(part.placement) + contact->force) : part.moments.residual();
+  Matrix curvature = Matrix::Zero();
+  if (contact != nullptr) curvature = contact->curvature.selfadjointView<Eigen::Lower>();
+  if (contact != nullptr && curvature.isZero(0) && !is_misplaced(part, force)) return false;
+  curvature.diagonal().head<3>().array() += part.weight;
+  curvature.bottomRightCorner<3, 3>() += part.inertia;
+  const bool turns = part.freedom == RigidFreedom::all;
+  Motion motion = Motion::Zero();
+  if (turns) motion = curvature.ldlt().solve(force);
+  if (!turns || !motion.allFinite()) {  // a line, a point: rotations about it are nothing
+    motion << curvature.topLeftCorner<3, 3>().ldlt().solve(force.head<3>()), Vec3::Zero();
+  }
+  const Real energy = part.moments.energy() + part.rise + (contact != nullptr ? contact->energy : 0);
+  const Real least = part.moves ? worth_going_on : worthwhile;
+  part.is_tried = motion.allFinite() && motion.dot(force) / 2 > least * energy;
+  if (!part.is_tried) return false;
+  part.placement_now = part.placement.moved(part.share_of_motion * motion);
+  part.rise_now = part.moments.rise(part.placement_now);
+  return true;
 }
 
 /// Friction that begins to slide, or to stick, on the way resists otherwise than where the way begins, and a motion may
 /// go too far: in a parabola that lies above its energy everywhere it does not, but takes many times, so the motion
 /// after that is again one of Newton's. What begins to touch on the way is in no parabola, so then the motion is
-/// shortened. Returns whether anything has moved.
-bool RigidBalance::try_motions(const StepContext& context, WorkingState& work, LocalResult& local) {
+/// shortened. Returns whether contact is to be asked again where all have come to.
+bool RigidBalance::judge_motions() {
+  rises_.assign(joined_.size(), 0);
+  for (std::size_t i = 0; i < joined_.size(); ++i) {
+    Real& rise = rises_[joined_[i]];
+    if (trial_result_[i].is_blocked) rise = std::numeric_limits<Real>::infinity();
+    rise += trial_result_[i].energy - resistances_[i].energy;
+  }
+  for (const Part& part : parts_) rises_[joined_[part.component]] += part.rise_now - part.rise;
+  bool is_to_be_asked = false;
+  for (Part& part : parts_) {
+    if (!part.is_tried) continue;
+    is_to_be_asked |= part.sliding == SlidingFriction::bounded;
+    if (rises_[joined_[part.component]] <= 0) {
+      part.placement = part.placement_now;
+      part.rise = part.rise_now;
+      part.moves = true;
+      part.share_of_motion = std::min<Real>(1, part.share_of_motion / shorter);
+      part.sliding = SlidingFriction::as_it_is;
+    } else {
+      is_to_be_asked = true;
+      if (part.sliding == SlidingFriction::bounded) part.share_of_motion *= shorter;
+      part.sliding = SlidingFriction::bounded;
+    }
+  }
+  if (!is_to_be_asked) std::swap(resistances_, trial_result_);
+  return is_to_be_asked;
+}
+
+// ---- the way there
+
+/// What begins to touch on it was not asked. Returns whether anything has moved.
+bool RigidBalance::go_there(const StepContext& context, WorkingState& work, LocalResult& local) {
   const Components& free = context.system.free_components();
+  energies_before_.assign(joined_.size(), 0);
+  context.contact.add_energies(context.system.components_of_vertices(), energies_before_);
   context.contact.subtract(work.residual, context.threads);
   positions_before_ = work.positions;
   residual_before_ = work.residual;
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     Part& part = parts_[i];
     part.goes_back = false;
-    if (part.moves) part.rise = move(part, free.component(i), context.system.inertia_weights(), work);
+    if (!part.moves) continue;
+    part.placement = part.placement.share(part.share_of_way);
+    part.rise = part.moments.rise(part.placement);
+    move(part, free.component(i), context.system.inertia_weights(), work);
   }
   judge(context, work);
   bool has_moved = false;
   for (Part& part : parts_) {
     if (part.moves) {
       local.inertia += part.rise;
-      part.share = std::min<Real>(1, part.share / shorter);
-      part.sliding = SlidingFriction::as_it_is;
+      part.share_of_way = 1;
       has_moved = true;
     } else if (part.goes_back) {
-      if (part.sliding == SlidingFriction::bounded) part.share *= shorter;
-      part.sliding = SlidingFriction::bounded;
+      part.share_of_way *= shorter;
     }
   }
   if (!has_moved) context.contact.find_forces(work.positions, context.threads);
@@ -62,8 +234,21 @@ bool RigidBalance::try_motions(const StepContext& context, WorkingState& work, L
   return has_moved;
 }
 
-/// Takes motions back that have raised the objective, or all where anything is in the way of one. Those that are left
-/// are judged again without the others: what has gone back may be in their way now.
+/// Whether all have come to where they should, and nothing touches there that was not asked.
+bool RigidBalance::is_as_expected() const {
+  Real difference = 0;
+  Real energy = 0;
+  for (std::size_t i = 0; i < energies_.size(); ++i) {
+    const Real expected = resistances_[i].energy - energies_asked_before_[i];
+    difference += std::abs(energies_[i] - energies_before_[i] - expected);
+    energy += resistances_[i].energy;
+  }
+  return difference <= worthwhile * energy &&
+         std::ranges::none_of(parts_, [](const Part& part) { return part.goes_back || part.share_of_way < 1; });
+}
+
+/// Takes ways back that have raised the objective, or all where anything is in the way of one. Those that are left are
+/// judged again without the others: what has gone back may be in their way now.
 void RigidBalance::judge(const StepContext& context, WorkingState& work) {
   const Components& free = context.system.free_components();
   bool is_decided = false;
@@ -90,14 +275,12 @@ void RigidBalance::judge(const StepContext& context, WorkingState& work) {
 /// By how much the objective has risen, of all together that may touch each other.
 void RigidBalance::find_rises(const StepContext& context) {
   const std::span<const Index> component_of_vertex = context.system.components_of_vertices();
-  const std::size_t count = context.system.components().count();
-  joined_.resize(count);
   std::iota(joined_.begin(), joined_.end(), std::size_t{0});
   context.contact.join_components(component_of_vertex, joined_);
-  energies_.assign(count, 0);
+  energies_.assign(joined_.size(), 0);
   context.contact.add_energies(component_of_vertex, energies_);
-  rises_.assign(count, 0);
-  for (std::size_t i = 0; i < count; ++i) rises_[joined_[i]] += energies_[i] - resistances_[i].energy;
+  rises_.assign(joined_.size(), 0);
+  for (std::size_t i = 0; i < joined_.size(); ++i) rises_[joined_[i]] += energies_[i] - energies_before_[i];
   for (const Part& part : parts_) {
     if (part.moves) rises_[joined_[part.component]] += part.rise;
   }
@@ -110,120 +293,18 @@ void RigidBalance::take_back(std::span<const Index> vertices, WorkingState& work
   }
 }
 
-/// Where the masses are matters for how far a step of Newton's method goes, not for where it ends: once a substep.
-void RigidBalance::find_masses(const System& system, const Positions& q) {
-  const Components& free = system.free_components();
-  parts_.assign(free.count(), {});
-  for (std::size_t i = 0; i < free.count(); ++i) {
-    Part& part = parts_[i];
-    const std::span<const Index> vertices = free.component(i);
-    part.component = at(system.components_of_vertices()[at(vertices.front())]);
-    part.freedom = system.freedom(i);
-    Vec3 first = Vec3::Zero();
-    for (const Index v : vertices) {
-      const Real w = system.inertia_weights()[at(v)];
-      part.weight += w;
-      first += w * row(q, v);
-    }
-    part.center = first / part.weight;
-    Mat3 second = Mat3::Zero();
-    for (const Index v : vertices) {
-      const Vec3 arm = row(q, v) - part.center;
-      second += system.inertia_weights()[at(v)] * arm * arm.transpose();
-    }
-    part.inertia = second.trace() * Mat3::Identity() - second;
-  }
-  has_masses_ = true;
-}
-
-void RigidBalance::find_force(const System& system, std::span<const Index> vertices, const WorkingState& work,
-                              Part& part) {
-  Vec3 force = Vec3::Zero();
-  Vec3 torque = Vec3::Zero();
-  part.energy = 0;
-  for (const Index v : vertices) {
-    const Vec3 x = row(work.positions, v);
-    const Vec3 r = row(work.residual, v);
-    force += r;
-    torque += (x - part.center).cross(r);
-    part.energy += system.inertia_weights()[at(v)] / 2 * (row(work.prediction, v) - x).squaredNorm();
-  }
-  part.force << force, torque;
-}
-
-/// Contact is asked only where there may be something to gain: without it a motion would gain more. What touches
-/// nothing any more moves as well: an iteration may have thrown it up.
-bool RigidBalance::find_motions(const StepContext& context, const WorkingState& work) {
-  const System& system = context.system;
-  const Components& free = system.free_components();
-  bool is_any = false;
-  for (std::size_t i = 0; i < parts_.size(); ++i) {
-    if (parts_[i].freedom == RigidFreedom::none) continue;
-    find_force(system, free.component(i), work, parts_[i]);
-    is_any |= find_motion({}, parts_[i]);
-  }
-  if (!is_any) return false;
-  resistances_.assign(system.components().count(), {});
-  for (const Part& part : parts_) {
-    resistances_[part.component].center = part.center;
-    resistances_[part.component].sliding = part.sliding;
-  }
-  context.contact.add_resistance(work.positions, system.components_of_vertices(), resistances_);
-  is_any = false;
-  for (Part& part : parts_) {
-    const RigidResistance& resistance = resistances_[part.component];
-    if (!part.moves) continue;
-    part.moves = false;
-    if (resistance.curvature.isZero(0) && !is_misplaced(part)) continue;
-    is_any |= find_motion(resistance, part);
-  }
-  return is_any;
-}
-
-/// Whether weight and inertia would shift it by more than rounding does, compared with its size. In flight they do not
-/// after a global solve, which is exact for translations, and the energy of inertia is no measure: there is none.
-bool RigidBalance::is_misplaced(const Part& part) {
-  return part.force.head<3>().squaredNorm() / part.weight > least_shift * least_shift * part.inertia.trace();
-}
-
-/// Returns whether the component moves.
-bool RigidBalance::find_motion(const RigidResistance& resistance, Part& part) {
-  using Matrix = Eigen::Matrix<Real, 6, 6>;
-  Matrix curvature = resistance.curvature.selfadjointView<Eigen::Lower>();
-  curvature.diagonal().head<3>().array() += part.weight;
-  curvature.bottomRightCorner<3, 3>() += part.inertia;
-  const bool turns = part.freedom == RigidFreedom::all;
-  Motion motion = Motion::Zero();
-  if (turns) motion = curvature.ldlt().solve(part.force);
-  if (!turns || !motion.allFinite()) {  // a line, a point: rotations about it are nothing
-    motion << curvature.topLeftCorner<3, 3>().ldlt().solve(part.force.head<3>()), Vec3::Zero();
-  }
-  part.moves = motion.allFinite() && motion.dot(part.force) / 2 > worthwhile * (part.energy + resistance.energy);
-  if (!part.moves) return false;
-  motion *= part.share;
-  part.shift = motion.head<3>();
-  const Vec3 angle = motion.tail<3>();
-  const Real size = angle.stableNorm();
-  part.rotation = size > 0 ? Eigen::AngleAxis<Real>(size, angle / size).toRotationMatrix() : Mat3::Identity();
-  return true;
-}
-
-/// Elastic forces turn with the component. The residual has no forces of contact here. Returns by how much the inertia
-/// term has risen [J].
-Real RigidBalance::move(const Part& part, std::span<const Index> vertices, std::span<const Real> weights,
+/// Elastic forces turn with the component. The residual has no forces of contact here.
+void RigidBalance::move(const Part& part, std::span<const Index> vertices, std::span<const Real> weights,
                         WorkingState& work) {
-  Real rise = 0;
   for (const Index v : vertices) {
     const Real weight = weights[at(v)];
     const Vec3 from = row(work.positions, v);
-    const Vec3 to = part.center + part.shift + part.rotation * (from - part.center);
+    const Vec3 to = part.placement.place(part.center, from);
     const Vec3 goal = row(work.prediction, v);
     const Vec3 elastic = row(work.residual, v) - weight * (goal - from);
-    rise += weight / 2 * (from - to).dot(2 * goal - from - to);
     work.positions.row(v) = to.transpose();
-    work.residual.row(v) = (part.rotation * elastic + weight * (goal - to)).transpose();
+    work.residual.row(v) = (part.placement.turn * elastic + weight * (goal - to)).transpose();
   }
-  return rise;
 }
 
 }  // namespace pliant

@@ -1,5 +1,6 @@
 #pragma once
 // A vertex that may touch a collider in a substep.
+#include <algorithm>
 #include <limits>
 
 #include "pliant/collision/contact/potential.h"
@@ -26,6 +27,7 @@ struct ContactCandidate {
   Real distance = 0;
   Vec3 normal = Vec3::UnitZ();
   Real guard_offset = 0;  ///< of the half-space along its normal
+  Real room = 0;          ///< less far from there it touches nothing and may not pass [m]
 
   Potential push() const { return normal_potential(stiffness, radius, distance); }
   Friction friction() const {
@@ -40,6 +42,10 @@ struct ContactCandidate {
     if (is_guarded || begin_distance < 0) return false;
     const Real sum = begin_distance + distance;
     return !(sum > 0 && sum * sum > (place - begin).squaredNorm());
+  }
+  Real room_there() const {
+    if (is_guarded || load > 0 || !(distance > radius)) return 0;
+    return std::min(distance - radius, (begin_distance + distance - (place - begin).norm()) / 2);
   }
 };
 

@@ -70,8 +70,11 @@ void Contact::begin_substep(const ContactStep& step, const ContactState& state, 
   step_.emplace(step);
   stiffening_ = state.stiffening;
   held_back_ = 0;
-  rotations_.clear();
-  for (const ContactCollider& each : colliders_) rotations_.push_back(each.end.rotation.toRotationMatrix());
+  turns_.clear();
+  for (const ContactCollider& each : colliders_) {
+    const Mat3 rotation = each.end.rotation.toRotationMatrix();
+    turns_.push_back({rotation, rotation == Mat3::Identity()});
+  }
   const auto count = static_cast<Index>(q.rows());
   reference_.resize(count, 3);
   margins_.resize(at(count));
@@ -195,6 +198,7 @@ void Contact::recall(const ContactState& state, const Positions& q, Candidate& c
     candidate.has_anchor = true;
     candidate.anchor = carried(candidate, colliders_[at(candidate.collider)].end.to_space(each.anchor));
     candidate.load = each.load;
+    candidate.room = 0;
     look_at(candidate, row(q, candidate.vertex));
     candidate.friction_normal = candidate.normal;
   }
@@ -207,10 +211,12 @@ void Contact::find_distance(Candidate& candidate, const Vec3& x) const {
     return;
   }
   const ContactCollider& collider = colliders_[at(candidate.collider)];
-  const Mat3& rotation = rotations_[at(candidate.collider)];
-  const SignedDistance found = collider.shape->distance(rotation.transpose() * (x - collider.end.position));
+  const Turn& turn = turns_[at(candidate.collider)];
+  const Vec3 arm = x - collider.end.position;
+  const SignedDistance found = collider.shape->distance(turn.is_none ? arm : Vec3(turn.rotation.transpose() * arm));
   candidate.distance = found.distance;
-  candidate.normal.noalias() = rotation * found.normal;
+  candidate.normal = turn.is_none ? found.normal : Vec3(turn.rotation * found.normal);
+  candidate.room = candidate.room_there();
 }
 
 /// Makes the collider a half-space to a vertex whose way here, where it was looked at, leads through it.
@@ -226,6 +232,7 @@ bool Contact::guard(Candidate& candidate) const {
   const Vec3 normal = shape.distance(*place).normal;
   if (normal.dot(last_normal) >= same_side) return false;
   candidate.is_guarded = true;
+  candidate.room = 0;
   candidate.normal = collider.end.rotation * normal;
   candidate.guard_offset = candidate.normal.dot(collider.end.to_space(*place));
   candidate.distance = candidate.normal.dot(candidate.place) - candidate.guard_offset;

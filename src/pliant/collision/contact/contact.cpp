@@ -46,19 +46,39 @@ void Contact::subtract(Positions& r, ThreadPool& threads) {
   });
 }
 
-void Contact::add_resistance(std::span<const Index> component_of_vertex, std::span<RigidResistance> components) const {
+bool Contact::is_anything_near() const {
+  return std::ranges::any_of(chunks_, [](const Chunk& chunk) { return !chunk.candidates.empty(); });
+}
+
+void Contact::add_touching(std::vector<Index>& vertices) const {
   for (const Chunk& chunk : chunks_) {
-    for (const Candidate& each : chunk.candidates) {
+    for (const Candidate& each : chunk.candidates) vertices.push_back(each.vertex);
+  }
+}
+
+void Contact::add_resistance(const Positions& q, std::span<const Index> component_of_vertex,
+                             std::span<RigidResistance> components) const {
+  for (const Chunk& chunk : chunks_) {
+    for (const Candidate& known : chunk.candidates) {
+      Candidate each = known;
+      look_at(each, row(q, each.vertex));
+      if (each.room > 0) continue;
       const Potential pushed = each.push();
       const Friction rubbed = each.friction();
       RigidResistance& sum = components[at(component_of_vertex[at(each.vertex)])];
+      sum.is_blocked |= each.distance < std::min(each.floor, known.distance);
       sum.energy += pushed.energy + rubbed.energy;
-      if (pushed.curvature > 0) sum.add_spring(each.place, each.normal, pushed.curvature);
-      if (!(rubbed.curvature > 0)) continue;
-      const bool slides = rubbed.curvature < each.stiffness;
-      const Vec3 along = slides ? Vec3(rubbed.force.stableNormalized()) : each.friction_normal.unitOrthogonal();
-      if (!slides || sum.sliding == SlidingFriction::bounded) sum.add_spring(each.place, along, rubbed.curvature);
-      sum.add_spring(each.place, each.friction_normal.cross(along), rubbed.curvature);
+      sum.add_force(each.place, pushed.force * each.normal + rubbed.force);
+      Mat3 stiffness = pushed.curvature * each.normal * each.normal.transpose();
+      if (rubbed.curvature > 0) {
+        stiffness -= rubbed.curvature * each.friction_normal * each.friction_normal.transpose();
+        stiffness.diagonal().array() += rubbed.curvature;
+        if (rubbed.curvature < each.stiffness && sum.sliding == SlidingFriction::as_it_is) {
+          const Vec3 along = rubbed.force.stableNormalized();
+          stiffness -= rubbed.curvature * along * along.transpose();
+        }
+      }
+      sum.add_stiffness(each.place, stiffness);
     }
   }
 }

@@ -15,35 +15,14 @@
 //
 // All vertices are in the order of the solver, but in what State and ContactPoint have.
 #include <algorithm>
-#include <span>
 
 #include "pliant/collision/contact/candidate.h"
 #include "pliant/collision/contact/contact_state.h"
+#include "pliant/collision/contact/contact_step.h"
 #include "pliant/collision/contact/rigid_resistance.h"
 #include "pliant/core/thread_pool.h"
 
 namespace pliant {
-
-/// A collider in a substep.
-struct ContactCollider {
-  Index number = 0;
-  const ColliderShape* shape = nullptr;
-  Vec3 surface_velocity = Vec3::Zero();  ///< in its frame [m/s]
-  Real friction = 0;                     ///< μ
-  bool has_own_friction = false;         ///< else a body's own goes before it
-  Pose begin{}, end{};                   ///< of the substep
-};
-
-/// What contact is told of a substep. Must outlive it.
-struct ContactStep {
-  const Positions& begin;             ///< qₙ [m]
-  std::span<const Real> masses;       ///< [kg]
-  std::span<const Real> radii;        ///< r of each vertex [m], > 0
-  std::span<const char> is_pinned;    ///< pinned vertices touch nothing
-  std::span<const Index> vertices;    ///< of the simulation; empty: the same
-  Real time_step = 0;                 ///< h of the substep [s]
-  std::span<const Real> frictions{};  ///< μ of each vertex' body, below 0 for none of its own; empty: none has
-};
 
 /// A vertex that touches a collider at the end of a step.
 struct ContactPoint {
@@ -96,8 +75,13 @@ class Contact {
   ContactSums add(Positions& r, ThreadPool& threads);
   /// Takes the forces that were found last from r [N].
   void subtract(Positions& r, ThreadPool& threads);
-  /// Adds up what contact resists rigid motions of each component with, where the forces were found last.
-  void add_resistance(std::span<const Index> component_of_vertex, std::span<RigidResistance> components) const;
+  bool is_anything_near() const;
+  /// Adds the vertices that may touch a collider.
+  void add_touching(std::vector<Index>& vertices) const;
+  /// Adds up what contact does to each component with those vertices at q, of which others are not asked, and resists
+  /// rigid motions from there with. Forces that were found last stay as they are.
+  void add_resistance(const Positions& q, std::span<const Index> component_of_vertex,
+                      std::span<RigidResistance> components) const;
   /// Adds up the energies of the forces that were found last, of each component [J].
   void add_energies(std::span<const Index> component_of_vertex, std::span<Real> components) const;
   /// After add(): takes the present loads for friction and corrects r. Returns the new sums.
@@ -140,13 +124,19 @@ class Contact {
     HeldBack done;
   };
 
+  struct Turn {
+    Mat3 rotation;
+    bool is_none;
+  };
+
   bool is_current(Index begin, Index end, const Positions& q) const;
   void find_reaches(Chunk& chunk, Index begin, Index end, const Positions& q) const;
   void find_candidates(Chunk& chunk, Index begin, Index end, const Positions& q);
   Candidate make_candidate(Index vertex, Index collider, const Vec3& begin, Real begin_distance) const;
   void recall(const ContactState& state, const Positions& q, Candidate& candidate) const;
-  /// Its distance and normal at x, unless they are known.
+  /// Its distance and normal at x, unless they are known, or it is known to touch nothing.
   void look_at(Candidate& candidate, const Vec3& x) const {
+    if (candidate.room > 0 && (x - candidate.place).squaredNorm() < candidate.room * candidate.room) return;
     if (candidate.place != x) find_distance(candidate, x);
   }
   void find_distance(Candidate& candidate, const Vec3& x) const;
@@ -181,7 +171,7 @@ class Contact {
   }
 
   std::vector<ContactCollider> colliders_;
-  std::vector<Mat3> rotations_;  // of the colliders at the end of the substep
+  std::vector<Turn> turns_;  // of the colliders at the end of the substep
   std::optional<ContactStep> step_;
   std::vector<Real> stiffening_;           // κ, in the order of the simulation; empty: 1
   std::vector<Index> memory_of_vertices_;  // the first of each vertex of the simulation

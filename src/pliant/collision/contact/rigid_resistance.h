@@ -1,5 +1,5 @@
 #pragma once
-// What contact resists the rigid motions of a component with.
+// What contact does to components that are moved as rigid bodies.
 #include "pliant/core/types.h"
 
 namespace pliant {
@@ -14,14 +14,23 @@ struct RigidResistance {
 
   Vec3 center = Vec3::Zero();  ///< [m]
   SlidingFriction sliding = SlidingFriction::as_it_is;
+  Motion force = Motion::Zero();  ///< of contact, and its torque about the center [N, N m]
   Eigen::Matrix<Real, 6, 6> curvature = Eigen::Matrix<Real, 6, 6>::Zero();  ///< C of mᵀ C m / 2 [J]; its lower half
   Real energy = 0;                                                          ///< of contact [J]
+  bool is_blocked = false;                                                  ///< a vertex is where no move may lead
 
-  /// Of a spring of k [N/m] at x along a direction of length 1.
-  void add_spring(const Vec3& x, const Vec3& along, Real k) {
-    Motion motion;
-    motion << along, (x - center).cross(along);
-    curvature.selfadjointView<Eigen::Lower>().rankUpdate(motion, k);
+  void add_force(const Vec3& x, const Vec3& f) {
+    force.head<3>() += f;
+    force.tail<3>() += (x - center).cross(f);
+  }
+  /// Of a spring at x, K symmetric [N/m]. With the arm a and A b = a × b: K, A K and A K Aᵀ.
+  void add_stiffness(const Vec3& x, const Mat3& stiffness) {
+    const Vec3 arm = x - center;
+    Mat3 turning;
+    for (int i = 0; i < 3; ++i) turning.col(i) = arm.cross(stiffness.col(i));
+    curvature.topLeftCorner<3, 3>() += stiffness;
+    curvature.bottomLeftCorner<3, 3>() += turning;
+    for (int i = 0; i < 3; ++i) curvature.bottomRightCorner<3, 3>().row(i) += arm.cross(turning.row(i)).transpose();
   }
 };
 

@@ -71,6 +71,8 @@ class PairContact {
   void commit(const Positions& q, std::span<const Real> diagonal, ContactState& state, ThreadPool& threads);
   const PairReport& report() const { return report_; }
   std::span<const NearPair> near() const { return near_; }
+  /// Where the substep began [m].
+  const Positions& begin() const { return begin_; }
 
  private:
   bool shorten(const Positions& from, Positions& q, ThreadPool& threads);

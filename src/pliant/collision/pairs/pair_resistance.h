@@ -5,10 +5,15 @@
 
 namespace pliant {
 
-/// Adds what pairs between two components resist rigid motions of each with, as if the other one stood still, and the
-/// energy of each pair to one of its components.
-void add_resistance(std::span<const NearPair> pairs, const Positions& q, std::span<const Index> component_of_vertex,
-                    std::span<RigidResistance> components);
+/// Adds the vertices of pairs between two components that may push each other.
+void add_touching(std::span<const NearPair> pairs, std::span<const Index> component_of_vertex,
+                  std::vector<Index>& vertices);
+
+/// Adds what pairs between two components do with those vertices at q, of which others are not asked: forces on each,
+/// what they resist rigid motions of each with, as if the other one stood still, and the energy of each pair to one of
+/// its components. begin: positions at the beginning of the substep.
+void add_resistance(std::span<const NearPair> pairs, const Positions& q, const Positions& begin,
+                    std::span<const Index> component_of_vertex, std::span<RigidResistance> components);
 
 /// Adds the energy of each pair to the same one of its components [J].
 void add_energies(std::span<const NearPair> pairs, std::span<const Index> component_of_vertex,
