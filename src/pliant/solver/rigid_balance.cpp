@@ -16,6 +16,8 @@ constexpr Real worth_going_on = 1e-13;
 /// Of the size of a component that touches nothing.
 constexpr Real least_shift = 1e-6;
 constexpr int most_motions = 12;
+/// Each of some that touch each other moves as if the others stood still: many such motions only shake them.
+constexpr int most_motions_of_many = 4;
 constexpr int most_ways = 3;
 constexpr Real shorter = 0.4;
 constexpr int most_trials = 3;  // of ways without those that have gone back
@@ -108,6 +110,11 @@ void RigidBalance::find_touching(const StepContext& context, const WorkingState&
   joined_.resize(context.system.components().count());
   std::iota(joined_.begin(), joined_.end(), std::size_t{0});
   context.contact.join_components(component_of_vertex, joined_);
+  sizes_of_joined_.assign(joined_.size(), 0);
+  for (const std::size_t first : joined_) ++sizes_of_joined_[first];
+  for (Part& part : parts_) {
+    part.motions_left = sizes_of_joined_[joined_[part.component]] == 1 ? most_motions : most_motions_of_many;
+  }
 }
 
 /// Of all components where they are under trial.
@@ -145,7 +152,7 @@ bool RigidBalance::find_motion(const RigidResistance* contact, Part& part) {
   part.is_tried = false;
   part.placement_now = part.placement;
   part.rise_now = part.rise;
-  if (part.freedom == RigidFreedom::none) return false;
+  if (part.freedom == RigidFreedom::none || (contact != nullptr && part.motions_left-- <= 0)) return false;
   const Motion force =
       contact != nullptr ? Motion(part.moments.force(part.placement) + contact->force) : part.moments.residual();
   Matrix curvature = Matrix::Zero();

@@ -42,6 +42,7 @@ class RigidBalance {
     SlidingFriction sliding = SlidingFriction::as_it_is;
     Real share_of_motion = 1;
     Real share_of_way = 1;
+    int motions_left = 0;
     bool is_tried = false;  // placement_now
     bool moves = false;
     bool goes_back = false;
@@ -77,7 +78,8 @@ class RigidBalance {
   std::vector<Real> energies_before_;          // the same, of pairs within components too [J]
   std::vector<Real> energies_;
   std::vector<std::size_t> joined_;  // of each component, the first of those that it may touch
-  std::vector<Real> rises_;          // of the objective, of each of those [J]
+  std::vector<Index> sizes_of_joined_;
+  std::vector<Real> rises_;  // of the objective, of each of those [J]
   Positions positions_before_, residual_before_;
 };
 
