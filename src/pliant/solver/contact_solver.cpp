@@ -110,7 +110,7 @@ void ContactSolver::begin_substep(const State& state, Real begin, Real end, Real
   }
   contact_.begin_substep(step, state.contact, work.positions, threads);
   if (!has_pairs()) return;
-  pairs_.begin_substep(step, state.contact, has_load_, work.positions, threads);
+  pairs_.begin_substep(step, state.contact, system.components_of_vertices(), has_load_, work.positions, threads);
   contact_.find_forces(work.positions, threads);
 }
 

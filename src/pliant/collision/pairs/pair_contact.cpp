@@ -52,7 +52,8 @@ void PairContact::find_loaded_vertices(const ContactState& state, std::vector<ch
 // ---- who may touch whom in a substep
 // ---------------------------------------------------------------------------------
 
-void PairContact::begin_substep(const ContactStep& step, const ContactState& state, std::span<const char> has_load,
+void PairContact::begin_substep(const ContactStep& step, const ContactState& state,
+                                std::span<const Index> component_of_vertex, std::span<const char> has_load,
                                 Positions& q, ThreadPool& threads) {
   step_.emplace(step);
   begin_ = step.begin;
@@ -68,12 +69,40 @@ void PairContact::begin_substep(const ContactStep& step, const ContactState& sta
   pinned_.clear();
   std::ranges::copy_if(surface_->vertices, std::back_inserter(pinned_), [&](Index v) { return is_pinned(v); });
   targets_ = q;
-  shorten(step.begin, q, threads);
+  shorten_components(component_of_vertex, q, threads);
   list(q, threads);
   for (NearPair& each : near_) {
     each.push(q, step.begin);
     const auto is_loaded = [&](Index v) { return !has_load.empty() && has_load[at(v)] != 0; };
     if (std::ranges::any_of(each.pair.vertices, is_loaded)) each.freeze(q, step.begin);
+  }
+}
+
+/// A vertex that stops where its neighbors go on stretches what is between them, which no iterations make good. So all
+/// of its component goes as far as it may; where that does not do, the component stays where it was.
+void PairContact::shorten_components(std::span<const Index> component_of_vertex, Positions& q, ThreadPool& threads) {
+  constexpr int most_trials = 4;
+  const Positions whole = q;
+  const auto count = static_cast<Index>(q.rows());
+  const Positions& begin = begin_;
+  shares_.assign(at(*std::ranges::max_element(component_of_vertex) + 1), 1);
+  for (int trial = 0; shorten(begin, q, threads) && trial < most_trials; ++trial) {
+    const std::vector<Real> before = shares_;
+    for (const Index v : surface_->vertices) {
+      const Vec3 way = row(wish_, v) - row(begin, v);
+      if (is_pinned(v) || (row(q, v).array() == row(wish_, v).array()).all()) continue;
+      const auto component = at(component_of_vertex[at(v)]);
+      const Real gone = std::max<Real>(0, way.dot(row(q, v) - row(begin, v)) / way.squaredNorm());
+      const Real most = trial == 0 ? gone : 0;
+      shares_[component] = std::min(shares_[component], before[component] * most);
+    }
+    if (shares_ == before) return;
+    for (Index v = 0; v < count; ++v) {
+      const Real share = shares_[at(component_of_vertex[at(v)])];
+      q.row(v) = is_pinned(v) || share == 1
+                     ? whole.row(v)
+                     : Vec3(row(begin, v) + share * (row(whole, v) - row(begin, v))).transpose().eval();
+    }
   }
 }
 

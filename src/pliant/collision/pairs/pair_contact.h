@@ -42,11 +42,11 @@ class PairContact {
 
   /// Of each vertex, whether a pair in which it was pushed in the step before: where bodies lie on each other.
   void find_loaded_vertices(const ContactState& state, std::vector<char>& is_loaded) const;
-  /// A substep begins with the iterate q, which is held back. has_load: of each vertex,
-  /// whether q begins in the balance of the last step, so that its loads are right; empty: of none. Throws Error(input)
-  /// where too many pairs are near each other.
-  void begin_substep(const ContactStep& step, const ContactState& state, std::span<const char> has_load, Positions& q,
-                     ThreadPool& threads);
+  /// A substep begins with the iterate q, which is held back: components of which a vertex is, as a whole, so that none
+  /// is stretched. has_load: of each vertex, whether q begins in the balance of the last step, so that its loads are
+  /// right; empty: of none. Throws Error(input) where too many pairs are near each other.
+  void begin_substep(const ContactStep& step, const ContactState& state, std::span<const Index> component_of_vertex,
+                     std::span<const char> has_load, Positions& q, ThreadPool& threads);
 
   /// Takes pinned vertices on to where they should be, if they are held up, and q back so far that nothing passes
   /// through anything on the way from `from`, where the last forces were found. Pinned vertices that have moved make
@@ -76,6 +76,7 @@ class PairContact {
 
  private:
   bool shorten(const Positions& from, Positions& q, ThreadPool& threads);
+  void shorten_components(std::span<const Index> component_of_vertex, Positions& q, ThreadPool& threads);
   void list(const Positions& q, ThreadPool& threads);
   void collect();
   NearPair make_near(const Pair& pair, Real radius) const;
@@ -93,6 +94,7 @@ class PairContact {
   std::vector<Index> pinned_;       // vertices of the surface
   Positions targets_;               // where they should be
   Positions wish_;                  // where a move would lead
+  std::vector<Real> shares_;        // scratch, of components
   PairList list_;
   PairWeights weights_;
   std::vector<NearPair> near_;         // whose weight is above 0, in the order of pairs
