@@ -143,9 +143,9 @@ NearPair PairContact::make_near(const Pair& pair, Real radius) const {
   NearPair made;
   made.pair = pair;
   made.radius = radius;
-  const auto of_vertex = [&](Index v) { return stiffening_[at(v)] * step_->masses[at(v)]; };
+  const auto of_vertex = [&](Index v) { return is_pinned(v) ? Real{0} : stiffening_[at(v)] * step_->masses[at(v)]; };
   Index stiffest = pair.vertices[0];
-  if (pair.kind == PairKind::edge_edge) {
+  if (pair.kind == PairKind::edge_edge || is_pinned(stiffest)) {
     for (const Index v : pair.vertices) {
       if (of_vertex(v) > of_vertex(stiffest)) stiffest = v;
     }
