@@ -77,6 +77,7 @@ BodyId Simulation::add_body(Mesh mesh, const Mass& mass, BodyOptions options) {
   if (!state_.contact.stiffening.empty()) state_.contact.stiffening.resize(state_.masses.size(), 1);
   if (!state_.contact.in_factor.empty()) state_.contact.in_factor.resize(state_.masses.size(), 0);
   state_.contact.pairs.clear();  // their features have other numbers now
+  state_.contact.let_go.is_known = false;
   bodies_.push_back({std::move(options.name), std::move(mesh), first_vertex});
   groups_changed_ = true;
   colliders_changed_ = true;
@@ -140,6 +141,7 @@ StepReport Simulation::step() {
     throw Error(ErrorKind::diverged, message_of(divergence.cause(), *this));
   }
   if (settings_.precision != solver_->precision()) warn_of_precision();
+  for (const LetGoBodies& each : report.contact.let_go_bodies) warn_of(each);
   return report;
 }
 
@@ -187,6 +189,7 @@ void Simulation::set_state(const Positions& positions, const Positions& velociti
   state_.energy_surplus.clear();
   state_.contact.memory.clear();
   state_.contact.pairs.clear();
+  state_.contact.let_go = {};
   state_.contact.stiffening.clear();
   state_.contact.in_factor.clear();
   solver_->forget_prediction();

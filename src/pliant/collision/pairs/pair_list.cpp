@@ -84,8 +84,10 @@ void PairList::find_own_radii(const Positions& rest) {
   }
 }
 
-void PairList::begin(std::span<const char> is_pinned) {
+void PairList::begin(std::span<const char> is_pinned, const LetGo& let_go, const ReducedDistances& reduced) {
   search_->set_held(is_pinned);
+  let_go_ = &let_go;
+  reduced_ = &reduced;
   is_listed_ = false;
 }
 
@@ -113,7 +115,7 @@ void PairList::list(const Positions& q, ThreadPool& threads) {
     for (std::size_t i = begin; i < end; ++i) {
       const Real radius = radius_of(pairs[i]);
       const Real reach = (1 + list_slack) * radius;  // begin_way() counts on it for all pairs
-      if (!(box_distance(q, pairs[i]) < reach)) continue;
+      if (!(box_distance(q, pairs[i]) < reach) || let_go_->has(pairs[i])) continue;
       const Gap gap = measure(q, pairs[i]);
       if (gap.distance < reach) listed_chunks_[chunk].push_back({{pairs[i], radius, gap.distance}, gap});
     }
@@ -127,6 +129,7 @@ void PairList::list(const Positions& q, ThreadPool& threads) {
     }
   }
   take_own_radii();
+  reduce_radii();
   reference_ = q;
   gone_.assign(at(static_cast<Index>(q.rows())), 0);
   is_listed_ = true;
@@ -140,6 +143,23 @@ void PairList::take_own_radii() {
     if (own == own_radii_.end()) return;
     if (own->pair == each.pair) each.radius = own->radius;
   }
+}
+
+void PairList::reduce_radii() {
+  if (reduced_->is_empty()) return;
+  for (Near& each : near_) each.radius *= reduced_->share(each.pair, *surface_);
+}
+
+std::vector<PairList::Near> PairList::nearer_than_radius(const Positions& q, const LetGo& among, ThreadPool& threads) {
+  std::vector<Near> found;
+  for (const Pair& pair : search_->find(q, q, radii_, threads)) {
+    if (!among.has(pair)) continue;
+    const auto own = std::ranges::lower_bound(own_radii_, pair, {}, &OwnRadius::pair);
+    const bool has_own = own != own_radii_.end() && own->pair == pair;
+    const Near near{pair, has_own ? own->radius : radius_of(pair), measure(q, pair).distance};
+    if (near.distance < near.radius) found.push_back(near);
+  }
+  return found;
 }
 
 void PairList::go_to(const Positions& q) {
@@ -180,6 +200,7 @@ bool PairList::covers(const Positions& q) {
 
 /// A bound below certain_share of r is nothing that rounding could not undo.
 void PairList::add_on_the_way(const Pair& pair, Real bound, OnTheWay& found) const {
+  if (let_go_->has(pair)) return;
   const bool is_certain = bound > certain_share * radii_[at(pair.vertices[0])];
   if (is_certain && sum_of_sides(pair, ways_) < free_share_of_bound * bound) return;
   found.pairs.push_back(pair);
