@@ -5,6 +5,7 @@
 #include "pliant/core/error.h"
 #include "pliant/mesh/geometry.h"
 #include "pliant/simulation/divergence_message.h"
+#include "pliant/simulation/let_go_message.h"
 #include "pliant/simulation/transaction.h"
 #include "pliant/solver/solver.h"
 
@@ -140,16 +141,24 @@ StepReport Simulation::step() {
   } catch (const Divergence& divergence) {
     throw Error(ErrorKind::diverged, message_of(divergence.cause(), *this));
   }
-  if (settings_.precision != solver_->precision()) warn_of_precision();
-  for (const LetGoBodies& each : report.contact.let_go_bodies) warn_of(each);
+  add_warnings(report);
   return report;
 }
 
-void Simulation::warn_of_precision() {
-  constexpr std::string_view warning =
-      "precision: this system is too stiff for its masses and time step to be solved in single precision; it is solved "
-      "in double precision, which is slower";
-  if (std::ranges::find(warnings_, warning) == warnings_.end()) warnings_.emplace_back(warning);
+/// Each once.
+void Simulation::add_warnings(const StepReport& report) {
+  const auto add = [&](const std::string& begin, const std::string& end) {
+    const auto is_same = [&](const std::string& warning) { return warning.starts_with(begin); };
+    if (std::ranges::none_of(warnings_, is_same)) warnings_.push_back(begin + end);
+  };
+  if (settings_.precision != solver_->precision()) {
+    add("precision: this system is too stiff for its masses and time step to be solved in single precision; ",
+        "it is solved in double precision, which is slower");
+  }
+  for (const LetGoBodies& each : report.contact.let_go_bodies) {
+    const LetGoMessage message(each, bodies_);
+    add(message.begin, message.end);
+  }
 }
 
 Evaluation Simulation::evaluate() {

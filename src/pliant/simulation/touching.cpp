@@ -106,33 +106,6 @@ std::vector<VertexTouch> Simulation::touches() const {
   return touches;
 }
 
-/// Once for each two bodies.
-void Simulation::warn_of(const LetGoBodies& let_go) {
-  const auto body_of = [&](Index vertex) -> const Body& {
-    return *std::prev(std::ranges::upper_bound(bodies_, vertex, {}, &Body::first_vertex));
-  };
-  const Body& one = body_of(let_go.edge[0]);
-  const Body& other = body_of(let_go.triangle[0]);
-  const Vec3 place = let_go.place.array() + 0.0;  // no −0
-  const std::string at_place = fmt::format("at ({:.4g}, {:.4g}, {:.4g}) m", place.x(), place.y(), place.z());
-  const auto edge = [&](std::size_t end) { return let_go.edge[end] - one.first_vertex; };
-  const auto corner = [&](std::size_t i) { return let_go.triangle[i] - other.first_vertex; };
-  std::string who, what;
-  if (let_go.is_held_up) {
-    who = fmt::format("'{}', which is pinned, was held up for long by '{}': ", one.name, other.name);
-    what =
-        fmt::format("vertex {} {}; what is held up passes through until it is where it should be", edge(0), at_place);
-  } else {
-    const auto& [first, second] = let_go.bodies;
-    who = &one == &other ? fmt::format("'{}' crosses itself: ", one.name)
-                         : fmt::format("'{}' crosses '{}': ", bodies_[at(first)].name, bodies_[at(second)].name);
-    what = fmt::format("edge {}-{} of '{}', face {}-{}-{} of '{}', {}; they are let go until they are apart", edge(0),
-                       edge(1), one.name, corner(0), corner(1), corner(2), other.name, at_place);
-  }
-  const auto is_same = [&](const std::string& warning) { return warning.starts_with(who); };
-  if (std::ranges::none_of(warnings_, is_same)) warnings_.push_back(who + what);
-}
-
 Wrench Simulation::wrench(ColliderId id) const {
   collider(id);
   return solver_->contact().wrench(static_cast<Index>(id));
