@@ -17,7 +17,7 @@ void LetGo::set(std::vector<Vertices> pairs, std::size_t vertex_count) {
     for (const Index v : each) is_related_[at(v)] = 1;
   }
   std::ranges::sort(pairs_);
-  pairs_.erase(std::ranges::unique(pairs_).begin(), pairs_.end());
+  pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
 }
 
 bool LetGo::add(std::span<const Vertices> pairs, std::size_t vertex_count) {

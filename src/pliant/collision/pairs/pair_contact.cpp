@@ -93,10 +93,12 @@ void PairContact::begin_exceptions(const ContactState& state, ThreadPool& thread
   tangles_.begin(*step_, state.let_go);
   held_up_.begin(*step_, state.let_go);
   reduced_.clear();
-  if (!state.let_go.reduced.empty()) {
-    for (Index v = 0; v < count_of(step_->masses); ++v) {
-      const auto of_vertex = std::ranges::equal_range(state.let_go.reduced, number_of(v), {}, &ReducedDistance::vertex);
-      for (const ReducedDistance& each : of_vertex) reduced_.set({v, each.body, each.share}, step_->masses.size());
+  const std::vector<ReducedDistance>& reduced = state.let_go.reduced;
+  for (Index v = 0; !reduced.empty() && v < count_of(step_->masses); ++v) {
+    const Index number = number_of(v);
+    auto each = std::ranges::lower_bound(reduced, number, {}, &ReducedDistance::vertex);
+    for (; each != reduced.end() && each->vertex == number; ++each) {
+      reduced_.set({v, each->body, each->share}, step_->masses.size());
     }
   }
   list_.begin(step_->is_pinned, tangles_.let_go(), reduced_);
