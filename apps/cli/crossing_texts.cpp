@@ -129,7 +129,7 @@ std::vector<std::string> crossing_warnings(const pliant::Simulation& simulation)
                            pliant::visit_crossings({.positions = positions,
                                                     .triangles = all.triangles,
                                                     .edges = all.edges,
-                                                    .most_effort = crossing_effort(all.triangles.size())},
+                                                    .most_effort = pliant::usual_crossing_effort(all.triangles.size())},
                                                    note);
   constexpr std::size_t shown = 5;
   std::vector<std::string> warnings;

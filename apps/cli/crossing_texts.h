@@ -18,12 +18,6 @@ struct CrossingBody {
   bool is_solid = false;             ///< its triangles are faces of tetrahedra, which have no number
 };
 
-/// What `info` and `check` do to find crossings, some seconds: enough for millions of ordinary triangles, not for
-/// 100,000 that all overlap.
-constexpr std::int64_t crossing_effort(std::size_t triangle_count) {
-  return 1'000'000'000 + 2'000 * static_cast<std::int64_t>(triangle_count);
-}
-
 /// Whether the triangles may be those of a surface, which has about two for a vertex. Of more than sixteen the memory
 /// of a search would not be in proportion to the mesh.
 constexpr bool may_be_surface(std::size_t triangle_count, pliant::Index vertex_count) {

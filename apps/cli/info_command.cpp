@@ -109,9 +109,11 @@ SelfCrossings find_self_crossings(const pliant::Mesh& mesh) {
   SelfCrossings result;
   result.is_complete = may_be_surface(triangles.size(), mesh.vertex_count());
   if (!result.is_complete) return result;
-  const pliant::Crossings found = pliant::find_crossings(
-      {.positions = mesh.vertices, .triangles = triangles, .most_effort = crossing_effort(triangles.size())},
-      Defect::max_listed);
+  const pliant::Crossings found =
+      pliant::find_crossings({.positions = mesh.vertices,
+                              .triangles = triangles,
+                              .most_effort = pliant::usual_crossing_effort(triangles.size())},
+                             Defect::max_listed);
   result.is_complete = found.is_complete;
   if (found.count == 0) return result;
   const CrossingBody body{.is_solid = mesh.triangles.empty()};

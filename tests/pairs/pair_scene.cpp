@@ -1,7 +1,9 @@
 #include "tests/pairs/pair_scene.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 #include <string>
 
 #include "pliant/collision/crossings.h"
@@ -51,20 +53,49 @@ PairScene make_pair_scene(std::string_view name, const PairOptions& options) {
   fail_input("no scene '" + std::string(name) + "'; choose one of " + names);
 }
 
-std::int64_t count_crossings(const Simulation& simulation) {
+namespace {
+
+/// Of all bodies, one after another.
+struct AllFeatures {
   std::vector<Triangle> triangles;
   std::vector<Edge> edges;
-  for (const Body& body : simulation.bodies()) {
-    for (Triangle each : surface_triangles(body.mesh)) {
-      for (Index& vertex : each) vertex += body.first_vertex;
-      triangles.push_back(each);
-    }
-    for (Edge each : body.mesh.edges) {
-      for (Index& vertex : each) vertex += body.first_vertex;
-      edges.push_back(each);
+
+  explicit AllFeatures(const Simulation& simulation) {
+    for (const Body& body : simulation.bodies()) {
+      for (Triangle each : surface_triangles(body.mesh)) {
+        for (Index& vertex : each) vertex += body.first_vertex;
+        triangles.push_back(each);
+      }
+      for (Edge each : body.mesh.edges) {
+        for (Index& vertex : each) vertex += body.first_vertex;
+        edges.push_back(each);
+      }
     }
   }
-  return find_crossings({simulation.state().positions, triangles, edges}, 0).count;
+};
+
+}  // namespace
+
+std::int64_t count_crossings(const Simulation& simulation) {
+  const AllFeatures all(simulation);
+  return find_crossings({simulation.state().positions, all.triangles, all.edges}, 0).count;
+}
+
+std::int64_t count_unknown_crossings(const Simulation& simulation) {
+  std::set<std::array<Index, 2>> known;
+  for (const LetGoVertices& each : simulation.state().contact.let_go.pairs) known.insert(each.vertices);
+  const AllFeatures all(simulation);
+  std::int64_t count = 0;
+  visit_crossings({simulation.state().positions, all.triangles, all.edges}, [&](const Crossing& crossing) {
+    bool is_known = true;
+    for (const Index a : crossing.edge) {
+      for (const Index b : all.triangles[at(crossing.triangle)]) {
+        is_known = is_known && known.contains({std::min(a, b), std::max(a, b)});
+      }
+    }
+    if (!is_known) ++count;
+  });
+  return count;
 }
 
 Real rms_speed(const Simulation& simulation) {

@@ -41,6 +41,8 @@ PairScene make_pair_scene(std::string_view name, const PairOptions& options);
 
 /// Crossings of all surfaces and ropes of a simulation, by the exact checker.
 std::int64_t count_crossings(const pliant::Simulation& simulation);
+/// Those of which a vertex of the edge and one of the triangle have not been let go.
+std::int64_t count_unknown_crossings(const pliant::Simulation& simulation);
 
 /// The root of the mean square of all speeds [m/s].
 pliant::Real rms_speed(const pliant::Simulation& simulation);

@@ -265,7 +265,39 @@ TEST_CASE("surfaces that touch have columns of their pairs, without a collider t
   CHECK(columns.at("smallest_gap").back() > 0);
   CHECK(columns.at("smallest_gap").back() < 0.05);
   CHECK(columns.at("shortened").front() == 0);
+  CHECK(columns.at("lag").back() == 0);
+  CHECK(columns.at("let_go").back() == 0);
   CHECK(columns.at("ms_contact").back() > 0);
+}
+
+TEST_CASE("crossings and the lag of pins have columns") {
+  const TemporaryFolder folder;
+  Simulation simulation;
+  const Mesh sheet = grid({.columns = 5, .rows = 5, .plane = Plane::xy});
+  Mesh upright = grid({.columns = 5, .rows = 5, .size = {0.5, 0.5}});
+  upright.vertices.rowwise() += Vec3(0.22, 0.51, -0.23).transpose();
+  Mesh above = sheet;
+  above.vertices.col(2).array() += 0.4;
+  simulation.add(simulation.add_body(sheet, Mass::total(1)), Position{});
+  simulation.add(simulation.add_body(upright, Mass::total(0.1)), EdgeSpring{.stiffness = 50});
+  Mesh between = above;
+  between.vertices.col(2).array() -= 0.1;
+  simulation.add(simulation.add_body(between, Mass::total(1)), EdgeSpring{.stiffness = 50});
+  const BodyId block = simulation.add_body(above, Mass::total(1));
+  const GroupId pins = simulation.add(block, Position{});
+  simulation.set_contact({.surfaces = true});
+  Recorder recorder(folder.path(), nullptr, 1, simulation.group_names(), 0, {.surfaces = true});
+  recorder.record(simulation, {});
+  for (int i = 0; i < 25; ++i) {
+    for (Index v = 0; v < above.vertex_count(); ++v) {
+      simulation.set_target(pins, v, row(above.vertices, v) - 0.02 * (i + 1) * Vec3::UnitZ());
+    }
+    recorder.record(simulation, simulation.step());
+  }
+  const auto columns = read_columns(TemporaryFolder::read(folder.path() / "measurements.csv"));
+  CHECK(columns.at("let_go").front() == 0);  // nothing has been looked for
+  CHECK(columns.at("let_go")[1] > 0);
+  CHECK(*std::ranges::max_element(columns.at("lag")) > 0);  // a sheet is in the way
 }
 
 }  // namespace

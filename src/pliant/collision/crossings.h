@@ -47,6 +47,11 @@ struct CrossingInput {
   std::int64_t most_effort = std::numeric_limits<std::int64_t>::max();
 };
 
+/// Some seconds: enough for millions of ordinary triangles, not for 100,000 that all overlap.
+constexpr std::int64_t usual_crossing_effort(std::size_t triangle_count) {
+  return 1'000'000'000 + 2'000 * static_cast<std::int64_t>(triangle_count);
+}
+
 /// Calls `visit` with every crossing, each once, in an order that depends on the input alone. Left out are triangles
 /// without any area, edges without length, and both where a coordinate is not finite or past coordinate_limit. A
 /// triangle that is repeated is crossed as often, but once at its border.

@@ -129,13 +129,36 @@ const std::optional<Pose>& Colliders::target(ColliderId id) const {
 void Colliders::set_contact(const ContactSettings& settings) {
   check_options("contact", settings);
   check_projection(settings_, settings.surfaces || !colliders_.empty());
-  if (!settings.surfaces && !state_.contact.pairs.empty()) {
+  if (!settings.surfaces && !(state_.contact.pairs.empty() && state_.contact.let_go.is_empty())) {
     if (transaction_ != nullptr) transaction_->save_colliders();
     state_.contact.pairs.clear();
+    state_.contact.let_go = {};
   }
   contact_ = settings;
   colliders_changed_ = true;
   surfaces_changed_ = true;
+}
+
+void Colliders::check_let_go(const LetGoState& let_go) const {
+  const auto check = [](bool is_right, const std::string& what) {
+    if (!is_right) fail_input("restore: " + what + "; give a state that state() has returned");
+  };
+  const auto is_vertex = [&](Index vertex) { return vertex >= 0 && vertex < state_.vertex_count(); };
+  check(std::ranges::is_sorted(let_go.pairs, {}, &LetGoVertices::vertices), "what is let go is not in order");
+  for (const auto& [vertices, is_held_up] : let_go.pairs) {
+    check(std::ranges::all_of(vertices, is_vertex), "a vertex is let go that there is not");
+  }
+  const auto key = [](const ReducedDistance& each) { return std::pair{each.vertex, each.body}; };
+  check(std::ranges::is_sorted(let_go.reduced, {}, key), "the reduced distances are not in order");
+  for (const ReducedDistance& each : let_go.reduced) {
+    const bool is_body = each.body >= 0 && each.body < count_of(bodies_);
+    check(is_vertex(each.vertex) && is_body, "a distance is reduced of a vertex or from a body that there is not");
+    check(each.share > 0 && each.share < 1, "a share of a distance is not between 0 and 1");
+  }
+  check(std::ranges::is_sorted(let_go.held_up, {}, &HeldUpVertex::vertex), "the vertices held up are not in order");
+  for (const auto& [vertex, substeps] : let_go.held_up) {
+    check(is_vertex(vertex) && substeps > 0, "a vertex is held up that there is not");
+  }
 }
 
 /// Refuses what is not of this simulation.
@@ -165,6 +188,7 @@ void Colliders::check_contact(const ContactState& contact) const {
     if (each.kind > PairKind::vertex_edge || each.features[0] < 0 || each.features[1] < 0) fail("a pair is none");
     if (!each.slide.allFinite()) fail("a pair of surfaces is not finite");
   }
+  check_let_go(contact.let_go);
   const auto fits = [&](const std::vector<Real>& numbers, Real least) {
     const auto is_in_range = [least](Real number) { return number >= least && std::isfinite(number); };
     return (numbers.empty() || numbers.size() == state_.masses.size()) && std::ranges::all_of(numbers, is_in_range);

@@ -71,6 +71,7 @@ class Colliders {
   static void check_projection(const SolverSettings& settings, bool has_colliders);
   /// Refuses a state of contact that is not of these colliders and so many vertices.
   void check_contact(const ContactState& contact) const;
+  void check_let_go(const LetGoState& let_go) const;
 
   SolverSettings settings_;
   State state_;

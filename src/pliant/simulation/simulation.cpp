@@ -5,6 +5,7 @@
 #include "pliant/core/error.h"
 #include "pliant/mesh/geometry.h"
 #include "pliant/simulation/divergence_message.h"
+#include "pliant/simulation/let_go_message.h"
 #include "pliant/simulation/transaction.h"
 #include "pliant/solver/solver.h"
 
@@ -77,6 +78,7 @@ BodyId Simulation::add_body(Mesh mesh, const Mass& mass, BodyOptions options) {
   if (!state_.contact.stiffening.empty()) state_.contact.stiffening.resize(state_.masses.size(), 1);
   if (!state_.contact.in_factor.empty()) state_.contact.in_factor.resize(state_.masses.size(), 0);
   state_.contact.pairs.clear();  // their features have other numbers now
+  state_.contact.let_go.is_known = false;
   bodies_.push_back({std::move(options.name), std::move(mesh), first_vertex});
   groups_changed_ = true;
   colliders_changed_ = true;
@@ -139,15 +141,24 @@ StepReport Simulation::step() {
   } catch (const Divergence& divergence) {
     throw Error(ErrorKind::diverged, message_of(divergence.cause(), *this));
   }
-  if (settings_.precision != solver_->precision()) warn_of_precision();
+  add_warnings(report);
   return report;
 }
 
-void Simulation::warn_of_precision() {
-  constexpr std::string_view warning =
-      "precision: this system is too stiff for its masses and time step to be solved in single precision; it is solved "
-      "in double precision, which is slower";
-  if (std::ranges::find(warnings_, warning) == warnings_.end()) warnings_.emplace_back(warning);
+/// Each once.
+void Simulation::add_warnings(const StepReport& report) {
+  const auto add = [&](const std::string& begin, const std::string& end) {
+    const auto is_same = [&](const std::string& warning) { return warning.starts_with(begin); };
+    if (std::ranges::none_of(warnings_, is_same)) warnings_.push_back(begin + end);
+  };
+  if (settings_.precision != solver_->precision()) {
+    add("precision: this system is too stiff for its masses and time step to be solved in single precision; ",
+        "it is solved in double precision, which is slower");
+  }
+  for (const LetGoBodies& each : report.contact.let_go_bodies) {
+    const LetGoMessage message(each, bodies_);
+    add(message.begin, message.end);
+  }
 }
 
 Evaluation Simulation::evaluate() {
@@ -187,6 +198,7 @@ void Simulation::set_state(const Positions& positions, const Positions& velociti
   state_.energy_surplus.clear();
   state_.contact.memory.clear();
   state_.contact.pairs.clear();
+  state_.contact.let_go = {};
   state_.contact.stiffening.clear();
   state_.contact.in_factor.clear();
   solver_->forget_prediction();

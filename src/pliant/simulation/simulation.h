@@ -161,7 +161,7 @@ class Simulation : public Colliders {
   BodyView view(BodyId id) const;
   const Group& group(GroupId id) const;
   std::span<Real> target_numbers(GroupId id, Index i) const;
-  void warn_of_precision();
+  void add_warnings(const StepReport& report);
   void check_group_of(const Group& added, std::optional<GroupId> replaced) const;
   void warn_of(const Group& added);
   template <class Constraint>

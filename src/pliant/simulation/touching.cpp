@@ -78,7 +78,12 @@ void Colliders::set_contact(BodyId id, const BodyContact& contact) {
     }
   }
   if (transaction_ != nullptr) transaction_->save_body_contacts();
-  bodies_[static_cast<std::size_t>(id)].contact = contact;
+  BodyContact& present = bodies_[static_cast<std::size_t>(id)].contact;
+  if (contact.self != present.self || contact.ignores != present.ignores) {
+    if (transaction_ != nullptr) transaction_->save_colliders();
+    state_.contact.let_go.is_known = false;
+  }
+  present = contact;
   colliders_changed_ = true;
   surfaces_changed_ = true;
 }

@@ -250,6 +250,8 @@ void ContactSolver::commit_substep(const System& system, WorkingState& work, Thr
   report.smallest_gap = pairs.smallest_gap;
   report.shortened += pairs.shortened;
   report.lag = pairs.lag;
+  report.let_go = pairs.let_go;
+  report.let_go_bodies.insert(report.let_go_bodies.end(), pairs.let_go_bodies.begin(), pairs.let_go_bodies.end());
   seconds_ += watch.seconds();
   report.seconds = seconds_;
 }

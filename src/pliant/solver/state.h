@@ -74,7 +74,10 @@ struct ContactReport {
   Real smallest_gap = std::numeric_limits<Real>::infinity();  ///< between them at its end [m]
   Real lag = 0;  ///< how far pinned vertices are behind where they should be, held up by what is in their way [m]
   Index shortened = 0;  ///< moves of vertices that were cut so that no surface passes through another
-  double seconds = 0;   ///< to find them, add them up and hold back what meets a surface
+  /// At its end, edges that pass through a triangle, and pinned vertices that may pass what has held them up.
+  Index let_go = 0;
+  std::vector<LetGoBodies> let_go_bodies{};  ///< of which something is let go since this step
+  double seconds = 0;                        ///< to find them, add them up and hold back what meets a surface
 };
 
 /// What a step tells about itself.

@@ -264,6 +264,36 @@ std::vector<PairMemory> read_pairs(const Node& node) {
   return pairs;
 }
 
+/// A list of so many numbers for each thing; calls visit(numbers) with those of one.
+template <std::size_t count, class Visit>
+void for_each_of(const Node& list, Visit&& visit) {
+  list.require_list();
+  if (list.size() % count != 0) list.fail(fmt::format("has no {} numbers for each; take another checkpoint", count));
+  for (std::size_t i = 0; i < list.size(); i += count) {
+    std::array<Index, count> numbers{};
+    for (std::size_t j = 0; j < count; ++j) read(list[i + j], numbers[j]);
+    visit(numbers);
+  }
+}
+
+LetGoState read_let_go(const Node& node) {
+  LetGoState let_go;
+  read(node.require("is_known"), let_go.is_known);
+  for_each_of<3>(node.require("pairs"), [&](const auto& numbers) {
+    let_go.pairs.push_back({{numbers[0], numbers[1]}, numbers[2] != 0});
+  });
+  for_each_of<2>(node.require("reduced"), [&](const auto& numbers) {
+    let_go.reduced.push_back({numbers[0], numbers[1], 0});
+  });
+  std::vector<Real> shares(let_go.reduced.size());
+  read_numbers(node.require("shares"), shares);
+  for (std::size_t i = 0; i < shares.size(); ++i) let_go.reduced[i].share = shares[i];
+  for_each_of<2>(node.require("held_up"), [&](const auto& numbers) {
+    let_go.held_up.push_back({numbers[0], numbers[1]});
+  });
+  return let_go;
+}
+
 /// Whether colliders and contacts are those of the simulation, Simulation::restore() says.
 ContactState read_contact(const Node& node, const State& fresh) {
   constexpr Index most_light_steps = 1000;
@@ -276,6 +306,7 @@ ContactState read_contact(const Node& node, const State& fresh) {
   });
   contact.memory = read_memory(node);
   contact.pairs = read_pairs(node);
+  if (const auto let_go = node.find("let_go")) contact.let_go = read_let_go(*let_go);
   const auto read_of_vertices = [&](const char* key, std::vector<Real>& numbers) {
     const Node entry = node.require(key);
     if (!entry.is_bytes() || !entry.bytes().empty()) numbers.resize(fresh.masses.size());

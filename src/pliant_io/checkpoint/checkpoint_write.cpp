@@ -79,6 +79,26 @@ Json write_pose(const Pose& pose) {
           {"rotation", bytes_of(std::span<const Real>(pose.rotation.coeffs().data(), 4))}};
 }
 
+Json write_let_go(const LetGoState& let_go) {
+  std::vector<Index> pairs;  // of each two vertices, and whether one was held up
+  for (const LetGoVertices& each : let_go.pairs) {
+    pairs.insert(pairs.end(), {each.vertices[0], each.vertices[1], each.is_held_up ? 1 : 0});
+  }
+  std::vector<Index> reduced;  // of each a vertex and a body
+  std::vector<Real> shares;
+  for (const ReducedDistance& each : let_go.reduced) {
+    reduced.insert(reduced.end(), {each.vertex, each.body});
+    shares.push_back(each.share);
+  }
+  std::vector<Index> held_up;  // of each a vertex and for how many substeps
+  for (const HeldUpVertex& each : let_go.held_up) held_up.insert(held_up.end(), {each.vertex, each.substeps});
+  return {{"is_known", let_go.is_known},
+          {"pairs", std::move(pairs)},
+          {"reduced", std::move(reduced)},
+          {"shares", bytes_of(shares)},
+          {"held_up", std::move(held_up)}};
+}
+
 Json write_contact(const ContactState& contact) {
   Json colliders = Json::array();
   for (const ColliderState& each : contact.colliders) {
@@ -102,6 +122,7 @@ Json write_contact(const ContactState& contact) {
   return {{"colliders", std::move(colliders)},
           {"pairs", std::move(features)},
           {"slides", bytes_of(slides)},
+          {"let_go", write_let_go(contact.let_go)},
           {"vertices", std::move(vertices)},
           {"touched", std::move(touched)},
           {"anchors_and_loads", bytes_of(numbers)},

@@ -1,6 +1,7 @@
 #pragma once
 // What contact keeps from step to step: a part of State.
 #include "pliant/collision/colliders/collider.h"
+#include "pliant/collision/contact/let_go_state.h"
 #include "pliant/collision/pairs/pair.h"
 
 namespace pliant {
@@ -31,6 +32,7 @@ struct ContactState {
   std::vector<ColliderState> colliders;  ///< by number
   std::vector<ContactMemory> memory;     ///< by vertex, then collider
   std::vector<PairMemory> pairs;         ///< in the order of pairs
+  LetGoState let_go;
   /// κ of each vertex, from 1: by how much its contacts are stiffer than 50 m/h²; empty: 1 for all.
   std::vector<Real> stiffening;
   /// What the factor has of contact at each vertex, D [N/m], and for how many steps it would have done without; empty:
@@ -40,7 +42,8 @@ struct ContactState {
 
   /// Whether a simulation without contact would have the same.
   bool is_empty() const {
-    return colliders.empty() && memory.empty() && pairs.empty() && stiffening.empty() && in_factor.empty();
+    return colliders.empty() && memory.empty() && pairs.empty() && let_go.is_empty() && stiffening.empty() &&
+           in_factor.empty();
   }
 };
 

@@ -2,10 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "pliant/collision/contact/stiffness.h"
 
 namespace pliant {
+namespace {
+
+/// Of r: what is nearer lies in one place.
+constexpr Real least_gap_apart = 1e-6;
+
+}  // namespace
+
 // ---- what lasts
 // ------------------------------------------------------------------------------------------------------
 
@@ -16,11 +24,14 @@ void PairContact::set_surface(Surface surface, const Positions& rest, SurfaceFri
   frictions_ = std::move(frictions);
   radii_ = std::move(radii);
   list_.set_surface(*surface_, rest, radii_);
+  tangles_.set_surface(*surface_);
 }
 
 void PairContact::clear() {
   forget_substep();
   list_.clear();
+  tangles_.clear();
+  reduced_.clear();
   weights_.clear();
   near_.clear();
   surface_.reset();
@@ -63,13 +74,14 @@ void PairContact::begin_substep(const ContactStep& step, const ContactState& sta
     stiffening_[i] = state.stiffening[step.vertices.empty() ? i : at(step.vertices[i])];
   }
   memory_ = state.pairs;
-  list_.begin(step.is_pinned);
+  begin_exceptions(state, threads);
   weights_.clear();
   near_.clear();
   pinned_.clear();
   std::ranges::copy_if(surface_->vertices, std::back_inserter(pinned_), [&](Index v) { return is_pinned(v); });
   targets_ = q;
   shorten_components(component_of_vertex, q, threads);
+  has_let_go_ = false;
   list(q, threads);
   for (NearPair& each : near_) {
     each.push(q, step.begin);
@@ -104,6 +116,41 @@ void PairContact::shorten_components(std::span<const Index> component_of_vertex,
                      : Vec3(row(begin, v) + share * (row(whole, v) - row(begin, v))).transpose().eval();
     }
   }
+}
+
+void PairContact::begin_exceptions(const ContactState& state, ThreadPool& threads) {
+  tangles_.begin(*step_, state.let_go);
+  held_up_.begin(*step_, state.let_go);
+  reduced_.clear();
+  const std::vector<ReducedDistance>& reduced = state.let_go.reduced;
+  for (Index v = 0; !reduced.empty() && v < count_of(step_->masses); ++v) {
+    const Index number = number_of(v);
+    auto each = std::ranges::lower_bound(reduced, number, {}, &ReducedDistance::vertex);
+    for (; each != reduced.end() && each->vertex == number; ++each) {
+      reduced_.set({v, each->body, each->share}, step_->masses.size());
+    }
+  }
+  list_.begin(step_->is_pinned, tangles_.let_go(), reduced_);
+  if (!tangles_.was_known()) begin_to_touch(threads);
+}
+
+/// Where surfaces have just begun to touch, what is nearer than r, and did not push before, keeps its distance.
+void PairContact::begin_to_touch(ThreadPool& threads) {
+  list_.update(step_->begin, threads);
+  std::vector<LetGo::Vertices> in_one_place;
+  auto pushed = memory_.begin();
+  for (const PairList::Near& each : list_.near()) {
+    const auto key = std::pair(each.pair.kind, each.pair.features);
+    while (pushed != memory_.end() && std::pair(pushed->kind, pushed->features) < key) ++pushed;
+    const bool has_pushed = pushed != memory_.end() && std::pair(pushed->kind, pushed->features) == key;
+    if (each.distance < least_gap_apart * each.radius) {
+      for_each_across(each.pair, [&](Index a, Index b) { in_one_place.push_back({a, b}); });
+    } else if (!has_pushed && each.distance < each.radius) {
+      reduced_.reduce(each.pair, *surface_, each.distance / each.radius);
+    }
+  }
+  tangles_.let_go_too(in_one_place);
+  list_.changed_exceptions();
 }
 
 /// The pairs that count, as they are listed and weighed now. All lists are in the order of pairs.
@@ -166,15 +213,30 @@ HeldBack PairContact::hold_back(const Positions& from, Positions& q, ThreadPool&
   HeldBack held;
   for (const Index v : pinned_) q.row(v) = targets_.row(v);
   held.has_moved = shorten(from, q, threads);
-  held.has_new_potential =
-      std::ranges::any_of(pinned_, [&](Index v) { return (q.row(v).array() != from.row(v).array()).any(); });
+  held.has_new_potential = std::exchange(has_let_go_, false) || std::ranges::any_of(pinned_, [&](Index v) {
+                             return (q.row(v).array() != from.row(v).array()).any();
+                           });
   return held;
 }
 
-/// What slides along a plane may come to where nothing was searched for.
+/// Where a move is held back by what surrounds a crossing, it goes on as soon as that is let go too.
 bool PairContact::shorten(const Positions& from, Positions& q, ThreadPool& threads) {
-  constexpr int most_searches = 10;
+  constexpr int most_ways = 10;
   wish_ = q;
+  bool is_shortened = shorten_way(from, q, threads);
+  for (int i = 0; i < most_ways && is_shortened && tangles_.follow(q); ++i) {
+    has_let_go_ = true;
+    list_.changed_exceptions();
+    passed_ = q;
+    q = wish_;
+    is_shortened = shorten_way(passed_, q, threads);
+  }
+  return is_shortened;
+}
+
+/// What slides along a plane may come to where nothing was searched for.
+bool PairContact::shorten_way(const Positions& from, Positions& q, ThreadPool& threads) {
+  constexpr int most_searches = 10;
   list_.begin_way(from, wish_);
   for (int i = 0; i < most_searches; ++i) {
     const PairList::OnTheWay& found = list_.on_the_way(from, threads);
@@ -273,7 +335,6 @@ void PairContact::add_diagonal(std::span<Real> diagonal) const {
 void PairContact::commit(const Positions& q, std::span<const Real> diagonal, ContactState& state, ThreadPool& threads) {
   find_forces(q, threads);
   report_.pairs = count_of(list_.near());
-  for (const Index v : pinned_) report_.lag = std::max(report_.lag, (q.row(v) - targets_.row(v)).norm());
   report_.active = 0;
   report_.smallest_gap = std::numeric_limits<Real>::infinity();
   const auto stiffen = [&](Index v, Real share_of_radius) {
@@ -281,8 +342,7 @@ void PairContact::commit(const Positions& q, std::span<const Real> diagonal, Con
     const Real before = stiffening_[at(v)];
     const Real plain = stiffness_ratio * step_->masses[at(v)] / (step_->time_step * step_->time_step);
     const Real most = std::max<Real>(1, diagonal[at(v)] / plain);
-    const Index number = step_->vertices.empty() ? v : step_->vertices[at(v)];
-    Real& factor = state.stiffening[at(number)];
+    Real& factor = state.stiffening[at(number_of(v))];
     factor =
         std::max(factor, share_of_radius < pressed_gap ? std::min(stiffer * before, std::max(most, before)) : before);
   };
@@ -303,6 +363,55 @@ void PairContact::commit(const Positions& q, std::span<const Real> diagonal, Con
     state.pairs.push_back(
         {each.pair.kind, each.pair.features, length > most ? Vec3(most / length * each.slide) : each.slide});
   }
+  commit_exceptions(q, state.let_go, threads);
+}
+
+void PairContact::commit_exceptions(const Positions& q, LetGoState& state, ThreadPool& threads) {
+  held_up_.commit(*step_, pinned_, targets_, q);
+  report_.lag = held_up_.largest_lag();
+  const LetGo before = tangles_.let_go();
+  if (held_up_.is_any_stuck()) let_go_of_stuck();
+  tangles_.commit(q, held_up_.lags());
+  reduced_.grow(step_->time_step);
+  keep_distances(before, q, threads);
+  report_.let_go = tangles_.count();
+  report_.let_go_bodies = tangles_.new_bodies(q);
+  tangles_.write(state);
+  held_up_.write(*step_, state);
+  state.reduced.clear();
+  reduced_.for_each([&](Index vertex, Index body, Real share) {
+    state.reduced.push_back({number_of(vertex), body, share});
+  });
+  std::ranges::sort(state.reduced, {}, [](const ReducedDistance& each) { return std::pair(each.vertex, each.body); });
+}
+
+/// What is no longer let go begins with the distance that it has. Surfaces that lie in one place cross no more than
+/// those that are apart, but have no sides on which planes could hold them, so they stay as they are.
+void PairContact::keep_distances(const LetGo& before, const Positions& q, ThreadPool& threads) {
+  const LetGo& now = tangles_.let_go();
+  if (std::ranges::includes(now.pairs(), before.pairs())) return;
+  std::vector<LetGo::Vertices> in_one_place;
+  for (const PairList::Near& each : list_.nearer_than_radius(q, before, threads)) {
+    if (now.has(each.pair)) continue;
+    if (each.distance < least_gap_apart * each.radius) {
+      for_each_across(each.pair, [&](Index a, Index b) { in_one_place.push_back({a, b}); });
+    } else {
+      reduced_.reduce(each.pair, *surface_, each.distance / each.radius);
+    }
+  }
+  tangles_.let_go_too(in_one_place);
+}
+
+/// With all that is near to them.
+void PairContact::let_go_of_stuck() {
+  std::vector<LetGo::Vertices> stuck;
+  for (const PairList::Near& each : list_.near()) {
+    if (!(list_.bound(each) < each.radius)) continue;
+    for_each_across(each.pair, [&](Index a, Index b) {
+      if (held_up_.is_stuck(a) || held_up_.is_stuck(b)) stuck.push_back({a, b});
+    });
+  }
+  tangles_.let_go_of(stuck);
 }
 
 }  // namespace pliant

@@ -9,14 +9,17 @@
 // is the largest of the four times a weight w between 0 and 1. Loads, normals, closest points that friction goes by,
 // and w are frozen between refreshes, so that all of it is a potential.
 //
-// Nothing passes through anything: each iterate is free of crossings if the one before was, see planes.h.
+// Nothing passes through anything: each iterate is free of crossings if the one before was, see planes.h. What crosses
+// at the start, and what follows from that, is let go, see tangles.h.
 //
 // All vertices are in the order of the solver; pairs are numbered in that of the simulation.
 #include "pliant/collision/contact/body_contact.h"
 #include "pliant/collision/contact/contact.h"
+#include "pliant/collision/pairs/held_up_vertices.h"
 #include "pliant/collision/pairs/near_pair.h"
 #include "pliant/collision/pairs/pair_weights.h"
 #include "pliant/collision/pairs/planes.h"
+#include "pliant/collision/pairs/tangles.h"
 
 namespace pliant {
 
@@ -27,6 +30,8 @@ struct PairReport {
   Index shortened = 0;  ///< vertices whose moves were cut, each as often as it was
   Real smallest_gap = std::numeric_limits<Real>::infinity();  ///< [m]
   Real lag = 0;                                               ///< of pinned vertices behind where they should be [m]
+  Index let_go = 0;  ///< edges that pass through a triangle, and pinned vertices that may pass what held them up
+  std::vector<LetGoBodies> let_go_bodies{};  ///< of which nothing was let go before
 };
 
 class PairContact {
@@ -75,11 +80,18 @@ class PairContact {
   const Positions& begin() const { return begin_; }
 
  private:
+  Index number_of(Index vertex) const { return step_->vertices.empty() ? vertex : step_->vertices[at(vertex)]; }
+  void begin_exceptions(const ContactState& state, ThreadPool& threads);
+  void begin_to_touch(ThreadPool& threads);
   bool shorten(const Positions& from, Positions& q, ThreadPool& threads);
   void shorten_components(std::span<const Index> component_of_vertex, Positions& q, ThreadPool& threads);
+  bool shorten_way(const Positions& from, Positions& q, ThreadPool& threads);
   void list(const Positions& q, ThreadPool& threads);
   void collect();
   NearPair make_near(const Pair& pair, Real radius) const;
+  void commit_exceptions(const Positions& q, LetGoState& state, ThreadPool& threads);
+  void keep_distances(const LetGo& before, const Positions& q, ThreadPool& threads);
+  void let_go_of_stuck();
 
   static constexpr std::size_t pairs_of_chunk = 256;
 
@@ -95,6 +107,11 @@ class PairContact {
   Positions targets_;               // where they should be
   Positions wish_;                  // where a move would lead
   std::vector<Real> shares_;        // scratch, of components
+  Positions passed_;                // where it has let go more than before
+  Tangles tangles_;
+  ReducedDistances reduced_;
+  HeldUpVertices held_up_;
+  bool has_let_go_ = false;  // more than what is listed
   PairList list_;
   PairWeights weights_;
   std::vector<NearPair> near_;         // whose weight is above 0, in the order of pairs

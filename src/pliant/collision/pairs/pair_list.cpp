@@ -88,10 +88,12 @@ void PairList::find_own_radii(const Positions& rest) {
 }
 
 /// What was near in the substep before tells of the first way: of nothing else, for a step goes by its own state alone.
-void PairList::begin(std::span<const char> is_pinned) {
-  is_of_before_ = (is_listed_ || is_of_before_) && std::ranges::equal(is_held_, is_pinned);
+void PairList::begin(std::span<const char> is_pinned, const LetGo& let_go, const ReducedDistances& reduced) {
+  is_of_before_ = (is_listed_ || is_of_before_) && has_listed_all_ && std::ranges::equal(is_held_, is_pinned);
   is_held_.assign(is_pinned.begin(), is_pinned.end());
   search_->set_held(is_pinned);
+  let_go_ = &let_go;
+  reduced_ = &reduced;
   is_listed_ = false;
   has_been_held_back_ = false;
 }
@@ -117,7 +119,7 @@ void PairList::list(const Positions& q, ThreadPool& threads) {
     for (std::size_t i = begin; i < end; ++i) {
       const Real radius = radius_of(pairs[i]);
       const Real reach = (1 + list_slack) * radius;  // begin_way() counts on it for all pairs
-      if (!(box_distance(q, pairs[i]) < reach)) continue;
+      if (!(box_distance(q, pairs[i]) < reach) || let_go_->has(pairs[i])) continue;
       const Gap gap = measure(q, pairs[i]);
       if (gap.distance < reach) listed_chunks_[chunk].push_back({{pairs[i], radius, gap.distance}, gap});
     }
@@ -131,10 +133,12 @@ void PairList::list(const Positions& q, ThreadPool& threads) {
     }
   }
   take_own_radii();
+  reduce_radii();
   reference_ = q;
   gone_.assign(at(static_cast<Index>(q.rows())), 0);
   is_listed_ = true;
   is_of_before_ = false;
+  has_listed_all_ = let_go_->is_empty();
 }
 
 /// Both lists are in the order of pairs.
@@ -166,6 +170,23 @@ Vec3 PairList::common_way(const Positions& a, const Positions& b) const {
     high = high.cwiseMax(way);
   }
   return (low + high) / 2;
+}
+
+void PairList::reduce_radii() {
+  if (reduced_->is_empty()) return;
+  for (Near& each : near_) each.radius *= reduced_->share(each.pair, *surface_);
+}
+
+std::vector<PairList::Near> PairList::nearer_than_radius(const Positions& q, const LetGo& among, ThreadPool& threads) {
+  std::vector<Near> found;
+  for (const Pair& pair : search_->find(q, q, radii_, threads)) {
+    if (!among.has(pair)) continue;
+    const auto own = std::ranges::lower_bound(own_radii_, pair, {}, &OwnRadius::pair);
+    const bool has_own = own != own_radii_.end() && own->pair == pair;
+    const Near near{pair, has_own ? own->radius : radius_of(pair), measure(q, pair).distance};
+    if (near.distance < near.radius) found.push_back(near);
+  }
+  return found;
 }
 
 void PairList::go_to(const Positions& q) {
@@ -225,6 +246,7 @@ bool PairList::covers(const Positions& from, const Positions& q) {
 
 /// A bound below certain_share of r is nothing that rounding could not undo.
 void PairList::add_on_the_way(const Pair& pair, Real bound, OnTheWay& found) const {
+  if (let_go_->has(pair)) return;
   const bool is_certain = bound > certain_share * radii_[at(pair.vertices[0])];
   if (is_certain && sum_of_sides(pair, ways_) < free_share_of_bound * bound) return;
   found.pairs.push_back(pair);

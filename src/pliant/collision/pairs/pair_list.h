@@ -5,7 +5,9 @@
 #include <optional>
 
 #include "pliant/collision/pairs/gap.h"
+#include "pliant/collision/pairs/let_go.h"
 #include "pliant/collision/pairs/pair_search.h"
+#include "pliant/collision/pairs/reduced_distances.h"
 
 namespace pliant {
 
@@ -13,15 +15,16 @@ class PairList {
  public:
   struct Near {
     Pair pair;
-    Real radius = 0;    ///< r, or less where the surfaces are nearer at rest [m]
+    Real radius = 0;    ///< r, or less where the surfaces are nearer at rest or were nearer at the start [m]
     Real distance = 0;  ///< where it was listed [m]
   };
 
   /// Surfaces at rest (m × 3) [m], and r of each vertex [m]. The surface must stay.
   void set_surface(const Surface& surface, const Positions& rest, std::span<const Real> radii);
   void clear();
-  /// A substep begins.
-  void begin(std::span<const char> is_pinned);
+  /// A substep begins. What is let go is not listed. Both must stay; changed_exceptions() is to be told of changes.
+  void begin(std::span<const char> is_pinned, const LetGo& let_go, const ReducedDistances& reduced);
+  void changed_exceptions() { is_listed_ = is_of_before_ = false; }
 
   /// Lists what is near at q anew if what is listed may not be all. Returns whether it has. Throws Error(input) where
   /// too many pairs are near each other.
@@ -30,6 +33,9 @@ class PairList {
   std::span<const Near> near() const { return near_; }
   /// Of these pairs, where they were listed.
   std::span<const Gap> gaps() const { return gaps_; }
+  /// Of the pairs that `among` has those that are nearer than r at q, whether they are let go or not; with their whole
+  /// r.
+  std::vector<Near> nearer_than_radius(const Positions& q, const LetGo& among, ThreadPool& threads);
   /// What bound() is about.
   void go_to(const Positions& q);
   /// A near pair is no nearer than that [m].
@@ -70,19 +76,23 @@ class PairList {
   void collect_on_the_way(std::size_t count, ThreadPool& threads, Add&& add);
   void list(const Positions& q, ThreadPool& threads);
   void take_own_radii();
+  void reduce_radii();
   void add_on_the_way(const Pair& pair, Real bound, OnTheWay& found) const;
   Real radius_of(const Pair& pair) const;
 
   static constexpr std::size_t pairs_of_chunk = 512;
 
   const Surface* surface_ = nullptr;
+  const LetGo* let_go_ = nullptr;
+  const ReducedDistances* reduced_ = nullptr;
   std::optional<PairSearch> search_;
   std::vector<Real> radii_, pads_;
   std::vector<OwnRadius> own_radii_;  // of pairs that are nearer than r at rest, in the order of pairs
 
   Positions reference_;  // where the near pairs were listed
   bool is_listed_ = false;
-  bool is_of_before_ = false;  // they are of the substep before
+  bool is_of_before_ = false;    // they are of the substep before
+  bool has_listed_all_ = false;  // none was let go
   std::vector<char> is_held_;
   std::vector<Near> near_;
   std::vector<Gap> gaps_;
