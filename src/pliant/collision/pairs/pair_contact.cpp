@@ -72,7 +72,7 @@ void PairContact::begin_substep(const ContactStep& step, const ContactState& sta
   list(q, threads);
   for (NearPair& each : near_) {
     each.push(q, step.begin);
-    const auto is_loaded = [&](Index v) { return !has_load.empty() && has_load[at(v)] != 0; };
+    const auto is_loaded = [&](Index v) { return !has_load.empty() && has_load[at(v)] != 0 && !is_pinned(v); };
     if (std::ranges::any_of(each.pair.vertices, is_loaded)) each.freeze(q, step.begin);
   }
 }
@@ -110,19 +110,22 @@ void PairContact::list(const Positions& q, ThreadPool& threads) {
   collect();
 }
 
+/// Whose κ m a pair goes by: a vertex its own, edges the largest of their ends. What is pinned moves as it is told to,
+/// whatever it weighs; it goes by what it meets.
+Index PairContact::stiffest_vertex(const Pair& pair) const {
+  if (pair.kind != PairKind::edge_edge && !is_pinned(pair.vertices[0])) return pair.vertices[0];
+  const auto weight = [&](Index v) { return is_pinned(v) ? 0 : stiffening_[at(v)] * step_->masses[at(v)]; };
+  return *std::ranges::max_element(pair.vertices, {}, weight);
+}
+
 NearPair PairContact::make_near(const Pair& pair, Real radius) const {
   NearPair made;
   made.pair = pair;
   made.radius = radius;
-  const auto of_vertex = [&](Index v) { return stiffening_[at(v)] * step_->masses[at(v)]; };
-  Index stiffest = pair.vertices[0];
-  if (pair.kind == PairKind::edge_edge) {
-    for (const Index v : pair.vertices) {
-      if (of_vertex(v) > of_vertex(stiffest)) stiffest = v;
-    }
-  }
+  const Index stiffest = stiffest_vertex(pair);
   made.stiffening = stiffening_[at(stiffest)];
-  made.stiffness = stiffness_ratio * of_vertex(stiffest) / (step_->time_step * step_->time_step);
+  made.stiffness =
+      stiffness_ratio * (made.stiffening * step_->masses[at(stiffest)]) / (step_->time_step * step_->time_step);
   const Index a = surface_->body[at(pair.vertices[0])];
   const Index b = surface_->body[at(pair.vertices[static_cast<std::size_t>(pair.first_side())])];
   made.friction = frictions_.between(a, b);

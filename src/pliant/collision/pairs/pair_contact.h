@@ -5,9 +5,9 @@
 //     E = φ(d) + H(u),      k = κ 50 m/h²,
 //
 // with the potential of pair_potential.h and the friction of contact/potential.h; a vertex that is near a triangle or a
-// loose edge has the stiffness of its own mass. Two edges push only as far as none of their vertices does that work: k
-// is the largest of the four times a weight w between 0 and 1. Loads, normals, closest points that friction goes by,
-// and w are frozen between refreshes, so that all of it is a potential.
+// loose edge has the stiffness of its own mass, or of what it meets where it is pinned. Two edges push only as far as
+// none of their vertices does that work: k is the largest of the four times a weight w between 0 and 1. Loads, normals,
+// closest points that friction goes by, and w are frozen between refreshes, so that all of it is a potential.
 //
 // Nothing passes through anything: each iterate is free of crossings if the one before was, see planes.h.
 //
@@ -76,6 +76,7 @@ class PairContact {
   bool shorten(const Positions& from, Positions& q, ThreadPool& threads);
   void list(const Positions& q, ThreadPool& threads);
   void collect();
+  Index stiffest_vertex(const Pair& pair) const;
   NearPair make_near(const Pair& pair, Real radius) const;
 
   static constexpr std::size_t pairs_of_chunk = 256;
