@@ -7,6 +7,7 @@
 #include "pliant/core/error.h"
 #include "pliant/forces/test_force.h"
 #include "pliant/forces/wind.h"
+#include "pliant/simulation/held.h"
 #include "render/run_replay.h"
 #include "render/scalar_fields.h"
 
@@ -135,10 +136,12 @@ std::vector<float> find_values(const pliant::Simulation& simulation, const Rende
 
 }  // namespace
 
+/// Of bodies that are held as a whole, figures say, markers would hide the surface.
 std::vector<std::uint32_t> pinned_vertices(const pliant::Simulation& simulation) {
+  const std::vector<char> held = held_vertices(simulation);
   std::vector<std::uint32_t> pinned;
   for (const auto& [id, group] : simulation.groups()) {
-    if (group.type != "position") continue;
+    if (group.type != "position" || is_held(simulation.body(group.body), held)) continue;
     for (const auto& batch : group.set.batches) {
       append(pinned, batch->pinned_vertices());
       append(pinned, batch->stencil());

@@ -24,7 +24,7 @@ struct Clip {
   std::vector<ClipFrame> frames;    ///< by time, ascending
 };
 
-/// Vertices pinned by position constraints, ascending.
+/// Vertices pinned by position constraints, ascending; none of bodies that are held as a whole.
 std::vector<std::uint32_t> pinned_vertices(const pliant::Simulation& simulation);
 
 /// A frame of the current state of the simulation. Whoever takes many keeps the surfaces of the colliders for the next.
