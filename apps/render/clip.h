@@ -43,6 +43,7 @@ struct RunAnnotations {
     std::vector<std::uint32_t> markers;  ///< vertices that are pinned or under a test force, ascending
     std::optional<WindAnnotation> wind;
     std::vector<DrawnCollider> colliders;
+    std::vector<std::uint32_t> held;  ///< vertices of bodies that are held as a whole, ascending
   };
   std::vector<Entry> entries;
   std::vector<std::size_t> entry_of_frame;  ///< empty where nothing is known
