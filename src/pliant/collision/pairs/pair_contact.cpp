@@ -6,6 +6,13 @@
 #include "pliant/collision/contact/stiffness.h"
 
 namespace pliant {
+namespace {
+
+/// Of r: how far ahead of a pinned surface what it would run into begins.
+constexpr Real kept_ahead = 0.5;
+
+}  // namespace
+
 // ---- what lasts
 // ------------------------------------------------------------------------------------------------------
 
@@ -68,6 +75,7 @@ void PairContact::begin_substep(const ContactStep& step, const ContactState& sta
   pinned_.clear();
   std::ranges::copy_if(surface_->vertices, std::back_inserter(pinned_), [&](Index v) { return is_pinned(v); });
   targets_ = q;
+  if (pins_move()) push_ahead(q, threads);
   shorten(step.begin, q, threads);
   list(q, threads);
   for (NearPair& each : near_) {
@@ -75,6 +83,60 @@ void PairContact::begin_substep(const ContactStep& step, const ContactState& sta
     const auto is_loaded = [&](Index v) { return !has_load.empty() && has_load[at(v)] != 0 && !is_pinned(v); };
     if (std::ranges::any_of(each.pair.vertices, is_loaded)) each.freeze(q, step.begin);
   }
+}
+
+bool PairContact::pins_move() const {
+  return std::ranges::any_of(pinned_,
+                             [&](Index v) { return (targets_.row(v).array() != begin_.row(v).array()).any(); });
+}
+
+/// What pinned surfaces would run into begins ahead of them, so that they need not wait until the iterations have moved
+/// it there.
+void PairContact::push_ahead(Positions& q, ThreadPool& threads) {
+  constexpr int sweeps = 3;
+  list_.begin_way(begin_, q);
+  const PairList::OnTheWay& found = list_.on_the_way(begin_, threads);
+  bool has_pushed = true;
+  for (int i = 0; i < sweeps && has_pushed; ++i) {
+    has_pushed = false;
+    for (const Pair& pair : found.pairs) {
+      const auto begin_of_second = static_cast<std::size_t>(pair.first_side());
+      const std::span first = std::span(pair.vertices).first(begin_of_second);
+      const std::span second = std::span(pair.vertices).subspan(begin_of_second);
+      const auto pinned = [&](Index v) { return is_pinned(v); };
+      if (std::ranges::all_of(second, pinned) && std::ranges::none_of(first, pinned)) {
+        has_pushed |= push_ahead(pair, first, 1, q);
+      } else if (std::ranges::all_of(first, pinned) && std::ranges::none_of(second, pinned)) {
+        has_pushed |= push_ahead(pair, second, -1, q);
+      }
+    }
+  }
+}
+
+/// Pushes one side of a pair, in this direction along the normal, where it would be met by the other one. Returns
+/// whether it has.
+bool PairContact::push_ahead(const Pair& pair, std::span<const Index> side, Real direction, Positions& q) {
+  const Gap gap = measure(begin_, pair);
+  const auto way = [&](Index v) { return Vec3(row(q, v) - row(begin_, v)); };
+  Vec3 relative = Vec3::Zero();
+  for (std::size_t j = 0; j < 4; ++j) relative += gap.weights[j] * way(pair.vertices[j]);
+  const Real closing = -gap.normal.dot(relative);
+  const Real radius = (radii_[at(pair.vertices[0])] + radii_[at(pair.vertices[3])]) / 2;
+  const Real too_far = closing - (gap.distance - std::min(gap.distance, kept_ahead * radius));
+  if (!(too_far > 0)) return false;
+  const Real share = std::min<Real>(1, gap.distance / closing);  // of the way, at which they meet if they do
+  met_.resize(4, 3);
+  Pair there = pair;
+  for (Index j = 0; j < 4; ++j) {
+    const Index v = pair.vertices[at(j)];
+    met_.row(j) = (row(begin_, v) + share * way(v)).transpose();
+    there.vertices[at(j)] = j;
+  }
+  if (measure(met_, there).distance > radius) return false;
+  for (std::size_t j = 0; j < side.size(); ++j) {
+    if (j == 0 || side[j] != side[j - 1]) q.row(side[j]) += direction * too_far * gap.normal.transpose();
+  }
+  return true;
 }
 
 /// The pairs that count, as they are listed and weighed now. All lists are in the order of pairs.

@@ -73,6 +73,9 @@ class PairContact {
   std::span<const NearPair> near() const { return near_; }
 
  private:
+  bool pins_move() const;
+  void push_ahead(Positions& q, ThreadPool& threads);
+  bool push_ahead(const Pair& pair, std::span<const Index> side, Real direction, Positions& q);
   bool shorten(const Positions& from, Positions& q, ThreadPool& threads);
   void list(const Positions& q, ThreadPool& threads);
   void collect();
@@ -92,6 +95,7 @@ class PairContact {
   std::vector<Index> pinned_;       // vertices of the surface
   Positions targets_;               // where they should be
   Positions wish_;                  // where a move would lead
+  Positions met_;                   // scratch: the corners of a pair
   PairList list_;
   PairWeights weights_;
   std::vector<NearPair> near_;         // whose weight is above 0, in the order of pairs
