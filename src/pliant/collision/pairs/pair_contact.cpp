@@ -75,7 +75,7 @@ void PairContact::begin_substep(const ContactStep& step, const ContactState& sta
   pinned_.clear();
   std::ranges::copy_if(surface_->vertices, std::back_inserter(pinned_), [&](Index v) { return is_pinned(v); });
   targets_ = q;
-  if (pins_move()) push_ahead(q, threads);
+  push_ahead(q, threads);
   shorten(step.begin, q, threads);
   list(q, threads);
   for (NearPair& each : near_) {
@@ -85,15 +85,13 @@ void PairContact::begin_substep(const ContactStep& step, const ContactState& sta
   }
 }
 
-bool PairContact::pins_move() const {
-  return std::ranges::any_of(pinned_,
-                             [&](Index v) { return (targets_.row(v).array() != begin_.row(v).array()).any(); });
-}
-
 /// What pinned surfaces would run into begins ahead of them, so that they need not wait until the iterations have moved
-/// it there.
+/// it there. Between pinned surfaces that close there may be no room; nothing is pushed farther than twice their way.
 void PairContact::push_ahead(Positions& q, ThreadPool& threads) {
   constexpr int sweeps = 3;
+  Real longest = 0;
+  for (const Index v : pinned_) longest = std::max(longest, (targets_.row(v) - begin_.row(v)).norm());
+  if (!(longest > 0)) return;
   list_.begin_way(begin_, q);
   const PairList::OnTheWay& found = list_.on_the_way(begin_, threads);
   bool has_pushed = true;
@@ -105,17 +103,17 @@ void PairContact::push_ahead(Positions& q, ThreadPool& threads) {
       const std::span second = std::span(pair.vertices).subspan(begin_of_second);
       const auto pinned = [&](Index v) { return is_pinned(v); };
       if (std::ranges::all_of(second, pinned) && std::ranges::none_of(first, pinned)) {
-        has_pushed |= push_ahead(pair, first, 1, q);
+        has_pushed |= push_ahead(pair, first, longest, q);
       } else if (std::ranges::all_of(first, pinned) && std::ranges::none_of(second, pinned)) {
-        has_pushed |= push_ahead(pair, second, -1, q);
+        has_pushed |= push_ahead(pair, second, longest, q);
       }
     }
   }
 }
 
-/// Pushes one side of a pair, in this direction along the normal, where it would be met by the other one. Returns
-/// whether it has.
-bool PairContact::push_ahead(const Pair& pair, std::span<const Index> side, Real direction, Positions& q) {
+/// Pushes one side of a pair along the normal, where it would be met by the other one, whose way is at most that long.
+/// Returns whether it has.
+bool PairContact::push_ahead(const Pair& pair, std::span<const Index> side, Real longest, Positions& q) {
   const Gap gap = measure(begin_, pair);
   const auto way = [&](Index v) { return Vec3(row(q, v) - row(begin_, v)); };
   Vec3 relative = Vec3::Zero();
@@ -133,8 +131,11 @@ bool PairContact::push_ahead(const Pair& pair, std::span<const Index> side, Real
     there.vertices[at(j)] = j;
   }
   if (measure(met_, there).distance > radius) return false;
+  const Vec3 push = (side.data() == pair.vertices.data() ? too_far : -too_far) * gap.normal;
+  const auto is_too_far = [&](Index v) { return (row(q, v) + push - row(targets_, v)).norm() > 2 * longest; };
+  if (std::ranges::any_of(side, is_too_far)) return false;
   for (std::size_t j = 0; j < side.size(); ++j) {
-    if (j == 0 || side[j] != side[j - 1]) q.row(side[j]) += direction * too_far * gap.normal.transpose();
+    if (j == 0 || side[j] != side[j - 1]) q.row(side[j]) += push.transpose();
   }
   return true;
 }

@@ -73,9 +73,8 @@ class PairContact {
   std::span<const NearPair> near() const { return near_; }
 
  private:
-  bool pins_move() const;
   void push_ahead(Positions& q, ThreadPool& threads);
-  bool push_ahead(const Pair& pair, std::span<const Index> side, Real direction, Positions& q);
+  bool push_ahead(const Pair& pair, std::span<const Index> side, Real longest, Positions& q);
   bool shorten(const Positions& from, Positions& q, ThreadPool& threads);
   void list(const Positions& q, ThreadPool& threads);
   void collect();
@@ -93,7 +92,7 @@ class PairContact {
   std::vector<Real> stiffening_;    // κ, in the solver's order
   std::vector<PairMemory> memory_;  // of the step before
   std::vector<Index> pinned_;       // vertices of the surface
-  Positions targets_;               // where they should be
+  Positions targets_;               // where they should be, and where the others were to begin
   Positions wish_;                  // where a move would lead
   Positions met_;                   // scratch: the corners of a pair
   PairList list_;
