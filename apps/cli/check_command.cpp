@@ -116,13 +116,13 @@ std::string steps_text(const pliant::SolverSettings& settings) {
   return substeps + iterations + integrator;
 }
 
-/// What neither constraints nor, below it, colliders hold.
+/// What neither constraints nor, below it, colliders and pinned surfaces hold.
 std::vector<std::string> warnings_of_free_components(const Simulation& simulation, const SystemInfo& info) {
   constexpr std::size_t shown = 20;
   std::vector<std::string> warnings;
   std::size_t others = 0;
   for (const pliant::FreeComponent& component : info.free_components) {
-    if (falls_onto_collider(simulation, component.vertices)) continue;
+    if (is_caught(simulation, component.vertices)) continue;
     if (warnings.size() == shown) {
       ++others;
       continue;

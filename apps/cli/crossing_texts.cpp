@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "pliant/simulation/held.h"
+
 namespace pliant_cli {
 namespace {
 
@@ -19,11 +21,14 @@ struct AllSurfaces {
   std::vector<CrossingBody> bodies;
   std::vector<Triangle> triangles;
   std::vector<pliant::Edge> edges;  ///< of ropes and the like, where surfaces touch
+  std::vector<bool> is_held = {};   ///< of each body, as a whole
 };
 
 AllSurfaces surfaces_of(const pliant::Simulation& simulation) {
   AllSurfaces all;
+  const std::vector<char> held = pliant::held_vertices(simulation);
   for (const pliant::Body& body : simulation.bodies()) {
+    all.is_held.push_back(pliant::is_held(body, held));
     all.bodies.push_back({body.name, body.first_vertex, pliant::count_of(all.triangles), body.mesh.triangles.empty()});
     for (const auto& [a, b, c] : pliant::surface_triangles(body.mesh)) {
       all.triangles.push_back({a + body.first_vertex, b + body.first_vertex, c + body.first_vertex});
@@ -59,11 +64,18 @@ auto place_in_list(const Crossing& crossing) {
   return std::tuple(crossing.edge, crossing.triangle);
 }
 
+/// What is held as a whole meets nothing else that is.
+std::string harm_text(const AllSurfaces& all, std::size_t a, std::size_t b) {
+  if (!all.is_held[a] || !all.is_held[b]) return "";
+  return a == b ? "; all of it is held, so that does no harm" : "; both are held, so that does no harm";
+}
+
 std::string warning_text(const AllSurfaces& all, std::size_t edge_body, std::size_t triangle_body,
                          const BodyCrossings& crossings) {
   const Crossing& first = crossings.first;
   const CrossingBody& edges = all.bodies[edge_body];
-  const std::string end = fmt::format("at {}{}", place_text(first.point), more_text(crossings.count));
+  const std::string end = fmt::format("at {}{}{}", place_text(first.point), more_text(crossings.count),
+                                      harm_text(all, edge_body, triangle_body));
   if (edge_body == triangle_body) {
     return fmt::format("'{}' crosses itself: {}, {}", edges.name, both_sides_text(edges, first, all.triangles), end);
   }

@@ -7,6 +7,7 @@
 #include "pliant/core/error.h"
 #include "pliant/forces/test_force.h"
 #include "pliant/forces/wind.h"
+#include "pliant/simulation/held.h"
 #include "render/run_replay.h"
 #include "render/scalar_fields.h"
 
@@ -55,6 +56,18 @@ std::vector<std::uint32_t> find_markers(const pliant::Simulation& simulation, st
   return markers;
 }
 
+/// Of bodies that are held as a whole.
+std::vector<std::uint32_t> find_held(const pliant::Simulation& simulation) {
+  const std::vector<char> held = held_vertices(simulation);
+  std::vector<std::uint32_t> found;
+  for (const pliant::Body& body : simulation.bodies()) {
+    if (!is_held(body, held)) continue;
+    const pliant::Index end = body.first_vertex + body.mesh.vertex_count();
+    for (pliant::Index v = body.first_vertex; v < end; ++v) found.push_back(static_cast<std::uint32_t>(v));
+  }
+  return found;
+}
+
 /// The first wind that blows.
 std::optional<WindAnnotation> find_wind(const pliant::Simulation& simulation) {
   for (const auto& [id, force] : simulation.forces()) {
@@ -69,7 +82,7 @@ std::optional<WindAnnotation> find_wind(const pliant::Simulation& simulation) {
 }
 
 bool is_same(const RunAnnotations::Entry& a, const RunAnnotations::Entry& b) {
-  if (a.markers != b.markers || a.wind.has_value() != b.wind.has_value()) return false;
+  if (a.markers != b.markers || a.held != b.held || a.wind.has_value() != b.wind.has_value()) return false;
   const auto is_alike = [](const DrawnCollider& one, const DrawnCollider& other) {
     return one.number == other.number && one.surface == other.surface && one.pose == other.pose;
   };
@@ -135,10 +148,12 @@ std::vector<float> find_values(const pliant::Simulation& simulation, const Rende
 
 }  // namespace
 
+/// Of bodies that are held as a whole, figures say, markers would hide the surface.
 std::vector<std::uint32_t> pinned_vertices(const pliant::Simulation& simulation) {
+  const std::vector<char> held = held_vertices(simulation);
   std::vector<std::uint32_t> pinned;
   for (const auto& [id, group] : simulation.groups()) {
-    if (group.type != "position") continue;
+    if (group.type != "position" || is_held(simulation.body(group.body), held)) continue;
     for (const auto& batch : group.set.batches) {
       append(pinned, batch->pinned_vertices());
       append(pinned, batch->stencil());
@@ -156,6 +171,7 @@ ClipFrame capture_frame(const pliant::Simulation& simulation, const RenderMesh& 
   frame.content.values = find_values(simulation, render_mesh, frame.content.positions, color);
   frame.content.markers = find_markers(simulation, simulation.state().step);
   frame.content.colliders = surfaces.find(simulation);
+  frame.content.held = find_held(simulation);
   frame.wind = find_wind(simulation);
   return frame;
 }
@@ -189,7 +205,8 @@ RunAnnotations annotate_run(pliant::Scene scene, const pliant::Animation& animat
   RunAnnotations annotations;
   ColliderSurfaces surfaces;
   replay(scene, animation.cache, [&](std::int64_t step) {
-    RunAnnotations::Entry entry{find_markers(simulation, step), find_wind(simulation), surfaces.find(simulation)};
+    RunAnnotations::Entry entry{find_markers(simulation, step), find_wind(simulation), surfaces.find(simulation),
+                                find_held(simulation)};
     if (annotations.entries.empty() || !is_same(annotations.entries.back(), entry)) {
       annotations.entries.push_back(std::move(entry));
     }
@@ -217,11 +234,12 @@ ClipFrame RunFrames::frame(std::size_t i, ColorBy color) const {
   check_known_of_runs(color);
   pliant::Positions x;
   animation_.cache.sample(time(i), x);
-  ClipFrame frame{time(i), {to_floats(x), {}, {}, {}}, {}};
+  ClipFrame frame{time(i), {to_floats(x), {}, {}, {}, {}}, {}};
   if (i < annotations_.entry_of_frame.size()) {
     const RunAnnotations::Entry& entry = annotations_.entries[annotations_.entry_of_frame[i]];
     frame.content.markers = entry.markers;
     frame.content.colliders = entry.colliders;
+    frame.content.held = entry.held;
     frame.wind = entry.wind;
   }
   if (color == ColorBy::stretch) frame.content.values = vertex_stretch(render_mesh_, frame.content.positions);

@@ -24,7 +24,7 @@ struct Clip {
   std::vector<ClipFrame> frames;    ///< by time, ascending
 };
 
-/// Vertices pinned by position constraints, ascending.
+/// Vertices pinned by position constraints, ascending; none of bodies that are held as a whole.
 std::vector<std::uint32_t> pinned_vertices(const pliant::Simulation& simulation);
 
 /// A frame of the current state of the simulation. Whoever takes many keeps the surfaces of the colliders for the next.
@@ -43,6 +43,7 @@ struct RunAnnotations {
     std::vector<std::uint32_t> markers;  ///< vertices that are pinned or under a test force, ascending
     std::optional<WindAnnotation> wind;
     std::vector<DrawnCollider> colliders;
+    std::vector<std::uint32_t> held;  ///< vertices of bodies that are held as a whole, ascending
   };
   std::vector<Entry> entries;
   std::vector<std::size_t> entry_of_frame;  ///< empty where nothing is known

@@ -9,7 +9,6 @@
 namespace pliant_render {
 namespace {
 
-const Vec3f solid_tone(0.60F, 0.65F, 0.71F);
 constexpr float floor_tone = 0.86F;  // of the background, as of the ground
 constexpr int plane_rings = 24;
 constexpr int plane_sectors = 48;

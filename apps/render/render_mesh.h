@@ -29,6 +29,7 @@ struct FrameContent {
   std::vector<float> values;           ///< one per vertex, shown as colors; or empty
   std::vector<std::uint32_t> markers;  ///< vertices with a red mark: pinned or under a test force
   std::vector<DrawnCollider> colliders{};
+  std::vector<std::uint32_t> held{};  ///< vertices of bodies that are held as a whole: in the tone of colliders
 };
 
 Bounds bounds_of(std::span<const Vec3f> positions);

@@ -119,6 +119,9 @@ void Renderer::set_frame(const FrameContent& frame, pliant::ColorBy color) {
   for (std::size_t i = 0; i < vertices_.size(); ++i) {
     vertices_[i] = {frame.positions[i], normals[i], has_values_ ? frame.values[i] : 0};
   }
+  if (!has_values_) {
+    for (const std::uint32_t vertex : frame.held) vertices_[vertex].value = 1;
+  }
   upload(vertex_buffer_, GL_ARRAY_BUFFER, vertices_, GL_STREAM_DRAW);
   glBindVertexArray(markers_array_.id());
   upload(markers_, GL_ELEMENT_ARRAY_BUFFER, frame.markers, GL_STREAM_DRAW);
@@ -296,6 +299,7 @@ void Renderer::draw_surface(const pliant::ViewSettings& appearance, const DrawOp
   program.set("light", light_of(appearance));
   program.set("front", tone_of(appearance.front));
   program.set("back", tone_of(appearance.back));
+  program.set("held", solid_tone);
   program.set("is_colored", has_values_ ? 1 : 0);
   program.set("low", options.range[0]);
   program.set("high", options.range[1]);

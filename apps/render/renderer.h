@@ -28,7 +28,7 @@ class Renderer {
  private:
   struct Vertex {
     Vec3f position, normal;
-    float value;
+    float value;  // without values 1 of what is held, else 0
   };
 
   void set_vertex_layout() const;

@@ -21,7 +21,7 @@ void main() {
 const std::string_view surface_fragment = R"(#version 330 core
 in vec3 normal_here;
 in float value_here;
-uniform vec3 to_eye, light, front, back;
+uniform vec3 to_eye, light, front, back, held;
 uniform int is_colored;
 uniform float low, high;
 uniform sampler2D colors;
@@ -33,6 +33,8 @@ void main() {
   if (is_colored != 0) {
     float place = clamp((value_here - low) / (high - low), 0.002, 0.998);
     tone = textureLod(colors, vec2(place, 0.5), 0.0).rgb;
+  } else if (value_here > 0.5) {
+    tone = held;
   }
   float towards = dot(n, light);
   float sky = 0.5 + 0.5 * n.z;

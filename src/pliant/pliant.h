@@ -8,4 +8,5 @@
 #include "pliant/mesh/shapes.h"
 #include "pliant/mesh/topology.h"
 #include "pliant/simulation/simulation.h"
+#include "pliant/timeline/animated_body.h"
 #include "pliant/timeline/timeline.h"

@@ -126,14 +126,14 @@ class Check(unittest.TestCase):
         self.assertEqual(info["free_components"], 1)
         self.assertIn("nothing holds the 2 vertices", info["warnings"][0])
 
-    def free_of(self, colliders, gravity=(0, 0, -9.81), bodies=None):
+    def free_of(self, colliders, gravity=(0, 0, -9.81), bodies=None, contact=None, more=()):
         """What is said to be held by nothing, of a sheet over the unit square at a height of 1 m."""
         scene = self.folder / "free.json"
         sheet = {"name": "sheet", "mesh": {"shape": "grid", "columns": 5, "rows": 5, "size": [1, 1], "plane": "xy"},
                  "transform": {"translate": [0, 0, 1]}, "mass": {"total": 1},
                  "constraints": [{"type": "edge_spring", "stiffness": 100}]}
-        scene.write_text(json.dumps({"pliant": 1, "gravity": list(gravity), "bodies": bodies or [sheet],
-                                     "colliders": colliders}))
+        scene.write_text(json.dumps({"pliant": 1, "gravity": list(gravity), "bodies": (bodies or [sheet]) + list(more),
+                                     "contact": contact or {}, "colliders": colliders}))
         return [line for line in json.loads(self.pliant("check", scene, "--json").stdout)["warnings"]
                 if "nothing holds" in line]
 
@@ -160,6 +160,31 @@ class Check(unittest.TestCase):
                 ("one of two", [ball | {"center": [9, 9, 0]}, floor], (0, 0, -9.81), True)]:
             with self.subTest(name):
                 self.assertEqual(self.free_of(colliders, gravity), [] if held else falls)
+
+    def test_what_animated_bodies_hold_is_not_free(self):
+        surfaces = {"surfaces": True}
+        def statue(at):
+            return {"name": "statue", "mesh": {"shape": "sphere", "subdivisions": 2, "radius": 0.3},
+                    "transform": {"translate": at}, "animation": {}}
+        for name, at, gravity, contact, held in [
+                ("below it", [0.5, 0.5, 0], (0, 0, -9.81), surfaces, True),
+                ("below it, where nothing touches", [0.5, 0.5, 0], (0, 0, -9.81), {}, False),
+                ("beside it", [2, 0.5, 0], (0, 0, -9.81), surfaces, False),
+                ("above it", [0.5, 0.5, 2], (0, 0, -9.81), surfaces, False),
+                ("above it, where it falls up", [0.5, 0.5, 2], (0, 0, 9.81), surfaces, True),
+                ("no gravity", [0.5, 0.5, 0], (0, 0, 0), surfaces, False)]:
+            with self.subTest(name):
+                self.assertEqual(len(self.free_of([], gravity, contact=contact, more=[statue(at)])), 0 if held else 1)
+
+    def test_crossings_of_what_is_held_do_no_harm(self):
+        balls = [{"name": name, "mesh": {"shape": "sphere", "subdivisions": 2, "radius": 0.3},
+                  "transform": {"translate": [x, 0, 0]}, "animation": {}} for name, x in [("one", 0), ("two", 0.4)]]
+        scene = self.folder / "held.json"
+        scene.write_text(json.dumps({"pliant": 1, "bodies": balls, "contact": {"surfaces": True}}))
+        warnings = json.loads(self.pliant("check", scene, "--json").stdout)["warnings"]
+        self.assertEqual(len(warnings), 1)
+        self.assertTrue(warnings[0].startswith("'one' crosses 'two': "))
+        self.assertTrue(warnings[0].endswith("; both are held, so that does no harm"))
 
     def test_parts_of_a_body_are_held_one_by_one(self):
         beads = {"name": "beads", "mass": {"total": 1},

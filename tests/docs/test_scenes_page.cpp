@@ -10,6 +10,7 @@
 #include "pliant/forces/builtin.h"
 #include "pliant/mesh/shapes.h"
 #include "pliant_io/mesh/mesh_file.h"
+#include "pliant_io/scene/animation_options.h"
 #include "pliant_io/scene/event_options.h"
 #include "pliant_io/scene/scene.h"
 #include "tests/support/temporary_folder.h"
@@ -132,6 +133,7 @@ TEST_CASE("the tables list every option") {
   check_shape<TorusOptions>();
   check_shape<SphereOptions>();
   check_shape<CylinderOptions>();
+  check_shape<CapsuleOptions>();
   check_shape<BarOptions>();
   check_shape<ChainOptions>();
   check_rows<MoveOptions>();
@@ -140,6 +142,8 @@ TEST_CASE("the tables list every option") {
   check_rows<FollowOptions>();
   check_rows<FileOptions>();
   check_rows<RampOptions>();
+  check_rows<SteadyAnimation>("\n### Animation\n");
+  check_rows<FrameAnimation>("\n### Animation\n");
   check_types(static_cast<BuiltinConstraints*>(nullptr));
   check_types(static_cast<BuiltinForces*>(nullptr));
   check_types(static_cast<BuiltinColliders*>(nullptr));

@@ -220,6 +220,31 @@ TEST_CASE("a cylinder with another radius at its top is a blunt cone") {
   CHECK(is_consistently_oriented(bucket));
 }
 
+TEST_CASE("a capsule is the hull of two balls, closed, with triangles of one size") {
+  for (const Real top_radius : {0.0, 0.04, 0.3, 0.59}) {
+    CAPTURE(top_radius);
+    const CapsuleOptions options{.segments = 32, .radius = 0.1, .height = 0.5, .top_radius = top_radius};
+    const Mesh limb = capsule(options);
+    const Real upper = top_radius > 0 ? top_radius : options.radius;
+    CHECK(euler_characteristic(limb) == 2);
+    CHECK(is_consistently_oriented(limb));
+    CHECK(enclosed_volume(limb) > 0);
+    check_mesh(limb, "capsule");
+    CHECK(limb.vertices.col(2).minCoeff() == -0.1);
+    CHECK(limb.vertices.col(2).maxCoeff() == doctest::Approx(0.5 + upper).epsilon(1e-14));
+    // On the hull: the distance from the nearest of all balls between both ends is their radius.
+    for (Index v = 0; v < limb.vertex_count(); ++v) {
+      const Vec3 x = row(limb.vertices, v);
+      Real least = 1;
+      for (int i = 0; i <= 1000; ++i) {
+        const Real share = i / 1000.0;
+        least = std::min(least, (x - Vec3(0, 0, 0.5 * share)).norm() - (0.1 + share * (upper - 0.1)));
+      }
+      CHECK(std::abs(least) < 1e-6);
+    }
+  }
+}
+
 TEST_CASE("a bar's tetrahedra fill it, meet face to face, and are positive") {
   for (const TetrahedronCut cut : {TetrahedronCut::five, TetrahedronCut::six}) {
     const Mesh box = bar({.cells = {3, 4, 5}, .size = {3, 2, 1.25}, .cut = cut});
@@ -301,6 +326,9 @@ TEST_CASE("options out of range are refused by name") {
   refused([] { cylinder({.rows = 1}); }, "cylinder: rows: 1 ");
   refused([] { cylinder({.height = -1}); }, "cylinder: height: -1 ");
   refused([] { cylinder({.top_radius = -1}); }, "cylinder: top_radius: -1 ");
+  refused([] { capsule({.segments = 2}); }, "capsule: segments: 2 ");
+  refused([] { capsule({.radius = 0}); }, "capsule: radius: 0 ");
+  refused([] { capsule({.radius = 0.1, .height = 0.2, .top_radius = 0.4}); }, "capsule: one ball, of 0.4 m, holds");
   refused([] { bar({.cells = {1, 0, 1}}); }, "bar: cells[1]: 0 is out of range; give a finite number from 1");
   refused([] { bar({.size = {1, 1, 0}}); }, "bar: size[2]: 0 ");
   refused([] { chain({.links = 0}); }, "chain: links: 0 ");
@@ -320,6 +348,7 @@ TEST_CASE("shapes too large for memory are refused, not tried") {
   refused([] { pillow({.columns = huge, .rows = huge}); }, "pillow: columns and rows ask for 9.22e+18 vertices");
   refused([] { torus({.major_segments = huge, .minor_segments = huge}); }, "ask for 4.61e+18 vertices");
   refused([] { cylinder({.segments = huge, .rows = huge}); }, "ask for 4.61e+18 vertices");
+  refused([] { capsule({.segments = huge}); }, "capsule: segments ask for");
   refused([] { bar({.cells = {huge, huge, huge}}); }, "bar: cells ask for 9.9e+27 vertices");
   refused([] { chain({.links = huge}); }, "chain: links ask for 2.15e+09 vertices");
 }

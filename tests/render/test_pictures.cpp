@@ -121,6 +121,26 @@ TEST_CASE("the two sides have their own tones") {
   CHECK(back[2] > 2 * back[0]);
 }
 
+TEST_CASE("what is held as a whole has the tone of colliders on both sides, unless values are shown") {
+  Studio studio;
+  studio.options.appearance.front = studio.options.appearance.back = {0.9, 0.1, 0.1};
+  for (std::uint32_t i = 0; i < 81; ++i) studio.frame.held.push_back(i);
+  const std::optional<Image> one = studio.draw();
+  studio.options.appearance.camera.position = pliant::Vec3(0, 3, 0);
+  const std::optional<Image> other = studio.draw();
+  if (!one || !other) return;
+  for (const Rgb& tone : {at(*one, 0.1, 0.1), at(*other, 0.1, 0.1)}) {
+    CHECK(tone[2] > tone[0]);
+    CHECK(tone[0] > 60);
+  }
+  studio.options.appearance.color = pliant::ColorBy::speed;
+  studio.frame.values.assign(81, 0);
+  const std::optional<Image> with_values = studio.draw();
+  studio.frame.held.clear();
+  const std::optional<Image> free = studio.draw();
+  CHECK(difference(*with_values, *free) == 0);
+}
+
 TEST_CASE("markers are red, edges are drawn when asked for, and both have the size of the picture") {
   Studio studio;
   studio.options.appearance.front = studio.options.appearance.back = {0.3, 0.6, 0.4};

@@ -1,5 +1,6 @@
 // Paths along the vertices of something else that moves.
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -105,7 +106,26 @@ class AnimationPath final : public Path {
   Positions positions_;  // scratch
 };
 
+class RepeatedAnimation final : public PointAnimation {
+ public:
+  explicit RepeatedAnimation(std::shared_ptr<PointAnimation> animation) : animation_(std::move(animation)) {}
+
+  Index point_count() const override { return animation_->point_count(); }
+  Real duration() const override { return Path::endless; }
+  void sample(Real elapsed, Positions& positions) override {
+    animation_->sample(std::fmod(elapsed, animation_->duration()), positions);
+  }
+
+ private:
+  std::shared_ptr<PointAnimation> animation_;
+};
+
 }  // namespace
+
+std::shared_ptr<PointAnimation> repeated(std::shared_ptr<PointAnimation> animation) {
+  if (!(animation->duration() > 0)) fail_input("an animation of one frame cannot be repeated; give two frames or more");
+  return std::make_shared<RepeatedAnimation>(std::move(animation));
+}
 
 std::shared_ptr<Path> follow_body(BodyId body, std::vector<Index> vertices, Attach attach) {
   return std::make_shared<BodyPath>(body, std::move(vertices), attach);

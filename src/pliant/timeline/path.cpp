@@ -67,21 +67,10 @@ struct Key {
   Displacement velocity = Displacement::Zero();
 };
 
-class RigidPath final : public Path {
+/// A rigid motion of all points about a center.
+class RigidPath : public Path {
  public:
-  RigidPath(std::vector<Key> keys, std::optional<Vec3> center, Ease ease)
-      : keys_(std::move(keys)), center_(center), ease_(ease) {
-    // Each key's slope is the mean of those beside it, weighted so that a parabola would keep its own; 0 at the ends.
-    for (std::size_t i = 1; i + 1 < keys_.size(); ++i) {
-      const Real before = keys_[i].time - keys_[i - 1].time;
-      const Real after = keys_[i + 1].time - keys_[i].time;
-      const Displacement slope_before = (keys_[i].pose - keys_[i - 1].pose) / before;
-      const Displacement slope_after = (keys_[i + 1].pose - keys_[i].pose) / after;
-      keys_[i].velocity = (after * slope_before + before * slope_after) / (before + after);
-    }
-  }
-
-  Real duration() const override { return keys_.back().time; }
+  explicit RigidPath(std::optional<Vec3> center) : center_(center) {}
 
   void begin(const Simulation&, std::optional<GroupId>, MotionNumbers& numbers) const override {
     if (center_) {
@@ -110,7 +99,34 @@ class RigidPath final : public Path {
   Quaternion rotation() const override { return Quaternion(turn_); }
 
  private:
-  Displacement pose_at(Real elapsed) const {
+  virtual Displacement pose_at(Real elapsed) const = 0;
+
+  std::optional<Vec3> center_;
+  // Scratch.
+  Eigen::AngleAxis<Real> turn_ = Eigen::AngleAxis<Real>::Identity();
+  Mat3 rotation_ = Mat3::Identity();
+  Vec3 translation_ = Vec3::Zero();
+  Vec3 center_now_ = Vec3::Zero();
+};
+
+class KeyframePath final : public RigidPath {
+ public:
+  KeyframePath(std::vector<Key> keys, std::optional<Vec3> center, Ease ease)
+      : RigidPath(center), keys_(std::move(keys)), ease_(ease) {
+    // Each key's slope is the mean of those beside it, weighted so that a parabola would keep its own; 0 at the ends.
+    for (std::size_t i = 1; i + 1 < keys_.size(); ++i) {
+      const Real before = keys_[i].time - keys_[i - 1].time;
+      const Real after = keys_[i + 1].time - keys_[i].time;
+      const Displacement slope_before = (keys_[i].pose - keys_[i - 1].pose) / before;
+      const Displacement slope_after = (keys_[i + 1].pose - keys_[i].pose) / after;
+      keys_[i].velocity = (after * slope_before + before * slope_after) / (before + after);
+    }
+  }
+
+  Real duration() const override { return keys_.back().time; }
+
+ private:
+  Displacement pose_at(Real elapsed) const override {
     const auto next = std::ranges::find_if(keys_, [&](const Key& key) { return key.time > elapsed; });
     if (next == keys_.end()) return keys_.back().pose;
     if (next == keys_.begin()) return keys_.front().pose;
@@ -124,13 +140,17 @@ class RigidPath final : public Path {
   }
 
   std::vector<Key> keys_;
-  std::optional<Vec3> center_;
   Ease ease_;
-  // Scratch.
-  Eigen::AngleAxis<Real> turn_ = Eigen::AngleAxis<Real>::Identity();
-  Mat3 rotation_ = Mat3::Identity();
-  Vec3 translation_ = Vec3::Zero();
-  Vec3 center_now_ = Vec3::Zero();
+};
+
+class SteadyPath final : public RigidPath {
+ public:
+  SteadyPath(const Displacement& speed, std::optional<Vec3> center) : RigidPath(center), speed_(speed) {}
+
+ private:
+  Displacement pose_at(Real elapsed) const override { return elapsed * speed_; }
+
+  Displacement speed_;  // velocity and angular velocity
 };
 
 }  // namespace
@@ -170,7 +190,14 @@ std::shared_ptr<Path> rigid_path(std::vector<Keyframe> keys, std::optional<Vec3>
     pose << keys[i].translate, turn;
     poses.push_back({time, pose});
   }
-  return std::make_shared<RigidPath>(std::move(poses), center, ease);
+  return std::make_shared<KeyframePath>(std::move(poses), center, ease);
+}
+
+std::shared_ptr<Path> steady_path(const Vec3& velocity, const Vec3& angular_velocity, std::optional<Vec3> center) {
+  for (const Vec3& each : {velocity, angular_velocity, center.value_or(Vec3::Zero())}) check_points(Points(each));
+  Displacement speed;
+  speed << velocity, angular_velocity;
+  return std::make_shared<SteadyPath>(speed, center);
 }
 
 }  // namespace pliant

@@ -104,6 +104,11 @@ struct Keyframe {
 /// path begins where the points are. Without a center it is the mean of the points as they begin.
 std::shared_ptr<Path> rigid_path(std::vector<Keyframe> keys, std::optional<Vec3> center = {}, Ease ease = Ease::linear);
 
+/// All points together at constant velocities, without an end: x(t) = c + t v + R(t ω) (x₀ − c), with v [m/s] and ω
+/// [rad/s]. Without a center it is the mean of the points as they begin.
+std::shared_ptr<Path> steady_path(const Vec3& velocity, const Vec3& angular_velocity = Vec3::Zero(),
+                                  std::optional<Vec3> center = {});
+
 /// How a target follows a vertex: in the distance in which it begins, or exactly where the vertex is.
 enum class Attach { offset, exact };
 constexpr std::array<std::string_view, 2> choice_names(Attach) {
@@ -125,6 +130,9 @@ class PointAnimation {
   /// Where the points are at a time from 0, the first frame, to duration().
   virtual void sample(Real elapsed, Positions& positions) = 0;
 };
+
+/// The animation again and again, without an end: its last frame is its first one.
+std::shared_ptr<PointAnimation> repeated(std::shared_ptr<PointAnimation> animation);
 
 /// Follows the points of an animation, whose first frame is at the begin of the motion. A target is where its point is
 /// at the end of the step, and stays where it is in the last frame. pliant_io/mesh/follow_cache.h reads animations from

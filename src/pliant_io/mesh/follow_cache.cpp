@@ -17,8 +17,12 @@ class CachedAnimation final : public PointAnimation {
 
 }  // namespace
 
+std::shared_ptr<PointAnimation> cached_animation(PointCache cache) {
+  return std::make_shared<CachedAnimation>(std::move(cache));
+}
+
 std::shared_ptr<Path> follow_cache(PointCache cache, std::vector<Index> vertices, Attach attach) {
-  return follow_animation(std::make_shared<CachedAnimation>(std::move(cache)), std::move(vertices), attach);
+  return follow_animation(cached_animation(std::move(cache)), std::move(vertices), attach);
 }
 
 }  // namespace pliant

@@ -13,28 +13,6 @@ namespace pliant {
 
 namespace {
 
-/// Scales, then turns the file's up axis to +z. Differences from 0 keep zeros positive.
-void place(Mesh& mesh, const ImportOptions& options, std::string_view name) {
-  for (Index v = 0; v < mesh.vertex_count(); ++v) {
-    const Vec3 x = options.scale * row(mesh.vertices, v);
-    if (!x.allFinite()) {
-      fail_input(
-          fmt::format("{}: vertex {} is not finite once scaled by {}; give a smaller scale", name, v, options.scale));
-    }
-    switch (options.up) {
-      case UpAxis::z:
-        mesh.vertices.row(v) = x.transpose();
-        break;
-      case UpAxis::y:
-        mesh.vertices.row(v) << x[0], 0 - x[2], x[1];
-        break;
-      case UpAxis::x:
-        mesh.vertices.row(v) << 0 - x[2], x[1], x[0];
-        break;
-    }
-  }
-}
-
 /// The two files of a format of pairs, whichever is named; as that one is written, in capitals or not.
 std::vector<std::filesystem::path> pair_of(const std::filesystem::path& path, const MeshFormat& format) {
   const std::string extension = path.extension().string();
@@ -54,6 +32,29 @@ Mesh read_files(const std::vector<std::filesystem::path>& files, const MeshForma
 
 }  // namespace
 
+/// Differences from 0 keep zeros positive.
+void import_positions(Positions& positions, const ImportOptions& options, std::string_view name) {
+  check_options(name, options);
+  for (Index v = 0; v < static_cast<Index>(positions.rows()); ++v) {
+    const Vec3 x = options.scale * row(positions, v);
+    if (!x.allFinite()) {
+      fail_input(
+          fmt::format("{}: vertex {} is not finite once scaled by {}; give a smaller scale", name, v, options.scale));
+    }
+    switch (options.up) {
+      case UpAxis::z:
+        positions.row(v) = x.transpose();
+        break;
+      case UpAxis::y:
+        positions.row(v) << x[0], 0 - x[2], x[1];
+        break;
+      case UpAxis::x:
+        positions.row(v) << 0 - x[2], x[1], x[0];
+        break;
+    }
+  }
+}
+
 std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& path) {
   const MeshFormat format = require_mesh_format(path);
   return format.read_pair != nullptr ? pair_of(path, format) : std::vector{path};
@@ -62,7 +63,7 @@ std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& path)
 Mesh parse_mesh(std::string_view bytes, std::string_view name, const MeshFormat& format, const ImportOptions& options) {
   check_options(name, options);
   Mesh mesh = format.read(ByteSource(bytes, name));
-  place(mesh, options, name);
+  import_positions(mesh.vertices, options, name);
   if (options.drop_loose) drop_loose_vertices(mesh);
   return mesh;
 }
@@ -71,7 +72,7 @@ Mesh read_mesh(const std::filesystem::path& path, const ImportOptions& options) 
   const std::string name = path.string();
   check_options(name, options);
   Mesh mesh = read_files(mesh_files(path), require_mesh_format(path));
-  place(mesh, options, name);
+  import_positions(mesh.vertices, options, name);
   if (options.drop_loose) drop_loose_vertices(mesh);
   return mesh;
 }

@@ -45,6 +45,10 @@ struct ImportOptions {
 ///   memory of the file, whatever it claims to hold.
 Mesh read_mesh(const std::filesystem::path& path, const ImportOptions& options = {});
 
+/// Scales and turns positions (m × 3) of a file as read_mesh does. `name` is what messages call it.
+/// @throws Error (input): options out of range, a vertex that is not finite once scaled
+void import_positions(Positions& positions, const ImportOptions& options, std::string_view name);
+
 /// The files that read_mesh reads: that one, and of TetGen's pair the other, points first. @throws Error (input): as
 /// require_mesh_format
 std::vector<std::filesystem::path> mesh_files(const std::filesystem::path& path);

@@ -37,13 +37,13 @@ void check_times(std::string_view name, const std::vector<Real>& times) {
   }
 }
 
-void check_options(const PointCacheOptions& options) {
+}  // namespace
+
+void check_frame_rate(const PointCacheOptions& options) {
   if (std::isfinite(options.frames_per_second) && options.frames_per_second > 0) return;
   fail_input(
       fmt::format("{} frames per second are not possible; give a number greater than 0", options.frames_per_second));
 }
-
-}  // namespace
 
 void fail_cache(std::string_view name, std::string_view what) {
   fail_input(fmt::format("{}: {}", printable_place(name), what));
@@ -79,7 +79,7 @@ PointCache::PointCache(std::string bytes, const Layout& layout, std::vector<Real
 
 PointCache PointCache::parse(std::string bytes, std::string_view name, const PointCacheFormat& format,
                              const PointCacheOptions& options) {
-  check_options(options);
+  check_frame_rate(options);
   PointCache cache = format.parse(std::move(bytes), name, options.frames_per_second);
   check_times(name, cache.times_);
   cache.check_numbers(name);

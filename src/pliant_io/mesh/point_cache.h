@@ -17,6 +17,9 @@ struct PointCacheOptions {
   Real frames_per_second = 24;  ///< what a frame of a PC2 or NPY file lasts, > 0; an MDD file has its own times
 };
 
+/// @throws Error (input): frames per second that are not finite and above 0
+void check_frame_rate(const PointCacheOptions& options);
+
 /// The frames of a file; it is kept as it was read, so that it takes the file's size in memory.
 class PointCache {
  public:

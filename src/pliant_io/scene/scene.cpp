@@ -82,7 +82,7 @@ void read_simulation(const Node& root, Scene& scene) {
   if (const Node bodies = root.require("bodies"); bodies.is_list() && bodies.empty()) {
     bodies.fail("there is no body; add one");
   }
-  SceneReader reader(scene.simulation);
+  SceneReader reader(scene.simulation, scene.timeline);
   for_each_entry(root, "bodies", [&](const Node& node) { reader.read_body(node); });
   Index body = 0;
   for_each_entry(root, "bodies", [&](const Node& node) { reader.read_body_contact(node, BodyId{body++}); });
@@ -90,9 +90,12 @@ void read_simulation(const Node& root, Scene& scene) {
   for_each_entry(root, "forces", [&](const Node& node) { reader.read_force(node); });
   if (const auto contact = root.find("contact")) reader.read_contact(*contact);
   for_each_entry(root, "colliders", [&](const Node& node) { reader.read_collider(node); });
-  reader.read_events(root, scene.timeline);
+  reader.read_events(root);
   scene.has_surfaces = scene.simulation.contact().surfaces || reader.has_later_surfaces;
   std::ranges::move(reader.warnings, std::back_inserter(scene.warnings));
+  if (!scene.has_surfaces && !reader.warning_without_surfaces.empty()) {
+    scene.warnings.push_back(std::move(reader.warning_without_surfaces));
+  }
   scene.group_names = all_names(scene.simulation.group_names(), std::move(reader.later_groups));
   std::vector<std::string> colliders;
   for (const auto& [id, collider] : scene.simulation.colliders()) colliders.push_back(collider.name);

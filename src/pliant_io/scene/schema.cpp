@@ -89,16 +89,19 @@ std::string short_text(const SchemaJson& json, const std::string& indent = "") {
 }
 
 SchemaJson body_schema() {
-  return object_schema({{"name", text_schema("what others refer to it by; default \"body 0\", ...")},
-                        {"mesh", mesh_schema()},
-                        {"transform", schema_reference("transform")},
-                        {"mass", mass_schema()},
-                        {"start_positions", list_schema(schema_reference("vector"))},
-                        {"velocity", schema_reference("vector")},
-                        {"velocities", list_schema(schema_reference("vector"))},
-                        {"constraints", list_schema(constraint_schema())},
-                        {"contact", schema_reference("body_contact")}},
-                       {"mesh", "mass"});
+  SchemaJson schema = object_schema({{"name", text_schema("what others refer to it by; default \"body 0\", ...")},
+                                     {"mesh", mesh_schema()},
+                                     {"transform", schema_reference("transform")},
+                                     {"mass", mass_schema()},
+                                     {"start_positions", list_schema(schema_reference("vector"))},
+                                     {"velocity", schema_reference("vector")},
+                                     {"velocities", list_schema(schema_reference("vector"))},
+                                     {"constraints", list_schema(constraint_schema())},
+                                     {"contact", schema_reference("body_contact")},
+                                     {"animation", schema_reference("animation")}},
+                                    {"mesh"});
+  schema["anyOf"] = {{{"required", {"mass"}}}, {{"required", {"animation"}}}};
+  return schema;
 }
 
 SchemaJson include_schema() {

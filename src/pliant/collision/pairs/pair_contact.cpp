@@ -11,6 +11,8 @@ namespace {
 
 /// Of r: what is nearer lies in one place.
 constexpr Real least_gap_apart = 1e-6;
+/// Of r: how far ahead of a pinned surface what it would run into begins.
+constexpr Real kept_ahead = 0.5;
 
 }  // namespace
 
@@ -80,6 +82,7 @@ void PairContact::begin_substep(const ContactStep& step, const ContactState& sta
   pinned_.clear();
   std::ranges::copy_if(surface_->vertices, std::back_inserter(pinned_), [&](Index v) { return is_pinned(v); });
   targets_ = q;
+  push_ahead(q, threads);
   shorten_components(component_of_vertex, q, threads);
   has_let_go_ = false;
   list(q, threads);
@@ -88,6 +91,62 @@ void PairContact::begin_substep(const ContactStep& step, const ContactState& sta
     const auto is_loaded = [&](Index v) { return !has_load.empty() && has_load[at(v)] != 0; };
     if (std::ranges::any_of(each.pair.vertices, is_loaded)) each.freeze(q, step.begin);
   }
+}
+
+/// What pinned surfaces would run into begins ahead of them, so that they need not wait until the iterations have moved
+/// it there. Between pinned surfaces that close there may be no room; nothing is pushed farther than twice their way.
+void PairContact::push_ahead(Positions& q, ThreadPool& threads) {
+  constexpr int sweeps = 3;
+  Real longest = 0;
+  for (const Index v : pinned_) longest = std::max(longest, (targets_.row(v) - begin_.row(v)).norm());
+  if (!(longest > 0)) return;
+  list_.forget_before();
+  list_.begin_way(begin_, q);
+  const PairList::OnTheWay& found = list_.on_the_way(begin_, threads);
+  bool has_pushed = true;
+  for (int i = 0; i < sweeps && has_pushed; ++i) {
+    has_pushed = false;
+    for (const Pair& pair : found.pairs) {
+      const auto begin_of_second = static_cast<std::size_t>(pair.first_side());
+      const std::span first = std::span(pair.vertices).first(begin_of_second);
+      const std::span second = std::span(pair.vertices).subspan(begin_of_second);
+      const auto pinned = [&](Index v) { return is_pinned(v); };
+      if (std::ranges::all_of(second, pinned) && std::ranges::none_of(first, pinned)) {
+        has_pushed |= push_ahead(pair, first, longest, q);
+      } else if (std::ranges::all_of(first, pinned) && std::ranges::none_of(second, pinned)) {
+        has_pushed |= push_ahead(pair, second, longest, q);
+      }
+    }
+  }
+}
+
+/// Pushes one side of a pair along the normal, where it would be met by the other one, whose way is at most that long.
+/// Returns whether it has.
+bool PairContact::push_ahead(const Pair& pair, std::span<const Index> side, Real longest, Positions& q) {
+  const Gap gap = measure(begin_, pair);
+  const auto way = [&](Index v) { return Vec3(row(q, v) - row(begin_, v)); };
+  Vec3 relative = Vec3::Zero();
+  for (std::size_t j = 0; j < 4; ++j) relative += gap.weights[j] * way(pair.vertices[j]);
+  const Real closing = -gap.normal.dot(relative);
+  const Real radius = (radii_[at(pair.vertices[0])] + radii_[at(pair.vertices[3])]) / 2;
+  const Real too_far = closing - (gap.distance - std::min(gap.distance, kept_ahead * radius));
+  if (!(too_far > 0)) return false;
+  const Real share = std::min<Real>(1, gap.distance / closing);  // of the way, at which they meet if they do
+  met_.resize(4, 3);
+  Pair there = pair;
+  for (Index j = 0; j < 4; ++j) {
+    const Index v = pair.vertices[at(j)];
+    met_.row(j) = (row(begin_, v) + share * way(v)).transpose();
+    there.vertices[at(j)] = j;
+  }
+  if (measure(met_, there).distance > radius) return false;
+  const Vec3 push = (side.data() == pair.vertices.data() ? too_far : -too_far) * gap.normal;
+  const auto is_too_far = [&](Index v) { return (row(q, v) + push - row(targets_, v)).norm() > 2 * longest; };
+  if (std::ranges::any_of(side, is_too_far)) return false;
+  for (std::size_t j = 0; j < side.size(); ++j) {
+    if (j == 0 || side[j] != side[j - 1]) q.row(side[j]) += push.transpose();
+  }
+  return true;
 }
 
 /// A vertex that stops where its neighbors go on stretches what is between them, which no iterations make good. So all
@@ -186,19 +245,22 @@ void PairContact::list(const Positions& q, ThreadPool& threads) {
   collect();
 }
 
+/// Whose κ m a pair goes by: a vertex its own, edges the largest of their ends. What is pinned moves as it is told to,
+/// whatever it weighs; it goes by what it meets.
+Index PairContact::stiffest_vertex(const Pair& pair) const {
+  if (pair.kind != PairKind::edge_edge && !is_pinned(pair.vertices[0])) return pair.vertices[0];
+  const auto weight = [&](Index v) { return is_pinned(v) ? 0 : stiffening_[at(v)] * step_->masses[at(v)]; };
+  return *std::ranges::max_element(pair.vertices, {}, weight);
+}
+
 NearPair PairContact::make_near(const Pair& pair, Real radius) const {
   NearPair made;
   made.pair = pair;
   made.radius = radius;
-  const auto of_vertex = [&](Index v) { return is_pinned(v) ? Real{0} : stiffening_[at(v)] * step_->masses[at(v)]; };
-  Index stiffest = pair.vertices[0];
-  if (pair.kind == PairKind::edge_edge || is_pinned(stiffest)) {
-    for (const Index v : pair.vertices) {
-      if (of_vertex(v) > of_vertex(stiffest)) stiffest = v;
-    }
-  }
+  const Index stiffest = stiffest_vertex(pair);
   made.stiffening = stiffening_[at(stiffest)];
-  made.stiffness = stiffness_ratio * of_vertex(stiffest) / (step_->time_step * step_->time_step);
+  made.stiffness =
+      stiffness_ratio * (made.stiffening * step_->masses[at(stiffest)]) / (step_->time_step * step_->time_step);
   const Index a = surface_->body[at(pair.vertices[0])];
   const Index b = surface_->body[at(pair.vertices[static_cast<std::size_t>(pair.first_side())])];
   made.friction = frictions_.between(a, b);

@@ -5,9 +5,9 @@
 //     E = φ(d) + H(u),      k = κ 50 m/h²,
 //
 // with the potential of pair_potential.h and the friction of contact/potential.h; a vertex that is near a triangle or a
-// loose edge has the stiffness of its own mass. Two edges push only as far as none of their vertices does that work: k
-// is the largest of the four times a weight w between 0 and 1. Loads, normals, closest points that friction goes by,
-// and w are frozen between refreshes, so that all of it is a potential.
+// loose edge has the stiffness of its own mass, or of what it meets where it is pinned. Two edges push only as far as
+// none of their vertices does that work: k is the largest of the four times a weight w between 0 and 1. Loads, normals,
+// closest points that friction goes by, and w are frozen between refreshes, so that all of it is a potential.
 //
 // Nothing passes through anything: each iterate is free of crossings if the one before was, see planes.h. What crosses
 // at the start, and what follows from that, is let go, see tangles.h.
@@ -83,11 +83,14 @@ class PairContact {
   Index number_of(Index vertex) const { return step_->vertices.empty() ? vertex : step_->vertices[at(vertex)]; }
   void begin_exceptions(const ContactState& state, ThreadPool& threads);
   void begin_to_touch(ThreadPool& threads);
+  void push_ahead(Positions& q, ThreadPool& threads);
+  bool push_ahead(const Pair& pair, std::span<const Index> side, Real longest, Positions& q);
   bool shorten(const Positions& from, Positions& q, ThreadPool& threads);
   void shorten_components(std::span<const Index> component_of_vertex, Positions& q, ThreadPool& threads);
   bool shorten_way(const Positions& from, Positions& q, ThreadPool& threads);
   void list(const Positions& q, ThreadPool& threads);
   void collect();
+  Index stiffest_vertex(const Pair& pair) const;
   NearPair make_near(const Pair& pair, Real radius) const;
   void commit_exceptions(const Positions& q, LetGoState& state, ThreadPool& threads);
   void keep_distances(const LetGo& before, const Positions& q, ThreadPool& threads);
@@ -104,7 +107,7 @@ class PairContact {
   std::vector<Real> stiffening_;    // κ, in the solver's order
   std::vector<PairMemory> memory_;  // of the step before
   std::vector<Index> pinned_;       // vertices of the surface
-  Positions targets_;               // where they should be
+  Positions targets_;               // where they should be, and where the others were to begin
   Positions wish_;                  // where a move would lead
   std::vector<Real> shares_;        // scratch, of components
   Positions passed_;                // where it has let go more than before
@@ -112,6 +115,7 @@ class PairContact {
   ReducedDistances reduced_;
   HeldUpVertices held_up_;
   bool has_let_go_ = false;  // more than what is listed
+  Positions met_;            // scratch: the corners of a pair
   PairList list_;
   PairWeights weights_;
   std::vector<NearPair> near_;         // whose weight is above 0, in the order of pairs

@@ -25,6 +25,8 @@ class PairList {
   /// A substep begins. What is let go is not listed. Both must stay; changed_exceptions() is to be told of changes.
   void begin(std::span<const char> is_pinned, const LetGo& let_go, const ReducedDistances& reduced);
   void changed_exceptions() { is_listed_ = is_of_before_ = false; }
+  /// The first way is asked for by a search.
+  void forget_before() { is_of_before_ = false; }
 
   /// Lists what is near at q anew if what is listed may not be all. Returns whether it has. Throws Error(input) where
   /// too many pairs are near each other.

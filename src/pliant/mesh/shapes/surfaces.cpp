@@ -49,6 +49,26 @@ void subdivide_sphere(Mesh& mesh) {
   mesh.triangles = std::move(finer);
 }
 
+/// Triangles between rows of n vertices, `end` in all.
+void join_rows(Mesh& mesh, Index n, Index end) {
+  for (Index first = 0; first + n < end; first += n) {
+    for (Index i = 0; i < n; ++i) {
+      const Index a = first + i;
+      const Index b = first + (i + 1) % n;
+      mesh.triangles.insert(mesh.triangles.end(), {{a, b, b + n}, {a, b + n, a + n}});
+    }
+  }
+}
+
+/// Fans from the first row to vertex `end`, and from the last one to the next.
+void close_rows(Mesh& mesh, Index n, Index end) {
+  const Index last_row = end - n;
+  for (Index i = 0; i < n; ++i) {
+    const Index next = (i + 1) % n;
+    mesh.triangles.insert(mesh.triangles.end(), {{end, next, i}, {end + 1, last_row + i, last_row + next}});
+  }
+}
+
 }  // namespace
 
 Mesh torus(const TorusOptions& options) {
@@ -113,22 +133,56 @@ Mesh cylinder(const CylinderOptions& options) {
     const Real radius = options.radius + part * widening;
     mesh.vertices.row(v) << radius * cos, radius * sin, options.height * part;
   }
-  for (Index first = 0; first + n < bottom; first += n) {
-    for (Index i = 0; i < n; ++i) {
-      const Index a = first + i;
-      const Index b = first + (i + 1) % n;
-      mesh.triangles.insert(mesh.triangles.end(), {{a, b, b + n}, {a, b + n, a + n}});
-    }
-  }
+  join_rows(mesh, n, bottom);
   if (options.caps == Caps::closed) {
     mesh.vertices.row(bottom) << 0, 0, 0;
     mesh.vertices.row(top) << 0, 0, options.height;
-    const Index last_row = bottom - n;
-    for (Index i = 0; i < n; ++i) {
-      const Index next = (i + 1) % n;
-      mesh.triangles.insert(mesh.triangles.end(), {{bottom, next, i}, {top, last_row + i, last_row + next}});
+    close_rows(mesh, n, bottom);
+  }
+  return mesh;
+}
+
+Mesh capsule(const CapsuleOptions& options) {
+  check_options(options.shape, options);
+  const Real top_radius = options.top_radius > 0 ? options.top_radius : options.radius;
+  const Real slope = (options.radius - top_radius) / options.height;
+  if (!(std::abs(slope) < 1)) {
+    fail_input(fmt::format("capsule: one ball, of {} m, holds the other, of {} m, {} m away; give a larger height",
+                           std::max(options.radius, top_radius), std::min(options.radius, top_radius), options.height));
+  }
+  const Real touch = std::asin(slope);  // the latitude at which the cone between the balls touches both
+  constexpr Real quarter = std::numbers::pi / 2;
+  const Index n = options.segments;
+  const Real turn = 2 * std::numbers::pi / n;
+  const Real edge = turn * std::max(options.radius, top_radius);
+  const auto parts_of = [](Real count) { return std::max(Real{1}, std::round(count)); };
+  const Real below = parts_of((quarter + touch) / turn), above = parts_of((quarter - touch) / turn);
+  const Real between = parts_of(options.height * std::cos(touch) / edge);
+  const Real rows = below + between + above - 1;  // a pole is no row
+  require_vertex_count("capsule: segments", rows * n + 2);
+
+  Mesh mesh;
+  const auto row_count = static_cast<Index>(rows);
+  const Index bottom = n * row_count;
+  mesh.vertices.resize(bottom + 2, 3);
+  for (Index i = 0; i < row_count; ++i) {
+    const Real place = Real{1} + i;
+    const bool is_below = place <= below;
+    const Real latitude = is_below ? -quarter + (quarter + touch) * place / below
+                                   : quarter - (quarter - touch) * std::min(Real{1}, (rows + 1 - place) / above);
+    const Real share = std::clamp((place - below) / between, Real{0}, Real{1});
+    const Real radius = options.radius + share * (top_radius - options.radius);
+    for (Index a = 0; a < n; ++a) {
+      const auto [cos, sin] = on_circle(a, n);
+      const Real distance = radius * std::cos(latitude);
+      mesh.vertices.row(i * n + a) << distance * cos, distance * sin,
+          share * options.height + radius * std::sin(latitude);
     }
   }
+  mesh.vertices.row(bottom) << 0, 0, -options.radius;
+  mesh.vertices.row(bottom + 1) << 0, 0, options.height + top_radius;
+  join_rows(mesh, n, bottom);
+  close_rows(mesh, n, bottom);
   return mesh;
 }
 

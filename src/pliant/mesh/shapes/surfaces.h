@@ -1,5 +1,5 @@
 #pragma once
-// Round surfaces of triangles: the torus, the sphere, the cylinder.
+// Round surfaces of triangles: the torus, the sphere, the cylinder, the capsule.
 #include "pliant/core/options.h"
 #include "pliant/mesh/mesh.h"
 
@@ -77,5 +77,29 @@ struct CylinderOptions {
 /// A cylinder, or a blunt cone, about the z axis from z = 0 up, normals outward. Vertex row·segments + a lies at angle
 /// 2πa/segments; the lids are fans about two more vertices, the bottom's and the top's middle.
 Mesh cylinder(const CylinderOptions& options);
+
+struct CapsuleOptions {
+  static constexpr std::string_view shape = "capsule";
+
+  Index segments = 24;  ///< vertices around the axis, ≥ 3
+  Real radius = 0.1;    ///< of the ball at the lower end [m], > 0
+  Real height = 0.5;    ///< between the middles of both balls [m], > 0
+  Real top_radius = 0;  ///< of the ball at the upper end [m], ≥ 0; 0: `radius`
+
+  template <class Self, class Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field(OptionInfo{"segments", "", "vertices around the axis", Range{3}}, self.segments);
+    field(OptionInfo{"radius", "m", "of the ball at the lower end", positive}, self.radius);
+    field(OptionInfo{"height", "m", "between the middles of both balls", positive}, self.height);
+    field(OptionInfo{"top_radius", "m", "of the ball at the upper end; 0: `radius`, else it tapers: a limb",
+                     not_negative},
+          self.top_radius);
+  }
+};
+
+/// The hull of two balls, one about the origin, the other above it: a closed surface, normals outward. Rows of vertices
+/// lie as far from each other as vertices within one, about. Vertex row·segments + a lies at angle 2πa/segments, rows
+/// from below; behind them are the lowest and the highest point. One ball must not hold the other.
+Mesh capsule(const CapsuleOptions& options);
 
 }  // namespace pliant

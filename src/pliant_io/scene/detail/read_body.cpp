@@ -1,5 +1,7 @@
 #include "pliant/mesh/geometry.h"
+#include "pliant/timeline/animated_body.h"
 #include "pliant_io/scene/detail/option_reader.h"
+#include "pliant_io/scene/detail/read_animation.h"
 #include "pliant_io/scene/detail/read_mesh.h"
 #include "pliant_io/scene/detail/scene_reader.h"
 
@@ -23,11 +25,20 @@ void check_rows(const Node& node, std::string_view key, Index vertex_count) {
   if (const auto rows = node.find(key)) rows->require_list(static_cast<std::size_t>(vertex_count), "(one a vertex)");
 }
 
+/// What is animated goes where it is told, whatever it weighs: without a mass it has a kilogram.
+Mass read_body_mass(const Node& body, const Mesh& mesh, const std::string& name, std::vector<std::string>& warnings) {
+  if (!body.has("mass") && body.has("animation")) return Mass::per_vertex(Real{1} / mesh.vertex_count());
+  const Node node = body.require("mass");
+  Mass mass = with_loose_vertices(read_mass(node, mesh), node, mesh, warnings);
+  node.locate([&] { vertex_masses(mesh, mass, printable(name)); });
+  return mass;
+}
+
 }  // namespace
 
 void SceneReader::read_body(const Node& node) {
-  node.check_keys(
-      {"name", "mesh", "transform", "mass", "start_positions", "velocity", "velocities", "constraints", "contact"});
+  node.check_keys({"name", "mesh", "transform", "mass", "start_positions", "velocity", "velocities", "constraints",
+                   "contact", "animation"});
   BodyOptions options;
   options.name = fmt::format("body {}", bodies.size());
   read_optional(node, "name", options.name);
@@ -45,19 +56,22 @@ void SceneReader::read_body(const Node& node) {
     apply_transform(*transform, mesh.vertices);
     transform->locate([&] { check_mesh(mesh, printable(options.name)); });
   }
-  const Node mass_node = node.require("mass");
-  const Mass mass = with_loose_vertices(read_mass(mass_node, mesh), mass_node, mesh, warnings);
-  mass_node.locate([&] { vertex_masses(mesh, mass, printable(options.name)); });
   const Index vertex_count = mesh.vertex_count();
+  const auto animation_node = node.find("animation");
+  const Mass mass = read_body_mass(node, mesh, options.name, warnings);
   check_rows(node, "start_positions", vertex_count);
   check_rows(node, "velocities", vertex_count);
   read_optional(node, "start_positions", options.start);
   options.velocities = read_velocities(node, vertex_count);
+  BodyAnimation animation;
+  if (animation_node) animation = read_animation(*animation_node, node, vertex_count);
+  if (animation.begin) options.start = *std::move(animation.begin);
 
   const std::string name = options.name;
   const BodyId id = node.locate([&] { return simulation.add_body(std::move(mesh), mass, std::move(options)); });
   bodies.emplace(name, id);
   bodies_of[&node.origin()].push_back(id);
+  if (animation_node) add_animation(*animation_node, id, std::move(animation.path));
   const auto constraints = node.find("constraints");
   if (!constraints) return;
   constraints->require_list();
@@ -66,6 +80,14 @@ void SceneReader::read_body(const Node& node) {
     entry.require_object();
     add_group(entry, id, read_constraint_options(entry, {"name"}, body(id)));
   }
+}
+
+void SceneReader::add_animation(const Node& node, BodyId id, std::shared_ptr<Path> path) {
+  const std::string name = group_name(node, id, "animation");
+  node.locate([&] { animate(simulation, timeline, id, std::move(path), name); });
+  groups.emplace(name, GroupEntry{id, Position{}});
+  if (!warning_without_surfaces.empty()) return;
+  warning_without_surfaces = node.at("nothing meets an animated body; set \"contact\": {\"surfaces\": true}");
 }
 
 void SceneReader::add_group(const Node& node, BodyId id, ConstraintOptions options) {

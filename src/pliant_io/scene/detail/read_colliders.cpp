@@ -44,6 +44,7 @@ ColliderOptions read_collider_options(const Node& node) {
     found = std::move(options);
   });
   if (found) return *std::move(found);
+  if (name == "mesh") type.fail("a mesh that others meet is a body with the key 'animation'; move it to 'bodies'");
   type.fail(fmt::format("unknown collider '{}'; {}", printable(name), suggestion_text(name, names)));
 }
 

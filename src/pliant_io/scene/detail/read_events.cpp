@@ -456,7 +456,7 @@ Timeline::Edit EventReader::read_stop(const Node& node) {
 
 }  // namespace
 
-void SceneReader::read_events(const Node& root, Timeline& timeline) {
+void SceneReader::read_events(const Node& root) {
   struct Entry {
     Node node;
     std::string name;

@@ -20,9 +20,10 @@ struct GroupEntry {
 
 /// What has been read so far, for what refers to it by name.
 struct SceneReader {
-  explicit SceneReader(Simulation& made) : simulation(made) {}
+  SceneReader(Simulation& made, Timeline& motions) : simulation(made), timeline(motions) {}
 
   Simulation& simulation;
+  Timeline& timeline;
   std::vector<Positions> untransformed = {};  ///< rest positions of each body before its transform; empty: it has none
   std::map<std::string, BodyId, std::less<>> bodies = {};
   std::map<const Origin*, std::vector<BodyId>> bodies_of = {};  ///< by the text that they stand in
@@ -32,6 +33,7 @@ struct SceneReader {
   std::vector<std::string> later_groups = {};     ///< names of groups that events add, each time
   std::vector<std::string> later_colliders = {};  ///< of colliders
   bool has_later_surfaces = false;                ///< an event lets surfaces touch
+  std::string warning_without_surfaces = {};      ///< if these never touch; empty: none
   std::vector<std::string> warnings = {};         ///< of what is read otherwise than one might expect, with its place
 
   SceneBody body(BodyId id) const {
@@ -52,7 +54,7 @@ struct SceneReader {
   void read_collider(const Node& node);
   /// The lists "moves" and "events". They are read in the order in which they act, each as what its predecessors leave,
   /// and tried out; the simulation is as before then. `root`: the scene.
-  void read_events(const Node& root, Timeline& timeline);
+  void read_events(const Node& root);
 
   /// The body that the object's key "body" names; without the key, the only one that stands in the same text, or the
   /// only one there is.
@@ -73,6 +75,8 @@ struct SceneReader {
   std::string own_name(const Node& node, std::string_view type);
 
  private:
+  /// Holds all vertices of a body, and lets them go along the path, if there is one.
+  void add_animation(const Node& node, BodyId body, std::shared_ptr<Path> path);
   bool is_taken(std::string_view name) const { return owner_of(name) != nullptr; }
   /// What has that name: "group", "force", "collider"; null: nothing.
   const char* owner_of(std::string_view name) const;

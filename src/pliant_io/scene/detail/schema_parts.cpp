@@ -5,6 +5,7 @@
 #include "pliant/constraints/builtin.h"
 #include "pliant/forces/builtin.h"
 #include "pliant_io/mesh/mesh_file.h"
+#include "pliant_io/scene/animation_options.h"
 #include "pliant_io/scene/detail/collider_options.h"
 #include "pliant_io/scene/detail/force_options.h"
 #include "pliant_io/scene/detail/shape_options.h"
@@ -181,6 +182,15 @@ SchemaJson body_contact_schema() {
   return object_schema(std::move(properties));
 }
 
+SchemaJson animation_schema() {
+  const SchemaJson name = {{"name", text_schema("what events refer to it by")}};
+  SchemaJson frames = options_properties<FrameAnimation>();
+  frames["frames"] = text_schema("a PC2, MDD or NPY file, or meshes whose numbers a star stands for: walk_*.obj");
+  return {{"oneOf",
+           {object_schema(joined(options_properties<SteadyAnimation>(), name)),
+            object_schema(joined(std::move(frames), name), {"frames"})}}};
+}
+
 /// Of a body, to tell it from an event of the scene's contact.
 SchemaJson body_contact_event_schema() {
   const SchemaJson body = {{"body", text_schema("name of the body")}};
@@ -249,6 +259,7 @@ SchemaJson part_definitions() {
           {"force", {{"oneOf", force_choices()}}},
           {"contact", object_schema(options_properties<ContactSettings>())},
           {"body_contact", body_contact_schema()},
+          {"animation", animation_schema()},
           {"collider", {{"oneOf", collider_choices()}}}};
 }
 

@@ -7,7 +7,7 @@
 namespace pliant {
 
 using Shapes = std::tuple<GridOptions, NetOptions, PillowOptions, TorusOptions, SphereOptions, CylinderOptions,
-                          BarOptions, ChainOptions>;
+                          CapsuleOptions, BarOptions, ChainOptions>;
 
 inline Mesh make_shape(const GridOptions& options) {
   return grid(options);
@@ -26,6 +26,9 @@ inline Mesh make_shape(const SphereOptions& options) {
 }
 inline Mesh make_shape(const CylinderOptions& options) {
   return cylinder(options);
+}
+inline Mesh make_shape(const CapsuleOptions& options) {
+  return capsule(options);
 }
 inline Mesh make_shape(const BarOptions& options) {
   return bar(options);
