@@ -13,6 +13,10 @@ namespace {
 /// Of the iterations, after which friction is refreshed.
 constexpr std::array<Real, 2> refreshed_after = {0.3, 0.8};
 
+/// Of inertia and elasticity where a component is held back as a whole: what they must be more than, so many times,
+/// where single vertices are.
+constexpr Real worth_stopping = 2;
+
 /// In so many steps in a row contact must have been light to leave the factor.
 constexpr Index light_steps_needed = 10;
 
@@ -86,8 +90,8 @@ void ContactSolver::gather(const State& state, const System& system, WorkingStat
   work.light_steps = state.contact.light_steps;
 }
 
-void ContactSolver::begin_substep(const State& state, Real begin, Real end, Real h, const System& system,
-                                  WorkingState& work, ThreadPool& threads) {
+void ContactSolver::begin_substep(const State& state, Real begin, Real end, Real h, System& system, WorkingState& work,
+                                  ThreadPool& threads) {
   const AddedTime timed(seconds_);
   const std::span<ContactCollider> colliders = contact_.colliders();
   for (std::size_t i = 0; i < colliders.size(); ++i) {
@@ -110,7 +114,9 @@ void ContactSolver::begin_substep(const State& state, Real begin, Real end, Real
   }
   contact_.begin_substep(step, state.contact, work.positions, threads);
   if (!has_pairs()) return;
-  pairs_.begin_substep(step, state.contact, system.components_of_vertices(), has_load_, work.positions, threads);
+  pairs_.begin_substep(step, state.contact, work.positions, threads);
+  start_as_a_whole(system, work, threads);
+  pairs_.begin_at(work.positions, has_load_, threads);
   contact_.find_forces(work.positions, threads);
 }
 
@@ -131,6 +137,20 @@ void ContactSolver::start_with_loads(const State& state, const System& system, W
     if (has_load_[at(v)] == 0 || !(weight > 0)) continue;
     work.positions.row(v) = work.prediction.row(v) - work.forces.row(v) / weight;
   }
+}
+
+/// A vertex that stops where its neighbors go on may stretch what is between them by more than iterations make good.
+/// Then all of its component is held back.
+void ContactSolver::start_as_a_whole(System& system, WorkingState& work, ThreadPool& threads) {
+  const auto energy = [&] {
+    const LocalResult local = system.local_step(work.positions, work.prediction, work.residual, threads);
+    return local.inertia + local.elastic;
+  };
+  held_back_ = work.positions;
+  if (!pairs_.shorten_components(system.components_of_vertices(), work.positions, threads)) return;
+  const Real as_a_whole = energy();
+  std::swap(held_back_, work.positions);
+  if (worth_stopping * as_a_whole < energy()) std::swap(held_back_, work.positions);
 }
 
 void ContactSolver::find_forces(const Positions& q, ThreadPool& threads) {

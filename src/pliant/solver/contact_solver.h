@@ -35,6 +35,7 @@ class ContactSolver {
   /// Surfaces that touch each other and themselves; no parts: none do.
   void set_surfaces(SolverSurfaces surfaces);
   bool is_active() const { return contact_.is_active() || has_pairs(); }
+  bool has_surfaces() const { return has_pairs(); }
   /// The order of the vertices is another, or which are pinned.
   void forget_order();
   /// Whether there is a substep that was not forgotten.
@@ -45,7 +46,7 @@ class ContactSolver {
   /// A step of length h [s] begins. The state has these colliders, in their order.
   void begin_step(const State& state, Real h);
   /// One of its substeps, of length h [s], from share `begin` to share `end` of it, at the iterate of `work`.
-  void begin_substep(const State& state, Real begin, Real end, Real h, const System& system, WorkingState& work,
+  void begin_substep(const State& state, Real begin, Real end, Real h, System& system, WorkingState& work,
                      ThreadPool& threads);
   void find_forces(const Positions& q, ThreadPool& threads);
   /// Adds the forces that were found last to the residual, and their energy to what the local step found.
@@ -89,6 +90,7 @@ class ContactSolver {
  private:
   bool has_pairs() const { return !surfaces_.parts.empty(); }
   void lay_out_surfaces(const System& system);
+  void start_as_a_whole(System& system, WorkingState& work, ThreadPool& threads);
   void start_with_loads(const State& state, const System& system, WorkingState& work);
   void finish(WorkingState& work, LocalResult& local, const ContactSums& sums);
 
@@ -102,6 +104,7 @@ class ContactSolver {
   PairContact pairs_;
   std::vector<char> has_load_;             // of each vertex, whether the substep began with loads
   std::vector<char> is_loaded_component_;  // scratch
+  Positions held_back_;                    // scratch
   Real pair_energy_ = 0;                   // where forces were added last [J]
   Index refreshes_ = 0;                    // in this substep
   double seconds_ = 0;                     // in this step

@@ -17,6 +17,9 @@ constexpr Real longest_of_factor = 8;
 /// Of a move that has raised the objective: what must be left of it to be worth a trial.
 constexpr Real least_share = 0.05;
 
+/// Of the longest way of a global solve: how far a move with memory may lead where surfaces touch.
+constexpr Real longest_of_memory = 5;
+
 Real scalar_product(const Positions& a, const Positions& b) {
   return a.cwiseProduct(b).sum();
 }
@@ -103,7 +106,18 @@ void Descent::move(const LocalResult& local, const StepContext& context, Working
   lbfgs_.prepare(local, work.residual, work.solution, context.threads);
   lbfgs_.move(work.solution, lbfgs_.is_plain() ? curvature(context, work) : 0, work.positions, context.threads);
   has_moved_ = true;
-  hold_back(context, work);
+  if (!lbfgs_.is_plain() && context.contact.has_surfaces() && is_too_long(work)) {
+    move_plainly(context, work);
+  } else {
+    hold_back(context, work);
+  }
+}
+
+/// Whether a move with memory leads farther than surfaces should be searched for. Where contacts begin, the memory may
+/// know next to no resistance, and such a move is taken back anyway.
+bool Descent::is_too_long(const WorkingState& work) const {
+  const Real longest = (work.positions - lbfgs_.positions_before()).rowwise().squaredNorm().maxCoeff();
+  return longest > longest_of_memory * longest_of_memory * work.solution.rowwise().squaredNorm().maxCoeff();
 }
 
 /// x = B⁻¹ r, with contact in B where that dominates.

@@ -65,9 +65,7 @@ void PairContact::find_loaded_vertices(const ContactState& state, std::vector<ch
 // ---- who may touch whom in a substep
 // ---------------------------------------------------------------------------------
 
-void PairContact::begin_substep(const ContactStep& step, const ContactState& state,
-                                std::span<const Index> component_of_vertex, std::span<const char> has_load,
-                                Positions& q, ThreadPool& threads) {
+void PairContact::begin_substep(const ContactStep& step, const ContactState& state, Positions& q, ThreadPool& threads) {
   step_.emplace(step);
   begin_ = step.begin;
   report_ = {};
@@ -82,14 +80,19 @@ void PairContact::begin_substep(const ContactStep& step, const ContactState& sta
   pinned_.clear();
   std::ranges::copy_if(surface_->vertices, std::back_inserter(pinned_), [&](Index v) { return is_pinned(v); });
   targets_ = q;
+  has_pushed_ahead_ = false;
   push_ahead(q, threads);
-  shorten_components(component_of_vertex, q, threads);
+  whole_ = q;
+  is_shortened_ = shorten(begin_, q, threads);
+}
+
+void PairContact::begin_at(const Positions& q, std::span<const char> has_load, ThreadPool& threads) {
   has_let_go_ = false;
   list(q, threads);
   for (NearPair& each : near_) {
-    each.push(q, step.begin);
+    each.push(q, begin_);
     const auto is_loaded = [&](Index v) { return !has_load.empty() && has_load[at(v)] != 0; };
-    if (std::ranges::any_of(each.pair.vertices, is_loaded)) each.freeze(q, step.begin);
+    if (std::ranges::any_of(each.pair.vertices, is_loaded)) each.freeze(q, begin_);
   }
 }
 
@@ -105,6 +108,7 @@ void PairContact::push_ahead(Positions& q, ThreadPool& threads) {
   const PairList::OnTheWay& found = list_.on_the_way(begin_, threads);
   bool has_pushed = true;
   for (int i = 0; i < sweeps && has_pushed; ++i) {
+    has_pushed_ahead_ |= i > 0;
     has_pushed = false;
     for (const Pair& pair : found.pairs) {
       const auto begin_of_second = static_cast<std::size_t>(pair.first_side());
@@ -149,32 +153,31 @@ bool PairContact::push_ahead(const Pair& pair, std::span<const Index> side, Real
   return true;
 }
 
-/// A vertex that stops where its neighbors go on stretches what is between them, which no iterations make good. So all
-/// of its component goes as far as it may; where that does not do, the component stays where it was.
-void PairContact::shorten_components(std::span<const Index> component_of_vertex, Positions& q, ThreadPool& threads) {
+/// Each component goes as far as all of its vertices may; where that does not do, it stays where it was.
+bool PairContact::shorten_components(std::span<const Index> component_of_vertex, Positions& q, ThreadPool& threads) {
   constexpr int most_trials = 4;
-  const Positions whole = q;
+  if (!is_shortened_ || has_pushed_ahead_) return false;
   const auto count = static_cast<Index>(q.rows());
-  const Positions& begin = begin_;
   shares_.assign(at(*std::ranges::max_element(component_of_vertex) + 1), 1);
-  for (int trial = 0; shorten(begin, q, threads) && trial < most_trials; ++trial) {
-    const std::vector<Real> before = shares_;
+  bool is_shortened = true;
+  for (int trial = 0; is_shortened && trial < most_trials; ++trial) {
+    shares_before_ = shares_;
     for (const Index v : surface_->vertices) {
-      const Vec3 way = row(wish_, v) - row(begin, v);
       if (is_pinned(v) || (row(q, v).array() == row(wish_, v).array()).all()) continue;
       const auto component = at(component_of_vertex[at(v)]);
-      const Real gone = std::max<Real>(0, way.dot(row(q, v) - row(begin, v)) / way.squaredNorm());
-      const Real most = trial == 0 ? gone : 0;
-      shares_[component] = std::min(shares_[component], before[component] * most);
+      const Vec3 way = row(wish_, v) - row(begin_, v);
+      const Real gone = std::max<Real>(0, way.dot(row(q, v) - row(begin_, v)) / way.squaredNorm());
+      shares_[component] = std::min(shares_[component], trial == 0 ? gone : 0);
     }
-    if (shares_ == before) return;
+    if (shares_ == shares_before_) return true;
     for (Index v = 0; v < count; ++v) {
-      const Real share = shares_[at(component_of_vertex[at(v)])];
-      q.row(v) = is_pinned(v) || share == 1
-                     ? whole.row(v)
-                     : Vec3(row(begin, v) + share * (row(whole, v) - row(begin, v))).transpose().eval();
+      const Real share = is_pinned(v) ? 1 : shares_[at(component_of_vertex[at(v)])];
+      q.row(v) = whole_.row(v);
+      if (share < 1) q.row(v) = begin_.row(v) + share * (whole_.row(v) - begin_.row(v));
     }
+    is_shortened = shorten(begin_, q, threads);
   }
+  return true;
 }
 
 void PairContact::begin_exceptions(const ContactState& state, ThreadPool& threads) {

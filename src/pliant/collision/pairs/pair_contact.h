@@ -47,11 +47,15 @@ class PairContact {
 
   /// Of each vertex, whether a pair in which it was pushed in the step before: where bodies lie on each other.
   void find_loaded_vertices(const ContactState& state, std::vector<char>& is_loaded) const;
-  /// A substep begins with the iterate q, which is held back: components of which a vertex is, as a whole, so that none
-  /// is stretched. has_load: of each vertex, whether q begins in the balance of the last step, so that its loads are
-  /// right; empty: of none. Throws Error(input) where too many pairs are near each other.
-  void begin_substep(const ContactStep& step, const ContactState& state, std::span<const Index> component_of_vertex,
-                     std::span<const char> has_load, Positions& q, ThreadPool& threads);
+  /// A substep begins with the iterate q, which is held back. Throws Error(input) where too many pairs are near each
+  /// other.
+  void begin_substep(const ContactStep& step, const ContactState& state, Positions& q, ThreadPool& threads);
+  /// Where it was held back, and pinned surfaces push nothing: takes q to where components come to that are held back
+  /// as a whole. Returns whether it has.
+  bool shorten_components(std::span<const Index> component_of_vertex, Positions& q, ThreadPool& threads);
+  /// It begins there. has_load: of each vertex, whether q is in the balance of the last step, so that its loads are
+  /// right; empty: of none.
+  void begin_at(const Positions& q, std::span<const char> has_load, ThreadPool& threads);
 
   /// Takes pinned vertices on to where they should be, if they are held up, and q back so far that nothing passes
   /// through anything on the way from `from`, where the last forces were found. Pinned vertices that have moved make
@@ -86,7 +90,6 @@ class PairContact {
   void push_ahead(Positions& q, ThreadPool& threads);
   bool push_ahead(const Pair& pair, std::span<const Index> side, Real longest, Positions& q);
   bool shorten(const Positions& from, Positions& q, ThreadPool& threads);
-  void shorten_components(std::span<const Index> component_of_vertex, Positions& q, ThreadPool& threads);
   bool shorten_way(const Positions& from, Positions& q, ThreadPool& threads);
   void list(const Positions& q, ThreadPool& threads);
   void collect();
@@ -109,8 +112,10 @@ class PairContact {
   std::vector<Index> pinned_;       // vertices of the surface
   Positions targets_;               // where they should be, and where the others were to begin
   Positions wish_;                  // where a move would lead
-  std::vector<Real> shares_;        // scratch, of components
-  Positions passed_;                // where it has let go more than before
+  Positions whole_;                 // where the substep would begin if nothing were in the way
+  bool has_pushed_ahead_ = false, is_shortened_ = false;
+  std::vector<Real> shares_, shares_before_;  // scratch, of components
+  Positions passed_;                          // where it has let go more than before
   Tangles tangles_;
   ReducedDistances reduced_;
   HeldUpVertices held_up_;

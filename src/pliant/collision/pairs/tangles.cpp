@@ -30,6 +30,11 @@ void Tangles::begin(const ContactStep& step, const LetGoState& state) {
   begin_ = &step.begin;
   is_pinned_ = step.is_pinned;
   numbers_ = step.vertices;
+  bodies_.assign(at(*std::ranges::max_element(surface_->body) + 1), {});
+  for (const Index v : surface_->vertices) {
+    BodyPins& pins = bodies_[at(surface_->body[at(v)])];
+    (is_pinned_[at(v)] != 0 ? pins.has_pinned : pins.has_free) = true;
+  }
   was_known_ = state.is_known;
   clear();
   std::vector<LetGo::Vertices> pairs;
@@ -89,6 +94,7 @@ void Tangles::find(const Positions& q, std::span<const Triangle> triangles, std:
     const Index a = surface_->body[at(crossing.edge[0])];
     const Index b = surface_->body[at(triangle[0])];
     if (!surface_->may_meet(a, b) || crossings_.size() == most_crossings) return;
+    if (a == b && bodies_[at(a)].is_held()) return;  // nothing of it moves by itself
     crossings_.push_back({crossing.edge, triangle, crossing.point});
   });
 }
@@ -129,15 +135,17 @@ void Tangles::let_go_of(std::span<const LetGo::Vertices> held_up) {
 void Tangles::commit(const Positions& q, std::span<const Real> lags) {
   std::erase_if(held_up_,
                 [&](const LetGo::Vertices& pair) { return lags[at(pair[0])] == 0 && lags[at(pair[1])] == 0; });
-  const auto has_moved = [&](Index v) {
-    return is_pinned_[at(v)] != 0 && (q.row(v).array() != begin_->row(v).array()).any();
+  const bool are_several_pinned = std::ranges::count_if(bodies_, &BodyPins::has_pinned) > 1;
+  const auto may_cross = [&](Index v) {
+    return is_pinned_[at(v)] != 0 && (are_several_pinned || !bodies_[at(surface_->body[at(v)])].is_held());
   };
+  const auto has_moved = [&](Index v) { return may_cross(v) && (q.row(v).array() != begin_->row(v).array()).any(); };
   const bool have_pins_moved = std::ranges::any_of(surface_->vertices, has_moved);
   crossings_.clear();
   if (have_pins_moved || !let_go_.is_empty()) {
     mark_let_go();
     for (const Index v : surface_->vertices) {
-      if (have_pins_moved && is_pinned_[at(v)] != 0) is_center_[at(v)] = 1;
+      if (have_pins_moved && may_cross(v)) is_center_[at(v)] = 1;
     }
     find_around(is_center_, q);
   }

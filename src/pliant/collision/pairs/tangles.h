@@ -48,6 +48,12 @@ class Tangles {
     Vec3 point;
   };
 
+  struct BodyPins {
+    bool has_pinned = false, has_free = false;
+
+    bool is_held() const { return has_pinned && !has_free; }
+  };
+
   using BodiesKey = std::pair<std::array<Index, 2>, bool>;  // and whether one was held up
 
   Index number_of(Index vertex) const { return numbers_.empty() ? vertex : numbers_[at(vertex)]; }
@@ -63,6 +69,7 @@ class Tangles {
   const Positions* begin_ = nullptr;
   std::span<const char> is_pinned_;
   std::span<const Index> numbers_;  // of vertices in the simulation; empty: the same
+  std::vector<BodyPins> bodies_;
   bool was_known_ = false;
   std::set<BodiesKey> known_bodies_;  // of which something was let go before the substep
   LetGo let_go_;
