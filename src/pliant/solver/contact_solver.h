@@ -35,7 +35,6 @@ class ContactSolver {
   /// Surfaces that touch each other and themselves; no parts: none do.
   void set_surfaces(SolverSurfaces surfaces);
   bool is_active() const { return contact_.is_active() || has_pairs(); }
-  bool has_surfaces() const { return has_pairs(); }
   /// The order of the vertices is another, or which are pinned.
   void forget_order();
   /// Whether there is a substep that was not forgotten.

@@ -32,6 +32,7 @@ void Descent::begin(const StepContext& context) {
   is_accelerated_ = chosen == Acceleration::lbfgs || (chosen == Acceleration::automatic && checks_plain_moves_);
   has_moved_ = false;
   is_first_ = true;
+  have_pairs_pushed_ = false;
   balance_.begin();
   if (is_needed()) lbfgs_.begin(context.system.vertex_count());
 }
@@ -106,7 +107,8 @@ void Descent::move(const LocalResult& local, const StepContext& context, Working
   lbfgs_.prepare(local, work.residual, work.solution, context.threads);
   lbfgs_.move(work.solution, lbfgs_.is_plain() ? curvature(context, work) : 0, work.positions, context.threads);
   has_moved_ = true;
-  if (!lbfgs_.is_plain() && context.contact.has_surfaces() && is_too_long(work)) {
+  have_pairs_pushed_ |= context.contact.pairs_push();
+  if (!lbfgs_.is_plain() && have_pairs_pushed_ && is_too_long(work)) {
     move_plainly(context, work);
   } else {
     hold_back(context, work);

@@ -46,6 +46,7 @@ class Descent {
   bool checks_plain_moves_ = false;  // contact: the factor is no bound
   bool has_moved_ = false;           // and the objective is still the one that the move was made for
   bool is_first_ = true;             // of the moves of a substep
+  bool have_pairs_pushed_ = false;   // in this substep
 };
 
 }  // namespace pliant

@@ -94,7 +94,7 @@ void Tangles::find(const Positions& q, std::span<const Triangle> triangles, std:
     const Index a = surface_->body[at(crossing.edge[0])];
     const Index b = surface_->body[at(triangle[0])];
     if (!surface_->may_meet(a, b) || crossings_.size() == most_crossings) return;
-    if (a == b && bodies_[at(a)].is_held()) return;  // nothing of it moves by itself
+    if (a == b && goes_as_told(crossing.edge) && goes_as_told(triangle)) return;
     crossings_.push_back({crossing.edge, triangle, crossing.point});
   });
 }
@@ -137,8 +137,10 @@ void Tangles::commit(const Positions& q, std::span<const Real> lags) {
                 [&](const LetGo::Vertices& pair) { return lags[at(pair[0])] == 0 && lags[at(pair[1])] == 0; });
   const bool are_several_pinned = std::ranges::count_if(bodies_, &BodyPins::has_pinned) > 1;
   const auto may_cross = [&](Index v) {
-    return is_pinned_[at(v)] != 0 && (are_several_pinned || !bodies_[at(surface_->body[at(v)])].is_held());
+    return is_pinned_[at(v)] != 0 &&
+           (are_several_pinned || lags[at(v)] > 0 || !bodies_[at(surface_->body[at(v)])].is_held());
   };
+  lags_ = lags;
   const auto has_moved = [&](Index v) { return may_cross(v) && (q.row(v).array() != begin_->row(v).array()).any(); };
   const bool have_pins_moved = std::ranges::any_of(surface_->vertices, has_moved);
   crossings_.clear();
@@ -149,6 +151,7 @@ void Tangles::commit(const Positions& q, std::span<const Real> lags) {
     }
     find_around(is_center_, q);
   }
+  lags_ = {};
   std::vector<LetGo::Vertices> pairs = crossing_vertices();
   pairs.insert(pairs.end(), held_up_.begin(), held_up_.end());
   let_go_.set(std::move(pairs), surface_->body.size());

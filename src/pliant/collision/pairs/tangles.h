@@ -3,6 +3,7 @@
 // a simulation begins or surfaces change. From then on the exact checker is asked only for what lies around pairs that
 // were let go, and around pinned vertices if some have moved: nothing else can have begun to cross, since planes keep
 // it apart. Vertices are those of the solver, but in what State and reports have.
+#include <algorithm>
 #include <set>
 
 #include "pliant/collision/contact/contact.h"
@@ -57,6 +58,13 @@ class Tangles {
   using BodiesKey = std::pair<std::array<Index, 2>, bool>;  // and whether one was held up
 
   Index number_of(Index vertex) const { return numbers_.empty() ? vertex : numbers_[at(vertex)]; }
+  /// Of bodies that are held as a whole, what is where it should be: it crosses itself where it is told to.
+  template <class Feature>
+  bool goes_as_told(const Feature& vertices) const {
+    return std::ranges::all_of(vertices, [&](Index v) {
+      return bodies_[at(surface_->body[at(v)])].is_held() && (lags_.empty() || !(lags_[at(v)] > 0));
+    });
+  }
   void mark_let_go();
   void find_all(const Positions& q);
   void find_around(const std::vector<char>& is_center, const Positions& q);
@@ -70,6 +78,7 @@ class Tangles {
   std::span<const char> is_pinned_;
   std::span<const Index> numbers_;  // of vertices in the simulation; empty: the same
   std::vector<BodyPins> bodies_;
+  std::span<const Real> lags_;  // while it commits
   bool was_known_ = false;
   std::set<BodiesKey> known_bodies_;  // of which something was let go before the substep
   LetGo let_go_;
