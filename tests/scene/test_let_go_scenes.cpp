@@ -9,7 +9,7 @@
 #include "pliant_io/checkpoint/checkpoint.h"
 #include "pliant_io/scene/scene.h"
 #include "tests/scene/whole_scenes.h"
-#include "tests/support/checkpoint_bytes.h"
+#include "tests/support/spoilt_checkpoint.h"
 #include "tests/support/temporary_folder.h"
 
 namespace test_let_go_scenes {
@@ -92,26 +92,10 @@ TEST_CASE("let go: what no run can have left is refused by name") {
   scene.step();
   write_checkpoint(folder.path() / "c.pliant", scene);
   const Json content = Json::from_cbor(TemporaryFolder::read(folder.path() / "c.pliant").substr(24));
-  const auto refusal = [&](const std::function<void(Json&)>& spoil) -> std::string {
-    Json changed = content;
-    spoil(changed["state"]["contact"]["let_go"]);
-    std::string bytes;
-    Json::to_cbor(changed, bytes);
-    try {
-      parse_checkpoint(pliant_tests::checkpoint_bytes(bytes, 3), "run.pliant", {});
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "(taken)";
-  };
   const auto check = [&](const std::string& what, const std::function<void(Json&)>& spoil) {
-    const std::string message = refusal(spoil);
-    CAPTURE(message);
-    CHECK(message.starts_with("run.pliant: state"));
-    CHECK(message.find(what) != std::string::npos);
-    CHECK(message.find('\n') == std::string::npos);
+    pliant_tests::check_refusal_of_contact(content, what, [&](Json& contact) { spoil(contact["let_go"]); });
   };
-  CHECK(refusal([](Json&) {}) == "(taken)");
+  CHECK(pliant_tests::refusal_of_contact(content, [](Json&) {}) == "(taken)");
   check("3 numbers for each", [](Json& let_go) { let_go["pairs"].push_back(1); });
   check("2 numbers for each", [](Json& let_go) { let_go["reduced"].erase(0); });
   check("pairs", [](Json& let_go) { let_go.erase("pairs"); });

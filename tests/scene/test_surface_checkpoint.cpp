@@ -12,7 +12,7 @@
 #include "pliant/core/error.h"
 #include "pliant_io/checkpoint/checkpoint.h"
 #include "pliant_io/scene/scene.h"
-#include "tests/support/checkpoint_bytes.h"
+#include "tests/support/spoilt_checkpoint.h"
 #include "tests/support/temporary_folder.h"
 
 namespace test_surface_checkpoint {
@@ -104,26 +104,10 @@ TEST_CASE("surfaces: pairs that no run can have left are refused by name") {
   REQUIRE(scene.simulation.state().contact.pairs.size() > 2);
   write_checkpoint(folder.path() / "c.pliant", scene);
   const Json content = Json::from_cbor(TemporaryFolder::read(folder.path() / "c.pliant").substr(24));
-  const auto refusal = [&](const std::function<void(Json&)>& spoil) -> std::string {
-    Json changed = content;
-    spoil(changed["state"]["contact"]);
-    std::string bytes;
-    Json::to_cbor(changed, bytes);
-    try {
-      parse_checkpoint(pliant_tests::checkpoint_bytes(bytes, 3), "run.pliant", {});
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "(taken)";
+  const auto check = [&](const std::string& what, const pliant_tests::ContactChange& spoil) {
+    pliant_tests::check_refusal_of_contact(content, what, spoil);
   };
-  const auto check = [&](const std::string& what, const std::function<void(Json&)>& spoil) {
-    const std::string message = refusal(spoil);
-    CAPTURE(message);
-    CHECK(message.starts_with("run.pliant: state"));
-    CHECK(message.find(what) != std::string::npos);
-    CHECK(message.find('\n') == std::string::npos);
-  };
-  CHECK(refusal([](Json&) {}) == "(taken)");
+  CHECK(pliant_tests::refusal_of_contact(content, [](Json&) {}) == "(taken)");
   check("three numbers for each pair", [](Json& contact) { contact["pairs"].erase(0); });
   check("three numbers for each pair", [](Json& contact) { contact["pairs"].push_back(0); });
   check("give a list", [](Json& contact) { contact["pairs"] = 3; });
