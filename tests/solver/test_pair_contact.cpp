@@ -1,5 +1,6 @@
 // Surfaces do not pass through each other: no crossing, by the exact checker, at the end of any step.
 #include <algorithm>
+#include <limits>
 #include <string>
 
 #include <doctest/doctest.h>
@@ -64,10 +65,25 @@ std::vector<Trial> trials_of_step(Real time_step, Real share = 1) {
   return trials;
 }
 
-/// The lowest coordinate z of a body [m].
-Real lowest(const Simulation& simulation, std::size_t body) {
+Positions positions_of(const Simulation& simulation, std::size_t body) {
   const Body& it = simulation.bodies()[body];
-  return simulation.state().positions.middleRows(it.first_vertex, it.mesh.vertex_count()).col(2).minCoeff();
+  return simulation.state().positions.middleRows(it.first_vertex, it.mesh.vertex_count());
+}
+
+/// How far the second body is above the lowest vertex of the first [m], where it is over the middle of the first: what
+/// hangs over a border may hang deeper.
+Real height_above(const Simulation& simulation) {
+  const Positions below = positions_of(simulation, 0);
+  const Positions above = positions_of(simulation, 1);
+  const Vec3 low = below.colwise().minCoeff();
+  const Vec3 high = below.colwise().maxCoeff();
+  Real height = std::numeric_limits<Real>::infinity();
+  for (Index v = 0; v < above.rows(); ++v) {
+    const Vec3 away = (row(above, v) - (low + high) / 2).cwiseAbs();
+    const Vec3 middle = 0.4 * (high - low);
+    if (away.x() < middle.x() && away.y() < middle.y()) height = std::min(height, above(v, 2) - low.z());
+  }
+  return height;
 }
 
 }  // namespace
@@ -156,7 +172,7 @@ TEST_CASE("pairs: what falls on a pinned sheet stays above it, whatever its spee
         const Real duration = runs_whole_scenes ? 0.5 : 0.04;
         for (Index i = 0; i < static_cast<Index>(duration / time_step); ++i) {
           scene.step();
-          CHECK(lowest(scene.simulation, 1) > lowest(scene.simulation, 0));
+          CHECK(height_above(scene.simulation) > 0);
         }
       }
     }
