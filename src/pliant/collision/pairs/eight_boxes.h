@@ -2,6 +2,7 @@
 // Boxes in single precision, eight side by side, so that eight are tested against eight at once. The types are those of
 // the compiler's vector extensions, four numbers wide: every x86-64 and ARM processor has such registers.
 #include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <limits>
 #ifdef __SSE2__
@@ -20,11 +21,15 @@ constexpr std::size_t boxes_side_by_side = 8;
 /// The greatest float that is not above x, or the least not below it; past the range of floats its ends. Both are
 /// monotone, so what meets in double precision meets after it.
 inline float rounded_down(Real x) {
-  constexpr float limit = std::numeric_limits<float>::max();
-  if (!(x > -Real{limit})) return -limit;
-  if (x >= Real{limit}) return limit;
-  const auto nearest = static_cast<float>(x);
-  return Real{nearest} > x ? std::nextafterf(nearest, -limit) : nearest;
+  constexpr Real limit = Real{std::numeric_limits<float>::max()};
+  const Real above = x > -limit ? x : -limit;
+  const Real inside = above < limit ? above : limit;
+  const auto nearest = static_cast<float>(inside);
+  // The float below, without a branch that half of all numbers take; a number that is below 0 does not become +0.
+  auto bits = std::bit_cast<std::int32_t>(nearest);
+  const std::int32_t down = bits < 0 ? 1 : -1;
+  bits += Real{nearest} > inside ? down : 0;
+  return std::bit_cast<float>(bits);
 }
 inline float rounded_up(Real x) {
   return -rounded_down(-x);

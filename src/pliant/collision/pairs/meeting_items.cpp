@@ -241,6 +241,13 @@ std::int64_t MeetingItems::count() const {
   return sum;
 }
 
+void MeetingItems::drop_far(PairKind kind, const FarPairs& far, ThreadPool& pool) {
+  pool.parallel_for(static_cast<Index>(tasks_.size()), [&](Index t) {
+    Task& task = tasks_[at(t)];
+    task.count = far.drop(kind, std::span(task.hits).first(task.count));
+  });
+}
+
 void MeetingItems::sort(Index first_count, ThreadPool& pool) {
   const std::size_t items = at(first_count);
   const Index parts = std::min(pool.active(), most_parts);

@@ -3,6 +3,7 @@
 #include <span>
 
 #include "pliant/collision/pairs/box_tree.h"
+#include "pliant/collision/pairs/far_pairs.h"
 #include "pliant/collision/pairs/surface.h"
 
 namespace pliant::collision {
@@ -38,6 +39,8 @@ class MeetingItems {
   /// `most` and one group's.
   static Index crowded_item(const Surface& surface, const OwnedTree& a, const OwnedTree& b, std::int64_t most);
 
+  /// Leaves out pairs that are far apart.
+  void drop_far(PairKind kind, const FarPairs& far, ThreadPool& pool);
   /// Puts the pairs in order: first those of item 0 of a, in the order of the items of b, then those of item 1 and so
   /// on. Of one tree the smaller item is the first.
   void sort(Index first_count, ThreadPool& pool);
@@ -47,9 +50,7 @@ class MeetingItems {
   Index second(Index k) const { return seconds_[at(k)]; }
 
  private:
-  struct Hit {
-    Index first, second;
-  };
+  using Hit = FarPairs::Items;
   struct Nodes {
     Index a, b;
   };

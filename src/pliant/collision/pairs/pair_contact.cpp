@@ -105,7 +105,7 @@ void PairContact::push_ahead(Positions& q, ThreadPool& threads) {
   if (!(longest > 0)) return;
   list_.forget_before();
   list_.begin_way(begin_, q);
-  const PairList::OnTheWay& found = list_.on_the_way(begin_, threads);
+  const PairList::OnTheWay& found = list_.on_the_way(begin_, q, threads);
   bool has_pushed = true;
   for (int i = 0; i < sweeps && has_pushed; ++i) {
     has_pushed_ahead_ |= i > 0;
@@ -287,7 +287,6 @@ HeldBack PairContact::hold_back(const Positions& from, Positions& q, ThreadPool&
 /// Where a move is held back by what surrounds a crossing, it goes on as soon as that is let go too.
 bool PairContact::shorten(const Positions& from, Positions& q, ThreadPool& threads) {
   constexpr int most_ways = 10;
-  wish_ = q;
   bool is_shortened = shorten_way(from, q, threads);
   for (int i = 0; i < most_ways && is_shortened && tangles_.follow(q); ++i) {
     has_let_go_ = true;
@@ -302,16 +301,18 @@ bool PairContact::shorten(const Positions& from, Positions& q, ThreadPool& threa
 /// What slides along a plane may come to where nothing was searched for.
 bool PairContact::shorten_way(const Positions& from, Positions& q, ThreadPool& threads) {
   constexpr int most_searches = 10;
-  list_.begin_way(from, wish_);
+  list_.begin_way(from, q);
+  if (list_.on_the_way(from, q, threads).pairs.empty()) return false;
+  wish_ = q;
   for (int i = 0; i < most_searches; ++i) {
-    const PairList::OnTheWay& found = list_.on_the_way(from, threads);
+    const PairList::OnTheWay& found = i == 0 ? list_.last_on_the_way() : list_.on_the_way(from, wish_, threads);
     q = wish_;
     if (found.pairs.empty()) return false;
     const PlanesInput input{
         .begin = from, .surface = *surface_, .pairs = found.pairs, .distances = found.distances, .radii = radii_};
     const Shortened done = planes_.shorten(input, q, threads);
     if (done.vertices == 0) return false;
-    if (!list_.covers(from, q)) continue;
+    if (!list_.covers(from, wish_, q)) continue;
     report_.shortened += done.vertices;
     return true;
   }

@@ -55,6 +55,12 @@ void PairList::set_surface(const Surface& surface, const Positions& rest, std::s
   surface_ = &surface;
   search_.emplace(surface);
   radii_.assign(radii.begin(), radii.end());
+  smallest_radius_ = std::numeric_limits<Real>::infinity();
+  largest_radius_ = 0;
+  for (const Index v : surface.vertices) {
+    smallest_radius_ = std::min(smallest_radius_, radii_[at(v)]);
+    largest_radius_ = std::max(largest_radius_, radii_[at(v)]);
+  }
   pads_.resize(radii.size());
   std::ranges::transform(radii, pads_.begin(), [](Real r) { return pad_of_ways * r; });
   find_own_radii(rest);
@@ -104,6 +110,7 @@ bool PairList::update(const Positions& q, ThreadPool& threads) {
   if (is_listed_) {
     go_to(q);
     const auto has_room = [&](Index v) { return gone_[at(v)] < list_slack / 2 * radii_[at(v)]; };
+    if (farthest_gone_ < list_slack / 2 * smallest_radius_) return false;
     if (std::ranges::all_of(surface_->vertices, has_room)) return false;
   }
   list(q, threads);
@@ -112,7 +119,8 @@ bool PairList::update(const Positions& q, ThreadPool& threads) {
 
 /// All pairs that can be nearer than r while no vertex has gone farther from here than half the slack.
 void PairList::list(const Positions& q, ThreadPool& threads) {
-  const std::span<const Pair> pairs = search_->find(q, q, radii_, threads);
+  const FarPairs far(*surface_, q, radii_);
+  const std::span<const Pair> pairs = search_->find(q, q, radii_, threads, &far);
   listed_chunks_.resize(std::max(listed_chunks_.size(), pairs.size() / pairs_of_chunk + 1));
   for_each_chunk_of(pairs.size(), pairs_of_chunk, threads, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
     listed_chunks_[chunk].clear();
@@ -136,6 +144,7 @@ void PairList::list(const Positions& q, ThreadPool& threads) {
   reduce_radii();
   reference_ = q;
   gone_.assign(at(static_cast<Index>(q.rows())), 0);
+  farthest_gone_ = 0;
   is_listed_ = true;
   is_of_before_ = false;
   has_listed_all_ = let_go_->is_empty();
@@ -151,11 +160,17 @@ void PairList::take_own_radii() {
   }
 }
 
-void PairList::find_lengths(const Positions& a, const Positions& b, const Vec3& common,
+Real PairList::find_lengths(const Positions& a, const Positions& b, const Vec3& common,
                             std::vector<Real>& lengths) const {
   const auto count = static_cast<Index>(b.rows());
   lengths.resize(at(count));
-  for (Index v = 0; v < count; ++v) lengths[at(v)] = (row(b, v) - row(a, v) - common).norm();
+  Real longest = 0;
+  for (Index v = 0; v < count; ++v) {
+    const Real length = (row(b, v) - row(a, v) - common).norm();
+    lengths[at(v)] = length;
+    longest = std::max(longest, length);
+  }
+  return longest;
 }
 
 /// The middle of a box about some of them: whatever it is, bounds hold.
@@ -190,7 +205,7 @@ std::vector<PairList::Near> PairList::nearer_than_radius(const Positions& q, con
 }
 
 void PairList::go_to(const Positions& q) {
-  find_lengths(reference_, q, common_way(reference_, q), gone_);
+  farthest_gone_ = find_lengths(reference_, q, common_way(reference_, q), gone_);
 }
 
 Real PairList::bound(const Near& near) const {
@@ -200,7 +215,6 @@ Real PairList::bound(const Near& near) const {
 // ---- ways
 
 void PairList::begin_way(const Positions& from, const Positions& to) {
-  way_end_ = to;
   if (is_listed_ || is_of_before_) go_to(from);
   take_way(from, to, !has_been_held_back_);
 }
@@ -209,7 +223,7 @@ void PairList::begin_way(const Positions& from, const Positions& to) {
 void PairList::take_way(const Positions& from, const Positions& to, bool is_relative) {
   is_relative_ = is_relative;
   common_ = is_relative ? common_way(from, to) : Vec3::Zero();
-  find_lengths(from, to, common_, ways_);
+  longest_way_ = find_lengths(from, to, common_, ways_);
   is_short_ = is_listed_ || (is_of_before_ && is_relative);
   if (is_short_) {
     if (is_relative) find_lengths(reference_, to, common_way(reference_, to), gone_at_end_);
@@ -228,10 +242,10 @@ void PairList::set_boxes(const Positions& from, const Positions& to) {
   high_ = high_.cwiseMax(from);
 }
 
-bool PairList::covers(const Positions& from, const Positions& q) {
+bool PairList::covers(const Positions& from, const Positions& to, const Positions& q) {
   if (is_relative_) {
     has_been_held_back_ = true;
-    take_way(from, way_end_, false);
+    take_way(from, to, false);
     return false;
   }
   const auto is_inside = [&](Index v) {
@@ -253,12 +267,12 @@ void PairList::add_on_the_way(const Pair& pair, Real bound, OnTheWay& found) con
   found.distances.push_back(std::max<Real>(0, bound));
 }
 
-const PairList::OnTheWay& PairList::on_the_way(const Positions& from, ThreadPool& threads) {
+const PairList::OnTheWay& PairList::on_the_way(const Positions& from, const Positions& to, ThreadPool& threads) {
   if (is_short_) {
     collect_near_on_the_way(threads);
     if (!is_of_before_ || on_the_way_.pairs.empty()) return on_the_way_;
     is_short_ = false;
-    set_boxes(from, way_end_);
+    set_boxes(from, to);
   }
   const std::span<const Pair> pairs = search_->find(low_, high_, pads_, threads);
   collect_on_the_way(pairs.size(), threads, [&](std::size_t i, OnTheWay& found) {
@@ -268,9 +282,8 @@ const PairList::OnTheWay& PairList::on_the_way(const Positions& from, ThreadPool
 }
 
 void PairList::collect_near_on_the_way(ThreadPool& threads) {
-  const Real most_certain = certain_share * *std::ranges::max_element(radii_);
-  const Real longest =
-      2 * (*std::ranges::max_element(ways_) / free_share_of_bound + *std::ranges::max_element(gone_)) + most_certain;
+  const Real most_certain = certain_share * largest_radius_;
+  const Real longest = 2 * (longest_way_ / free_share_of_bound + farthest_gone_) + most_certain;
   collect_on_the_way(near_.size(), threads, [&](std::size_t i, OnTheWay& found) {
     if (!(near_[i].distance > longest)) add_on_the_way(near_[i].pair, bound(near_[i]), found);
   });

@@ -51,10 +51,11 @@ class PairList {
   /// Vertices are to go from here to there. What is common to all ways brings nothing together.
   void begin_way(const Positions& from, const Positions& to);
   /// Those that may meet on it. Throws as update() does.
-  const OnTheWay& on_the_way(const Positions& from, ThreadPool& threads);
+  const OnTheWay& on_the_way(const Positions& from, const Positions& to, ThreadPool& threads);
+  const OnTheWay& last_on_the_way() const { return on_the_way_; }
   /// Whether these are all if some of the vertices are held back, and the way ends at q, no farther from where it
   /// began; the next search is for that, too.
-  bool covers(const Positions& from, const Positions& q);
+  bool covers(const Positions& from, const Positions& to, const Positions& q);
 
  private:
   struct OwnRadius {
@@ -67,8 +68,8 @@ class PairList {
   };
 
   void find_own_radii(const Positions& rest);
-  /// Of vertices that go from a to b: how far each goes, apart from `common`.
-  void find_lengths(const Positions& a, const Positions& b, const Vec3& common, std::vector<Real>& lengths) const;
+  /// Of vertices that go from a to b: how far each goes, apart from `common`. Returns the farthest.
+  Real find_lengths(const Positions& a, const Positions& b, const Vec3& common, std::vector<Real>& lengths) const;
   /// Of those, what is common to all ways, so that the longest of the rest is short.
   Vec3 common_way(const Positions& a, const Positions& b) const;
   void take_way(const Positions& from, const Positions& to, bool is_relative);
@@ -89,6 +90,7 @@ class PairList {
   const ReducedDistances* reduced_ = nullptr;
   std::optional<PairSearch> search_;
   std::vector<Real> radii_, pads_;
+  Real smallest_radius_ = 0, largest_radius_ = 0;
   std::vector<OwnRadius> own_radii_;  // of pairs that are nearer than r at rest, in the order of pairs
 
   Positions reference_;  // where the near pairs were listed
@@ -99,11 +101,12 @@ class PairList {
   std::vector<Near> near_;
   std::vector<Gap> gaps_;
   std::vector<Real> gone_;  // since then, apart from what all have gone [m]
+  Real farthest_gone_ = 0;
 
-  Positions low_, high_;             // the corners of boxes around ways
-  Positions way_end_;                // where they were to lead
-  Vec3 common_ = Vec3::Zero();       // to all of them [m]
-  std::vector<Real> ways_;           // lengths [m]
+  Positions low_, high_;        // the corners of boxes around ways
+  Vec3 common_ = Vec3::Zero();  // to all of them [m]
+  std::vector<Real> ways_;      // lengths [m]
+  Real longest_way_ = 0;
   std::vector<Real> gone_at_end_;    // scratch [m]
   bool is_short_ = false;            // so that no pair can meet that is not near
   bool is_relative_ = false;         // lengths are apart from what all go

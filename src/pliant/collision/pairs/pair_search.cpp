@@ -114,7 +114,7 @@ OwnedTree PairSearch::owned(std::size_t place) const {
 }
 
 std::span<const Pair> PairSearch::find(const Positions& begin, const Positions& end, std::span<const Real> pads,
-                                       ThreadPool& pool) {
+                                       ThreadPool& pool, const FarPairs* far) {
   set_boxes(begin, end, pads, pool);
   std::array<bool, places> is_fit{};
   for (std::size_t place = 0; place < places; ++place) is_fit[place] = items_[place].tree.refit(boxes_, pool);
@@ -134,6 +134,7 @@ std::span<const Pair> PairSearch::find(const Positions& begin, const Positions& 
       pairs_.clear();
       fail(kinds[k], end);
     }
+    if (far != nullptr) meeting_[k].drop_far(kind, *far, pool);
     offsets[k + 1] = offsets[k] + meeting_[k].count();
   }
   pairs_.resize(static_cast<std::size_t>(offsets.back()));

@@ -29,12 +29,12 @@ class PairSearch {
   void set_held(std::span<const char> is_held);
 
   /// begin, end: positions at both ends of the ways, m × 3, finite [m]. pads: of each vertex, ≥ 0 [m]. All in the
-  /// solver's order. Returns the pairs in their order, which hold until the next call. The same for any number of
-  /// threads. Allocates nothing once there is memory for as many pairs.
+  /// solver's order. far: leaves out most of these, and nothing but these. Returns the pairs in their order, which hold
+  /// until the next call. The same for any number of threads. Allocates nothing once there is memory for as many pairs.
   ///
   /// Throws Error(input) where there are more than `most`, naming the vertex where most of them are.
-  std::span<const Pair> find(const Positions& begin, const Positions& end, std::span<const Real> pads,
-                             ThreadPool& pool);
+  std::span<const Pair> find(const Positions& begin, const Positions& end, std::span<const Real> pads, ThreadPool& pool,
+                             const FarPairs* far = nullptr);
   std::span<const Pair> pairs() const { return pairs_; }
 
   /// How often trees were put in order, for benchmarks.
