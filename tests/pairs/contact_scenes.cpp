@@ -111,7 +111,8 @@ bool run(const Run& each, Index frames, Index every) {
         "{:8.2f} ms rms {:.1e} m/s lost {:.1e} N s energy {:+.1e} J, at most {:+.1e} J{}\n",
         title, scene.simulation.state().vertex_count(), figures.frames, figures.crossings, figures.frames_crossed,
         figures.smallest_gap, figures.shortened, figures.pairs, 1e3 * median(figures.seconds),
-        rms_speed(scene.simulation), figures.momentum_lost, figures.energy, figures.most_energy, begins_apart ? "" : " BEGINS CROSSED");
+        rms_speed(scene.simulation), figures.momentum_lost, figures.energy, figures.most_energy,
+        begins_apart ? "" : " BEGINS CROSSED");
     std::fflush(stdout);
     return begins_apart && figures.crossings == 0;
   } catch (const std::exception& error) {

@@ -45,7 +45,7 @@ std::int64_t count_crossings(const pliant::Simulation& simulation);
 std::int64_t count_unknown_crossings(const pliant::Simulation& simulation);
 
 /// Kinetic, elastic and potential energy [J], without that of contact.
-pliant::Real total_energy(const pliant::Simulation& simulation);
+pliant::Real total_energy(pliant::Simulation& simulation);
 /// The root of the mean square of all speeds [m/s].
 pliant::Real rms_speed(const pliant::Simulation& simulation);
 
