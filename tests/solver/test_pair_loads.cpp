@@ -232,7 +232,7 @@ TEST_CASE("pair loads: the report tells what momentum a collision loses") {
 TEST_CASE("pair loads: a collision loses less than a hundredth of its momentum with 20 iterations" *
           doctest::skip(!runs_whole_scenes)) {
   std::vector<Real> losses;
-  for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     PairOptions options;
     options.settings.iterations = 20;
     options.seed = seed;
