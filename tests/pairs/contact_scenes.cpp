@@ -3,6 +3,7 @@
 //     contact_scenes --list
 //     contact_scenes twist fold --vertices 1600 --iterations 3
 //     contact_scenes all --vary --share 2/4
+//     contact_scenes tower arch --vertices 1300 --friction 0.6 --every 600
 //
 // Exits with 1 when anything crossed.
 #include <algorithm>
@@ -15,6 +16,7 @@
 #include <fmt/format.h>
 
 #include "pliant/core/stopwatch.h"
+#include "tests/pairs/masonry_scenes.h"
 #include "tests/pairs/pair_scene.h"
 
 namespace {
@@ -34,6 +36,7 @@ struct Arguments {
   std::string integrator = "implicit_euler";
   std::string share = "1/1";
   Index frames = 0;
+  Index every = 0;
   Index piles = 1;
   bool is_list = false;
   bool has_variations = false;
@@ -47,15 +50,32 @@ struct Figures {
   Index frames_crossed = 0;
   Real smallest_gap = std::numeric_limits<Real>::infinity();
   std::int64_t shortened = 0;
-  Index pairs = 0;  // most of a step
+  Index pairs = 0;         // most of a step
+  Real momentum_lost = 0;  // sum over all steps [N s]
+  Real energy = 0;         // kinetic, elastic and potential at the end, less that of the start [J]
+  Real most_energy = 0;    // of a step
   std::vector<double> seconds;
 };
 
-Figures measure(PairScene& scene, Index frames) {
+/// How its bodies stand after so many frames, and what the last of them has done.
+void print_standing(const Simulation& simulation, Index frames, Real energy, const StepReport& report) {
+  const Standing now = standing(simulation);
+  fmt::print(
+      "  frame {:5} highest {:.5f} m sag {:.5f} m sideways {:.6f} m fastest {:.1e} m/s rms {:.1e} m/s energy {:+.2e} J "
+      "lost {:.1e} N s active {:4} shortened {:4} backtracks {:2} factors {} residual {:.1e} N\n",
+      frames, now.highest, now.sag, now.sideways, now.fastest, rms_speed(simulation), energy,
+      report.contact.momentum_lost.norm(), report.contact.active, report.contact.shortened, report.backtracks,
+      report.contact.refactorizations, report.residual);
+  std::fflush(stdout);
+}
+
+Figures measure(PairScene& scene, Index frames, Index every) {
   Figures figures;
+  const Real energy = total_energy(scene.simulation);
   for (Index i = 0; i < frames; ++i) {
     const Stopwatch watch;
-    const ContactReport contact = scene.step().contact;
+    const StepReport report = scene.step();
+    const ContactReport& contact = report.contact;
     figures.seconds.push_back(watch.seconds());
     ++figures.frames;
     const std::int64_t crossings = count_crossings(scene.simulation);
@@ -64,6 +84,10 @@ Figures measure(PairScene& scene, Index frames) {
     figures.smallest_gap = std::min(figures.smallest_gap, contact.smallest_gap);
     figures.shortened += contact.shortened;
     figures.pairs = std::max(figures.pairs, contact.pairs);
+    figures.energy = total_energy(scene.simulation) - energy;
+    figures.most_energy = std::max(figures.most_energy, figures.energy);
+    figures.momentum_lost += contact.momentum_lost.norm();
+    if (every > 0 && (i + 1) % every == 0) print_standing(scene.simulation, i + 1, figures.energy, report);
   }
   return figures;
 }
@@ -76,18 +100,19 @@ double median(std::vector<double> values) {
 }
 
 /// Runs it and prints its line. Returns whether nothing crossed.
-bool run(const Run& each, Index frames) {
+bool run(const Run& each, Index frames, Index every) {
   const std::string title = each.what.empty() ? each.scene : each.scene + ", " + each.what;
   try {
     PairScene scene = make_pair_scene(each.scene, each.options);
     const bool begins_apart = count_crossings(scene.simulation) == 0;
-    const Figures figures = measure(scene, frames > 0 ? frames : scene.frames());
+    const Figures figures = measure(scene, frames > 0 ? frames : scene.frames(), every);
     fmt::print(
         "{:36} {:6} vertices {:5} frames {:6} crossings in {:4} gap {:8.2e} m shortened {:8} pairs {:7} "
-        "{:8.2f} ms rms {:.1e} m/s{}\n",
+        "{:8.2f} ms rms {:.1e} m/s lost {:.1e} N s energy {:+.1e} J, at most {:+.1e} J{}\n",
         title, scene.simulation.state().vertex_count(), figures.frames, figures.crossings, figures.frames_crossed,
         figures.smallest_gap, figures.shortened, figures.pairs, 1e3 * median(figures.seconds),
-        rms_speed(scene.simulation), begins_apart ? "" : " BEGINS CROSSED");
+        rms_speed(scene.simulation), figures.momentum_lost, figures.energy, figures.most_energy,
+        begins_apart ? "" : " BEGINS CROSSED");
     std::fflush(stdout);
     return begins_apart && figures.crossings == 0;
   } catch (const std::exception& error) {
@@ -155,6 +180,8 @@ void read(int argc, char** argv, Arguments& to, CLI::App& app) {
   app.add_option("--drag", to.options.drag, "of a vertex of the last body that goes round in a circle [N/m]; 0: none");
   app.add_option("--speed", to.options.speed, "downward at the start [m/s]");
   app.add_option("--frames", to.frames, "steps; 0: what the scene takes")->check(CLI::Range(0, 100'000'000));
+  app.add_option("--every", to.every, "print how bodies stand each so many steps; 0: not")
+      ->check(CLI::Range(0, 100'000'000));
   app.add_option("--seed", to.options.seed, "of what is drawn by chance");
   app.add_option("--piles", to.piles, "so many piles, each of another seed")->check(CLI::Range(1, 1'000'000));
   app.add_option("--share", to.share, "i/n: the i-th of n parts of the runs");
@@ -187,7 +214,7 @@ int run_program(const Arguments& arguments) {
     if (arguments.is_list) {
       fmt::print("{}{}{}\n", each.scene, each.what.empty() ? "" : ", ", each.what);
     } else {
-      is_clean &= run(each, arguments.frames);
+      is_clean &= run(each, arguments.frames, arguments.every);
     }
   }
   return is_clean ? 0 : 1;

@@ -9,7 +9,9 @@
 #include "pliant/collision/crossings.h"
 #include "pliant/core/error.h"
 #include "tests/pairs/body_scenes.h"
+#include "tests/pairs/bounce_scenes.h"
 #include "tests/pairs/cloth_scenes.h"
+#include "tests/pairs/masonry_scenes.h"
 
 namespace pliant_tests {
 
@@ -40,7 +42,12 @@ std::span<const PairSceneEntry> pair_scenes() {
       PairSceneEntry{"rope", "a coil of rope falls on a pinned sheet, 3 s", rope},
       PairSceneEntry{"coil", "an upright rope falls on a floor and itself, 3 s", coil},
       PairSceneEntry{"pile", "soft boxes and balls fall into each other on a floor, 5 s", pile},
-      PairSceneEntry{"collision", "two soft boxes fly at each other, 1 s", collision_of_two}};
+      PairSceneEntry{"collision", "two soft boxes fly at each other, 1 s", collision_of_two},
+      PairSceneEntry{"bounce_block", "a block falls on one whose bottom is pinned, 1 s", bounce_block},
+      PairSceneEntry{"bounce_sheet", "a sheet falls on one whose border is pinned, 1 s", bounce_sheet},
+      PairSceneEntry{"bounce_ball", "a ball falls on a sheet whose border is pinned, 1 s", bounce_ball},
+      PairSceneEntry{"tower", "20 boxes on each other, 5 s; with --friction 0.6 they stand", tower_of_20},
+      PairSceneEntry{"arch", "11 wedges, 5 s; they stand with --friction 0.6 and fall with 0.2", arch_of_11}};
   return entries;
 }
 
@@ -96,6 +103,17 @@ std::int64_t count_unknown_crossings(const Simulation& simulation) {
     if (!is_known) ++count;
   });
   return count;
+}
+
+Real total_energy(Simulation& simulation) {
+  static_cast<void>(simulation.evaluate());  // elastic energies are those of the last one
+  Real energy = 0;
+  for (Index v = 0; v < simulation.state().vertex_count(); ++v) {
+    energy += simulation.state().masses[at(v)] / 2 * row(simulation.state().velocities, v).squaredNorm();
+  }
+  for (const auto& [id, group] : simulation.groups()) energy += simulation.elastic_energy(id);
+  for (const auto& [id, force] : simulation.forces()) energy += force->potential(simulation.state().view());
+  return energy;
 }
 
 Real rms_speed(const Simulation& simulation) {

@@ -44,6 +44,8 @@ std::int64_t count_crossings(const pliant::Simulation& simulation);
 /// Those of which a vertex of the edge and one of the triangle have not been let go.
 std::int64_t count_unknown_crossings(const pliant::Simulation& simulation);
 
+/// Kinetic, elastic and potential energy [J], without that of contact.
+pliant::Real total_energy(pliant::Simulation& simulation);
 /// The root of the mean square of all speeds [m/s].
 pliant::Real rms_speed(const pliant::Simulation& simulation);
 

@@ -46,6 +46,37 @@ Mesh sheet_mesh(Index n, Real width, const Vec3& corner, Plane plane, Index rows
   return mesh;
 }
 
+std::vector<Index> border_of(Index n) {
+  std::vector<Index> border;
+  for (Index j = 0; j < n; ++j) {
+    for (Index i = 0; i < n; ++i) {
+      if (i == 0 || j == 0 || i == n - 1 || j == n - 1) border.push_back(j * n + i);
+    }
+  }
+  return border;
+}
+
+Mesh cube_mesh(Index cells, Real size) {
+  Mesh mesh = bar({.cells = {cells, cells, cells}, .size = {size, size, size}});
+  mesh.vertices.array() -= size / 2;
+  return mesh;
+}
+
+Mesh ball_mesh(Index cells, Real size) {
+  Mesh mesh = cube_mesh(cells, size);
+  for (Index i = 0; i < mesh.vertex_count(); ++i) {
+    const Vec3 x = row(mesh.vertices, i) * (2 / size);
+    const Vec3 s = x.cwiseAbs2();
+    Vec3 round;
+    for (int a = 0; a < 3; ++a) {
+      const Real b = s[(a + 1) % 3], c = s[(a + 2) % 3];
+      round[a] = x[a] * std::sqrt(1 - b / 2 - c / 2 + b * c / 3);
+    }
+    mesh.vertices.row(i) = (0.2 * x + 0.8 * round).transpose() * (size / 2);
+  }
+  return mesh;
+}
+
 Real usual_distance(const Mesh& mesh) {
   Simulation probe;
   return probe.contact_distance(probe.add_body(mesh, Mass::per_vertex(1)));

@@ -11,6 +11,14 @@ pliant::Index side_of(pliant::Index count, pliant::Real share = 1);
 pliant::Mesh sheet_mesh(pliant::Index n, pliant::Real width, const pliant::Vec3& corner,
                         pliant::Plane plane = pliant::Plane::xy, pliant::Index rows = 0);
 
+/// The vertices at the border of a sheet of n × n.
+std::vector<pliant::Index> border_of(pliant::Index n);
+
+/// A cube of tetrahedra about the origin.
+pliant::Mesh cube_mesh(pliant::Index cells, pliant::Real size);
+/// The same, almost a ball: a ball proper would leave the tetrahedra at the cube's edges flat.
+pliant::Mesh ball_mesh(pliant::Index cells, pliant::Real size);
+
 /// The contact distance that a mesh has by itself [m].
 pliant::Real usual_distance(const pliant::Mesh& mesh);
 

@@ -182,6 +182,7 @@ void Descent::factorize(const StepContext& context, WorkingState& work, StepRepo
 }
 
 void Descent::check_last_move(const StepContext& context, WorkingState& work, StepReport& report) {
+  if (!has_moved_ && checks_plain_moves_) evaluate(context, work);  // cannot be judged, but its residual is reported
   if (!has_moved_ || (lbfgs_.is_plain() && !checks_plain_moves_)) return;
   LocalResult local = local_step(context, work, report);
   settle(context, work, local);

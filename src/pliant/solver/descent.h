@@ -21,7 +21,7 @@ class Descent {
   void forget() { lbfgs_.forget(); }
   /// q ← q + α p, not into a collider.
   void move(const LocalResult& local, const StepContext& context, WorkingState& work, StepReport& report);
-  /// Judges the last move, once it is known to be the last.
+  /// Judges the last move, once it is known to be the last, and finds the residual where it led.
   void check_last_move(const StepContext& context, WorkingState& work, StepReport& report);
 
  private:

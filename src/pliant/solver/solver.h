@@ -83,6 +83,7 @@ class Solver {
   LocalResult local_step(const State& state, Index iteration, StepReport& report);
   void global_step(const State& state, const LocalResult& local, StepReport& report);
   void find_velocities();
+  void add_momentum_lost(ContactReport& report) const;
   void commit(State& state, StepReport& report);
 
   SolverSettings settings_;

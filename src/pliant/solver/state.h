@@ -74,6 +74,9 @@ struct ContactReport {
   Real smallest_gap = std::numeric_limits<Real>::infinity();  ///< between them at its end [m]
   Real lag = 0;  ///< how far pinned vertices are behind where they should be, held up by what is in their way [m]
   Index shortened = 0;  ///< moves of vertices that were cut so that no surface passes through another
+  /// What momentum is short of, after what all forces have given in the step [N s]: what moves that were cut and
+  /// iterations that have not converged leave. Bodies that nothing holds lose as much. Of vertices that are not pinned.
+  Vec3 momentum_lost = Vec3::Zero();
   /// At its end, edges that pass through a triangle, and pinned vertices that may pass what has held them up.
   Index let_go = 0;
   std::vector<LetGoBodies> let_go_bodies{};  ///< of which something is let go since this step

@@ -47,6 +47,7 @@ void Solver::take_substep(State& state, StepReport& report) {
   report.reached_tolerance &= reached_tolerance;                  //
   check_finite(context(state), work_);                            //
   find_velocities();                                              // 8   v = (q − a)/η
+  if (contact_.is_active()) add_momentum_lost(report.contact);    //     M v falls short by η r
   if (projects_energy()) energy_.project(context(state), work_);  //     onto the energy that q and v should have
   commit(state, report);                                          //     qₙ = q, vₙ = v
 }
@@ -159,6 +160,14 @@ void Solver::find_velocities() {
   const IntegratorCoefficients form(work_.begin, settings_.integrator, substep());
   for (Index i = 0; i < system_.vertex_count(); ++i) {
     work_.velocities.row(i) = (work_.positions.row(i) - form.position(i)) / form.inertia_step();
+  }
+}
+
+/// r is that of the last iterate: with contact the last move is judged too.
+void Solver::add_momentum_lost(ContactReport& report) const {
+  const Real step = IntegratorCoefficients(work_.begin, settings_.integrator, substep()).inertia_step();
+  for (Index i = 0; i < system_.vertex_count(); ++i) {
+    if (system_.is_pinned()[at(i)] == 0) report.momentum_lost += step * row(work_.residual, i);
   }
 }
 
