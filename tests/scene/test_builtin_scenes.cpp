@@ -83,9 +83,11 @@ void check_sound(const Scene& scene) {
 }
 
 /// These run to their end in test cases of their own, below, in test_contact_scenes.cpp and in test_surface_scenes.cpp.
-constexpr std::array own_cases = {"fold",        "layers", "pile",     "rope_coil", "twist",     "ball", "conveyor",
-                                  "dancer",      "drapes", "flagpole", "hand",      "materials", "net",  "pillow",
-                                  "rope_bridge", "slope",  "torus",    "towel",     "trampoline"};
+constexpr std::array own_cases = {"block",        "chain_mail", "funnel",    "reef_knot", "tablecloth",
+                                  "turning_ball", "fold",       "layers",    "pile",      "rope_coil",
+                                  "twist",        "ball",       "conveyor",  "dancer",    "drapes",
+                                  "flagpole",     "hand",       "materials", "net",       "pillow",
+                                  "rope_bridge",  "slope",      "torus",     "towel",     "trampoline"};
 
 TEST_CASE("every built-in scene runs") {
   CHECK(builtin_scenes().size() >= 20);
