@@ -181,8 +181,8 @@ void LiveScene::step() {
 }
 
 void LiveScene::update_render_mesh() {
-  auto render_mesh = std::make_shared<const pliant_render::RenderMesh>(
-      pliant_render::make_render_mesh(session_.simulation()));
+  auto render_mesh =
+      std::make_shared<const pliant_render::RenderMesh>(pliant_render::make_render_mesh(session_.simulation()));
   if (render_mesh_ == nullptr || !is_same(*render_mesh, *render_mesh_)) render_mesh_ = std::move(render_mesh);
 }
 

@@ -126,7 +126,8 @@ TEST_CASE("of several bodies each has a tone of its own, unless the scene gives 
   pliant::Mesh right = studio.bodies[0].mesh;
   right.vertices.col(0).array() += 1.1;
   studio.bodies.push_back({"right square", right, 81});
-  for (pliant::Index i = 0; i < 81; ++i) studio.frame.positions.push_back(row(right.vertices, i).cast<float>());
+  for (pliant::Index i = 0; i < 81; ++i)
+    studio.frame.positions.push_back(right.vertices.row(i).transpose().cast<float>());
   const std::optional<Image> two = studio.draw();
   studio.options.appearance.front = pliant::Color{0.9, 0.1, 0.1};
   const std::optional<Image> given = studio.draw();
