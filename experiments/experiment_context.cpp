@@ -49,7 +49,7 @@ bool ExperimentContext::try_steps(pliant::Scene& scene, std::int64_t count) cons
 
 Image ExperimentContext::picture(const pliant::Scene& scene) const {
   if (!options_.draws) return {};
-  pliant_render::Clip clip{pliant_render::make_render_mesh(scene.simulation.bodies()), scene.view, {}};
+  pliant_render::Clip clip{pliant_render::make_render_mesh(scene.simulation), scene.view, {}};
   clip.frames.push_back(pliant_render::capture_frame(scene.simulation, clip.render_mesh, scene.view.color));
   pliant_render::PictureOptions options;
   options.appearance = scene.view;

@@ -170,11 +170,14 @@ void warn_of_tolerance(const pliant::ExportOptions& options, const pliant::Expor
                   report.largest_error, wanted, options.max_keyframes));
 }
 
-pliant::SurfaceColors surface_colors(const pliant::ViewSettings& view) {
+/// What a view gives of both; none where it gives neither.
+std::optional<pliant::SurfaceColors> surface_colors(const pliant::ViewSettings& view) {
+  if (!view.front && !view.back) return {};
   const auto shares = [](const pliant::Color& color) {
     return std::array<pliant::Real, 3>{color.red, color.green, color.blue};
   };
-  return {shares(view.front), shares(view.back)};
+  const pliant::BodyTones& plain = pliant::body_tones.front();
+  return pliant::SurfaceColors{shares(view.front.value_or(plain.front)), shares(view.back.value_or(plain.back))};
 }
 
 /// Those that the scene of a run gives its surfaces; none where it leaves them as they are, or is not known.
@@ -183,10 +186,7 @@ std::optional<pliant::SurfaceColors> colors_of_run(const fs::path& folder) {
   std::error_code ignored;
   if (!fs::exists(checkpoint, ignored)) return {};
   try {
-    const pliant::SurfaceColors given = surface_colors(pliant::read_checkpoint(checkpoint).view);
-    const pliant::SurfaceColors plain = surface_colors({});
-    if (given.front == plain.front && given.back == plain.back) return {};
-    return given;
+    return surface_colors(pliant::read_checkpoint(checkpoint).view);
   } catch (const pliant::Error& error) {
     print_to_stderr("warning: the colors of the scene are not known, so each body has one of its own: " +
                     pliant::printable_place(error.what(), message_limit) + "\n");

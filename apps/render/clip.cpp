@@ -56,7 +56,7 @@ std::vector<std::uint32_t> find_markers(const pliant::Simulation& simulation, st
   return markers;
 }
 
-/// Of bodies that are held as a whole.
+/// Vertices of bodies that are held as a whole.
 std::vector<std::uint32_t> find_held(const pliant::Simulation& simulation) {
   const std::vector<char> held = held_vertices(simulation);
   std::vector<std::uint32_t> found;
@@ -148,6 +148,10 @@ std::vector<float> find_values(const pliant::Simulation& simulation, const Rende
 
 }  // namespace
 
+RenderMesh make_render_mesh(const pliant::Simulation& simulation) {
+  return make_render_mesh(simulation.bodies(), find_held(simulation));
+}
+
 /// Of bodies that are held as a whole, figures say, markers would hide the surface.
 std::vector<std::uint32_t> pinned_vertices(const pliant::Simulation& simulation) {
   const std::vector<char> held = held_vertices(simulation);
@@ -182,7 +186,7 @@ ClipFrame capture_frame(const pliant::Simulation& simulation, const RenderMesh& 
 }
 
 Clip clip_from_scene(pliant::Scene& scene, std::int64_t every, const std::function<bool(std::int64_t)>& go_on) {
-  Clip clip{make_render_mesh(scene.simulation.bodies()), scene.view, {}};
+  Clip clip{make_render_mesh(scene.simulation), scene.view, {}};
   check_size((scene.steps - scene.simulation.state().step) / every + 2, clip.render_mesh.vertex_count);
   ColliderSurfaces surfaces;
   const auto keep = [&] {
@@ -220,7 +224,9 @@ RunFrames::RunFrames(pliant::Animation animation, RunAnnotations annotations)
   if (animation_.bodies.empty()) {
     pliant::fail_input(animation_.name + ": only points are known; a picture needs their mesh");
   }
-  render_mesh_ = make_render_mesh(animation_.bodies);
+  const std::vector<std::size_t>& entries = annotations_.entry_of_frame;
+  render_mesh_ = make_render_mesh(animation_.bodies, entries.empty() ? std::span<const std::uint32_t>()
+                                                                     : annotations_.entries[entries.front()].held);
   pliant::Positions x;
   animation_.cache.sample(animation_.times.front(), x);
   for (std::size_t e = 0; e < render_mesh_.rest_lengths.size(); ++e) {

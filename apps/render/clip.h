@@ -24,6 +24,9 @@ struct Clip {
   std::vector<ClipFrame> frames;    ///< by time, ascending
 };
 
+/// Of the bodies as they are held now, see make_render_mesh of the bodies.
+RenderMesh make_render_mesh(const pliant::Simulation& simulation);
+
 /// Vertices pinned by position constraints, ascending; none of bodies that are held as a whole.
 std::vector<std::uint32_t> pinned_vertices(const pliant::Simulation& simulation);
 

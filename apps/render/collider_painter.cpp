@@ -105,8 +105,7 @@ void ColliderPainter::draw_solids(const Projection& projection, const Lighting& 
   solid_.set("setback", projection.setback);
   solid_.set("to_eye", lighting.to_eye);
   solid_.set("light", lighting.to_light);
-  solid_.set("front", solid_tone);
-  solid_.set("back", solid_tone);
+  solid_.set("held", solid_tone);
   solid_.set("is_colored", 0);
   draw_triangles(solid_, Mat4f::Identity());
 }

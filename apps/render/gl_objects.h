@@ -47,6 +47,9 @@ class Program {
   void set(const char* name, float value) const { glUniform1f(place(name), value); }
   void set(const char* name, const Vec2f& value) const { glUniform2fv(place(name), 1, value.data()); }
   void set(const char* name, const Vec3f& value) const { glUniform3fv(place(name), 1, value.data()); }
+  void set(const char* name, std::span<const Vec3f> values) const {
+    glUniform3fv(place(name), static_cast<GLsizei>(values.size()), values.front().data());
+  }
   void set(const char* name, const Mat4f& value) const { glUniformMatrix4fv(place(name), 1, GL_FALSE, value.data()); }
 
  private:

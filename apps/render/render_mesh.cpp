@@ -1,5 +1,7 @@
 #include "render/render_mesh.h"
 
+#include <algorithm>
+
 #include "pliant/mesh/topology.h"
 
 namespace pliant_render {
@@ -12,9 +14,23 @@ void append(std::vector<std::uint32_t>& list, std::span<const Element> elements,
   }
 }
 
+/// What is held counts for nothing, so that a body that is the only free one has the first tones.
+std::vector<std::uint8_t> number_tones(const std::vector<pliant::Body>& bodies, std::span<const std::uint32_t> held,
+                                       Index vertex_count) {
+  std::vector<std::uint8_t> tones(static_cast<std::size_t>(vertex_count), 0);
+  std::size_t number = 0;
+  for (const pliant::Body& body : bodies) {
+    const Index count = body.mesh.vertex_count();
+    if (count == 0 || std::ranges::binary_search(held, static_cast<std::uint32_t>(body.first_vertex))) continue;
+    std::fill_n(tones.begin() + body.first_vertex, count,
+                static_cast<std::uint8_t>(number++ % pliant::body_tones.size()));
+  }
+  return tones;
+}
+
 }  // namespace
 
-RenderMesh make_render_mesh(const std::vector<pliant::Body>& bodies) {
+RenderMesh make_render_mesh(const std::vector<pliant::Body>& bodies, std::span<const std::uint32_t> held) {
   RenderMesh render_mesh;
   for (const pliant::Body& body : bodies) {
     const pliant::Mesh& mesh = body.mesh;
@@ -36,6 +52,7 @@ RenderMesh make_render_mesh(const std::vector<pliant::Body>& bodies) {
           static_cast<float>((mesh.vertices.row(edge[1]) - mesh.vertices.row(edge[0])).norm()));
     }
   }
+  render_mesh.tones = number_tones(bodies, held, render_mesh.vertex_count);
   return render_mesh;
 }
 

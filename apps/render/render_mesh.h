@@ -20,8 +20,10 @@ struct RenderMesh {
   std::vector<std::uint32_t> edges;      ///< of the triangles, for the wireframe, two vertices each
   std::vector<std::uint32_t> springs;    ///< all edges, which define the stretch, two vertices each
   std::vector<float> rest_lengths;       ///< of the springs [m]
+  std::vector<std::uint8_t> tones;       ///< one per vertex: which of pliant::body_tones its body has
 };
-RenderMesh make_render_mesh(const std::vector<pliant::Body>& bodies);
+/// Free bodies have tones in turn. held: vertices of bodies that are held as a whole, as in FrameContent.
+RenderMesh make_render_mesh(const std::vector<pliant::Body>& bodies, std::span<const std::uint32_t> held = {});
 
 /// What changes from frame to frame.
 struct FrameContent {

@@ -26,6 +26,19 @@ Vec3f tone_of(const pliant::Color& color) {
   return {static_cast<float>(color.red), static_cast<float>(color.green), static_cast<float>(color.blue)};
 }
 
+/// The tones that a scene gives are those of all bodies.
+void set_tones(const Program& program, const pliant::ViewSettings& appearance) {
+  const bool is_given = appearance.front || appearance.back;
+  std::vector<Vec3f> fronts, backs;
+  for (const pliant::BodyTones& each : pliant::body_tones) {
+    const pliant::BodyTones& tones = is_given ? pliant::body_tones.front() : each;
+    fronts.push_back(tone_of(appearance.front.value_or(tones.front)));
+    backs.push_back(tone_of(appearance.back.value_or(tones.back)));
+  }
+  program.set("fronts", std::span<const Vec3f>(fronts));
+  program.set("backs", std::span<const Vec3f>(backs));
+}
+
 /// What shifts a point at the middle of the scene that far towards the eye, in the depths of OpenGL.
 float depth_shift(const Viewpoint& view, const Bounds& bounds, float shift) {
   const float depth = std::max((bounds.center() - view.eye).dot(view.forward()), view.near);
@@ -117,10 +130,10 @@ void Renderer::set_frame(const FrameContent& frame, pliant::ColorBy color) {
   const std::vector<Vec3f> normals = vertex_normals(render_mesh_, frame.positions);
   vertices_.resize(frame.positions.size());
   for (std::size_t i = 0; i < vertices_.size(); ++i) {
-    vertices_[i] = {frame.positions[i], normals[i], has_values_ ? frame.values[i] : 0};
+    vertices_[i] = {frame.positions[i], normals[i], has_values_ ? frame.values[i] : render_mesh_.tones[i]};
   }
   if (!has_values_) {
-    for (const std::uint32_t vertex : frame.held) vertices_[vertex].value = 1;
+    for (const std::uint32_t vertex : frame.held) vertices_[vertex].value = -1;
   }
   upload(vertex_buffer_, GL_ARRAY_BUFFER, vertices_, GL_STREAM_DRAW);
   glBindVertexArray(markers_array_.id());
@@ -297,8 +310,7 @@ void Renderer::draw_surface(const pliant::ViewSettings& appearance, const DrawOp
   program.set("camera", camera);
   program.set("to_eye", Vec3f(-options.viewpoint.forward()));
   program.set("light", light_of(appearance));
-  program.set("front", tone_of(appearance.front));
-  program.set("back", tone_of(appearance.back));
+  set_tones(program, appearance);
   program.set("held", solid_tone);
   program.set("is_colored", has_values_ ? 1 : 0);
   program.set("low", options.range[0]);
@@ -313,6 +325,7 @@ void Renderer::draw_surface(const pliant::ViewSettings& appearance, const DrawOp
 void Renderer::draw_lines(const pliant::ViewSettings& appearance, const DrawOptions& options, const Mat4f& camera,
                           const Vec2f& picture) const {
   line_.use();
+  set_tones(line_, appearance);
   line_.set("camera", camera);
   line_.set("picture", picture);
   line_.set("lift", depth_shift(options.viewpoint, bounds_, lift * bounds_.radius()));
@@ -327,12 +340,13 @@ void Renderer::draw_lines(const pliant::ViewSettings& appearance, const DrawOpti
     line_.set("width", width * options.scale);
     line_.set("opacity", opacity);
     line_.set("tone", tone);
+    line_.set("has_tones", is_rope ? 1 : 0);
     line_.set("is_round", is_rope ? 1 : 0);
     line_.set("is_colored", is_rope && has_values_ ? 1 : 0);
     glBindVertexArray(array.id());
     glDrawElements(GL_LINES, count, GL_UNSIGNED_INT, nullptr);
   };
-  draw_list(ropes_array_, count_of(render_mesh_.ropes), rope_width, 1, tone_of(appearance.front), true);
+  draw_list(ropes_array_, count_of(render_mesh_.ropes), rope_width, 1, edge_color, true);
   if (appearance.wireframe) {
     draw_list(edges_array_, count_of(render_mesh_.edges), edge_width, 0.55F, edge_color, false);
   }

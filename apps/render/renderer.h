@@ -28,7 +28,7 @@ class Renderer {
  private:
   struct Vertex {
     Vec3f position, normal;
-    float value;  // without values 1 of what is held, else 0
+    float value;  // without values the number of its tones, -1 of what is held
   };
 
   void set_vertex_layout() const;

@@ -21,7 +21,8 @@ void main() {
 const std::string_view surface_fragment = R"(#version 330 core
 in vec3 normal_here;
 in float value_here;
-uniform vec3 to_eye, light, front, back, held;
+uniform vec3 to_eye, light, held;
+uniform vec3 fronts[7], backs[7];  // of body_tones
 uniform int is_colored;
 uniform float low, high;
 uniform sampler2D colors;
@@ -29,12 +30,13 @@ out vec4 color;
 void main() {
   vec3 n = normalize(normal_here + 1e-9 * to_eye);  // never of length zero
   if (!gl_FrontFacing) n = -n;
-  vec3 tone = gl_FrontFacing ? front : back;
+  vec3 tone = held;
   if (is_colored != 0) {
     float place = clamp((value_here - low) / (high - low), 0.002, 0.998);
     tone = textureLod(colors, vec2(place, 0.5), 0.0).rgb;
-  } else if (value_here > 0.5) {
-    tone = held;
+  } else if (value_here > -0.5) {
+    int number = int(value_here + 0.5);
+    tone = gl_FrontFacing ? fronts[number] : backs[number];
   }
   float towards = dot(n, light);
   float sky = 0.5 + 0.5 * n.z;
@@ -52,7 +54,7 @@ out vec3 normal_here;
 out float value_here;
 void main() {
   normal_here = mat3(place) * normal;
-  value_here = 0.0;
+  value_here = -1.0;  // held
   gl_Position = camera * (place * vec4(position, 1));
   gl_Position.z += setback * gl_Position.w;
 })";
@@ -137,13 +139,13 @@ const std::string_view line_fragment = R"(#version 330 core
 in float across, value_here;
 in vec2 sideways;
 uniform float width, opacity, low, high;
-uniform vec3 tone;
-uniform int is_round, is_colored;
+uniform vec3 tone, fronts[7];
+uniform int is_round, is_colored, has_tones;
 uniform sampler2D colors;
 out vec4 color;
 void main() {
   float edge = clamp(width / 2.0 + 0.5 - abs(across), 0.0, 1.0);
-  vec3 base = tone;
+  vec3 base = has_tones != 0 && is_colored == 0 ? fronts[max(int(value_here + 0.5), 0)] : tone;
   if (is_colored != 0) base = texture(colors, vec2(clamp((value_here - low) / (high - low), 0.002, 0.998), 0.5)).rgb;
   if (is_round != 0) {
     float t = clamp(across / (width / 2.0), -1.0, 1.0);

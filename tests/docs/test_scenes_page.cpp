@@ -134,6 +134,7 @@ TEST_CASE("the tables list every option") {
   check_shape<SphereOptions>();
   check_shape<CylinderOptions>();
   check_shape<CapsuleOptions>();
+  check_shape<TubeOptions>();
   check_shape<BarOptions>();
   check_shape<ChainOptions>();
   check_rows<MoveOptions>();

@@ -245,6 +245,74 @@ TEST_CASE("a capsule is the hull of two balls, closed, with triangles of one siz
   }
 }
 
+TEST_CASE("a straight tube is a cylinder about its curve, open, with lids, or filled") {
+  const std::vector<Vec3> line = {{0, 0, 0}, {0, 0, 1}, {0, 0, 4}};
+  const TubeOptions options{.points = line, .segments = 8, .rows = 9, .radius = 0.5};
+  const Mesh hose = tube(options);
+  CHECK(hose.vertex_count() == 72);
+  CHECK(euler_characteristic(hose) == 0);
+  CHECK(is_consistently_oriented(hose));
+  check_mesh(hose, "tube");
+  for (Index v = 0; v < hose.vertex_count(); ++v) {
+    const Vec3 x = row(hose.vertices, v);
+    CHECK(x.head<2>().norm() == doctest::Approx(0.5).epsilon(1e-12));
+    CHECK(x.z() == doctest::Approx(0.5 * (v / 8)).epsilon(1e-3));  // the curve is not run through evenly
+  }
+  const Real octagon = 8 * 0.5 * 0.25 * std::sqrt(0.5);
+  TubeOptions with_lids = options;
+  with_lids.ends = TubeEnds::closed;
+  const Mesh can = tube(with_lids);
+  CHECK(can.vertex_count() == 74);
+  CHECK(euler_characteristic(can) == 2);
+  CHECK(is_consistently_oriented(can));
+  CHECK(enclosed_volume(can) == doctest::Approx(4 * octagon).epsilon(1e-9));
+  TubeOptions filled = options;
+  filled.inside = TubeInside::solid;
+  const Mesh rod = tube(filled);
+  CHECK(rod.vertex_count() == 81);
+  CHECK(rod.triangles.empty());
+  const std::vector<Real> volumes = tetrahedron_volumes(rod.vertices, rod.tetrahedra);
+  CHECK(std::ranges::min(volumes) > 0);
+  CHECK(std::accumulate(volumes.begin(), volumes.end(), Real{0}) == doctest::Approx(4 * octagon).epsilon(1e-9));
+  CHECK(boundary_triangles(rod.tetrahedra).size() == can.triangles.size());
+  check_mesh(rod, "tube");
+}
+
+TEST_CASE("a tube whose ends are joined is a ring, of a curve out of its plane too") {
+  std::vector<Vec3> points;
+  for (int i = 0; i < 12; ++i) {
+    const Real angle = 2 * std::numbers::pi * i / 12;
+    points.push_back({std::cos(angle), std::sin(angle), 0});
+  }
+  TubeOptions options{.points = points, .segments = 10, .rows = 60, .radius = 0.1, .ends = TubeEnds::joined};
+  const Mesh ring = tube(options);
+  CHECK(euler_characteristic(ring) == 0);
+  CHECK(is_consistently_oriented(ring));
+  const Real section = 10 * 0.5 * 0.01 * std::sin(2 * std::numbers::pi / 10);
+  CHECK(enclosed_volume(ring) == doctest::Approx(2 * std::numbers::pi * section).epsilon(0.01));
+  for (Index v = 0; v < ring.vertex_count(); ++v) {
+    const Vec3 x = row(ring.vertices, v);
+    CHECK(std::hypot(x.head<2>().norm() - 1, x.z()) == doctest::Approx(0.1).epsilon(0.05));
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) points[i].z() = 0.3 * std::sin(1.5 * static_cast<Real>(i));
+  options.points = points;
+  options.inside = TubeInside::solid;
+  const Mesh bent = tube(options);
+  CHECK(bent.vertex_count() == 660);
+  CHECK(std::ranges::min(tetrahedron_volumes(bent.vertices, bent.tetrahedra)) > 0);
+  Mesh skin;
+  skin.vertices = bent.vertices.topRows(600);
+  skin.triangles = boundary_triangles(bent.tetrahedra);
+  CHECK(euler_characteristic(skin) == 0);
+  CHECK(is_consistently_oriented(skin));
+  // No row is turned against the next: each edge along the tube is about as long as the curve from row to row.
+  for (Index v = 0; v < 600; ++v) {
+    const Vec3 along = row(bent.vertices, (v + 10) % 600) - row(bent.vertices, v);
+    const Vec3 curve = row(bent.vertices, 600 + (v / 10 + 1) % 60) - row(bent.vertices, 600 + v / 10);
+    CHECK((along - curve).norm() < 0.07);
+  }
+}
+
 TEST_CASE("a bar's tetrahedra fill it, meet face to face, and are positive") {
   for (const TetrahedronCut cut : {TetrahedronCut::five, TetrahedronCut::six}) {
     const Mesh box = bar({.cells = {3, 4, 5}, .size = {3, 2, 1.25}, .cut = cut});
@@ -329,6 +397,26 @@ TEST_CASE("options out of range are refused by name") {
   refused([] { capsule({.segments = 2}); }, "capsule: segments: 2 ");
   refused([] { capsule({.radius = 0}); }, "capsule: radius: 0 ");
   refused([] { capsule({.radius = 0.1, .height = 0.2, .top_radius = 0.4}); }, "capsule: one ball, of 0.4 m, holds");
+  refused([] { tube({.segments = 2}); }, "tube: segments: 2 ");
+  refused([] { tube({.radius = 0}); }, "tube: radius: 0 ");
+  refused([] { tube({.points = std::vector<Vec3>{{0, 0, 0}}}); }, "tube: points: 1 given; a curve needs 2 or more");
+  refused([] { tube({.points = std::vector<Vec3>{{0, 0, 0}, {0, 0, nan}}}); }, "tube: points[1]: nan ");
+  refused(
+      [] {
+        tube({.points = std::vector<Vec3>{{0, 0, 0}, {0, 0, 1}, {0, 0, 1}}});
+      },
+      "tube: points[1] and points[2] are the same; leave one out");
+  refused([] { tube({.ends = TubeEnds::joined}); }, "tube: points: 2 given; a curve whose ends are joined needs 3");
+  refused(
+      [] {
+        tube({.points = std::vector<Vec3>{{0, 0, 0}, {0, 0, 1}, {0, 1, 0}}, .rows = 2, .ends = TubeEnds::joined});
+      },
+      "tube: rows: a tube whose ends are joined needs 3 or more");
+  refused(
+      [] {
+        tube({.points = std::vector<Vec3>{{0, 0, 0}, {0, 0.01, 1}, {0, 0.02, 0}}, .radius = 0.3});
+      },
+      "tube: its curve bends too sharply for a radius of 0.3 m at (");
   refused([] { bar({.cells = {1, 0, 1}}); }, "bar: cells[1]: 0 is out of range; give a finite number from 1");
   refused([] { bar({.size = {1, 1, 0}}); }, "bar: size[2]: 0 ");
   refused([] { chain({.links = 0}); }, "chain: links: 0 ");
@@ -349,6 +437,7 @@ TEST_CASE("shapes too large for memory are refused, not tried") {
   refused([] { torus({.major_segments = huge, .minor_segments = huge}); }, "ask for 4.61e+18 vertices");
   refused([] { cylinder({.segments = huge, .rows = huge}); }, "ask for 4.61e+18 vertices");
   refused([] { capsule({.segments = huge}); }, "capsule: segments ask for");
+  refused([] { tube({.segments = huge, .rows = huge}); }, "tube: segments and rows ask for 4.61e+18 vertices");
   refused([] { bar({.cells = {huge, huge, huge}}); }, "bar: cells ask for 9.9e+27 vertices");
   refused([] { chain({.links = huge}); }, "chain: links ask for 2.15e+09 vertices");
 }

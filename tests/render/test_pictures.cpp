@@ -105,8 +105,8 @@ TEST_CASE("a square stands where it is projected to, before the background") {
 
 TEST_CASE("the two sides have their own tones") {
   Studio studio;
-  studio.options.appearance.front = {0.9, 0.1, 0.1};
-  studio.options.appearance.back = {0.1, 0.1, 0.9};
+  studio.options.appearance.front = pliant::Color{0.9, 0.1, 0.1};
+  studio.options.appearance.back = pliant::Color{0.1, 0.1, 0.9};
   const std::optional<Image> one = studio.draw();
   studio.options.appearance.camera.position = pliant::Vec3(0, 3, 0);
   const std::optional<Image> other = studio.draw();
@@ -121,9 +121,35 @@ TEST_CASE("the two sides have their own tones") {
   CHECK(back[2] > 2 * back[0]);
 }
 
+TEST_CASE("of several bodies each has a tone of its own, unless the scene gives one; what is held is not counted") {
+  Studio studio;
+  pliant::Mesh right = studio.bodies[0].mesh;
+  right.vertices.col(0).array() += 1.1;
+  studio.bodies.push_back({"right square", right, 81});
+  for (pliant::Index i = 0; i < 81; ++i)
+    studio.frame.positions.push_back(right.vertices.row(i).transpose().cast<float>());
+  const std::optional<Image> two = studio.draw();
+  studio.options.appearance.front = pliant::Color{0.9, 0.1, 0.1};
+  const std::optional<Image> given = studio.draw();
+  if (!two || !given) return;
+  const auto tones = [](const Image& image) { return std::pair(at(image, 0, 0.1), at(image, 0.7, 0.1)); };
+  const auto [left_tone, right_tone] = tones(*two);
+  CHECK(distance(left_tone, right_tone) > 60);
+  CHECK(left_tone[0] > left_tone[2]);    // red
+  CHECK(right_tone[2] > right_tone[0]);  // blue
+  const auto [left_given, right_given] = tones(*given);
+  CHECK(distance(left_given, right_given) < 12);
+  std::vector<std::uint32_t> held;
+  for (std::uint32_t i = 0; i < 81; ++i) held.push_back(i);
+  CHECK(make_render_mesh(studio.bodies).tones.back() == 1);
+  CHECK(make_render_mesh(studio.bodies, held).tones.back() == 0);
+  const std::vector<pliant::Body> eight(8, studio.bodies[0]);
+  CHECK(make_render_mesh(eight).tones.back() == 0);  // they begin anew after seven
+}
+
 TEST_CASE("what is held as a whole has the tone of colliders on both sides, unless values are shown") {
   Studio studio;
-  studio.options.appearance.front = studio.options.appearance.back = {0.9, 0.1, 0.1};
+  studio.options.appearance.front = studio.options.appearance.back = pliant::Color{0.9, 0.1, 0.1};
   for (std::uint32_t i = 0; i < 81; ++i) studio.frame.held.push_back(i);
   const std::optional<Image> one = studio.draw();
   studio.options.appearance.camera.position = pliant::Vec3(0, 3, 0);
@@ -143,7 +169,7 @@ TEST_CASE("what is held as a whole has the tone of colliders on both sides, unle
 
 TEST_CASE("markers are red, edges are drawn when asked for, and both have the size of the picture") {
   Studio studio;
-  studio.options.appearance.front = studio.options.appearance.back = {0.3, 0.6, 0.4};
+  studio.options.appearance.front = studio.options.appearance.back = pliant::Color{0.3, 0.6, 0.4};
   const std::optional<Image> plain = studio.draw();
   if (!plain) return;
   studio.frame.markers = {40};  // the middle of 9 x 9

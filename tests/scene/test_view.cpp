@@ -41,7 +41,8 @@ TEST_CASE("every key of a view") {
   CHECK(view.background.red == 1);
   CHECK(view.background.green == doctest::Approx(128.0 / 255));
   CHECK(view.background.blue == 0);
-  CHECK(view.front.green == 0.5);
+  REQUIRE(view.front.has_value());
+  CHECK(view.front->green == 0.5);
   CHECK(view.color == ColorBy::stretch);
   CHECK(view.color_range.value_or(std::array<Real, 2>{})[1] == 2);
   CHECK_FALSE(view.legend);
@@ -53,6 +54,7 @@ TEST_CASE("every key of a view") {
   CHECK_FALSE(view.shadow);
   CHECK(view.size == std::array<Index, 2>{640, 480});
   CHECK_FALSE(with_view("{}").view.camera.position.has_value());
+  CHECK_FALSE(with_view("{}").view.front.has_value());
   CHECK(with_view("{}").view.colliders);
 }
 

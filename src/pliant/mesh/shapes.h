@@ -5,3 +5,4 @@
 #include "pliant/mesh/shapes/chain.h"
 #include "pliant/mesh/shapes/sheets.h"
 #include "pliant/mesh/shapes/surfaces.h"
+#include "pliant/mesh/shapes/tube.h"

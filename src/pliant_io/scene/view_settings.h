@@ -43,22 +43,38 @@ constexpr std::array<std::string_view, 2> choice_names(Shading) {
   return {"smooth", "flat"};
 }
 
+/// The tones of a surface's two sides.
+struct BodyTones {
+  Color front;  ///< of the side that normals point from
+  Color back;   ///< of the other side
+};
+
+/// What bodies have in turn where a scene gives them no tones; a body that is the only free one has the first ones.
+inline constexpr std::array<BodyTones, 7> body_tones = {{{{0.82, 0.33, 0.24}, {0.95, 0.77, 0.55}},
+                                                         {{0.24, 0.44, 0.62}, {0.65, 0.78, 0.87}},
+                                                         {{0.86, 0.66, 0.28}, {0.96, 0.88, 0.66}},
+                                                         {{0.38, 0.57, 0.42}, {0.73, 0.84, 0.69}},
+                                                         {{0.56, 0.36, 0.54}, {0.83, 0.73, 0.83}},
+                                                         {{0.22, 0.56, 0.57}, {0.66, 0.84, 0.83}},
+                                                         {{0.58, 0.43, 0.33}, {0.85, 0.75, 0.65}}}};
+
 struct ViewSettings {
   Camera camera{};                                   ///< where the picture is taken from
   Color background{0.93, 0.94, 0.95};                ///< behind everything
   ColorBy color = ColorBy::none;                     ///< none: two tones, front and back
   std::optional<std::array<Real, 2>> color_range{};  ///< low, high, in the unit of `color`; none: those of all frames
   bool legend = true;                                ///< show the color map and its range
-  Color front{0.82, 0.33, 0.24};                     ///< of the side that normals point from
-  Color back{0.95, 0.77, 0.55};                      ///< of the other side
-  Shading shading = Shading::smooth;                 ///< smooth, or each face by itself
-  bool wireframe = false;                            ///< draw the edges of the elements too
-  bool colliders = true;                             ///< draw them; hidden ones act all the same
-  bool ground = true;                                ///< draw a plane below the bodies
-  std::optional<Real> ground_height{};               ///< z of that plane [m]; none: a little below everything
-  bool shadow = true;                                ///< on the ground
-  Vec3 light{-0.5, -0.8, 1.6};                       ///< direction that the light comes from, of any length but zero
-  std::array<Index, 2> size{1280, 720};              ///< width and height of the picture [pixels], 16 to 8192
+  /// Of the side that normals point from, and of the other, of all bodies; none of both: of several free bodies each
+  /// has tones of its own, see body_tones
+  std::optional<Color> front{}, back{};
+  Shading shading = Shading::smooth;     ///< smooth, or each face by itself
+  bool wireframe = false;                ///< draw the edges of the elements too
+  bool colliders = true;                 ///< draw them; hidden ones act all the same
+  bool ground = true;                    ///< draw a plane below the bodies
+  std::optional<Real> ground_height{};   ///< z of that plane [m]; none: a little below everything
+  bool shadow = true;                    ///< on the ground
+  Vec3 light{-0.5, -0.8, 1.6};           ///< direction that the light comes from, of any length but zero
+  std::array<Index, 2> size{1280, 720};  ///< width and height of the picture [pixels], 16 to 8192
 
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -71,8 +87,9 @@ struct ViewSettings {
     field(OptionInfo{"color_range", "", "values at the two ends of the color map; default: those of all frames"},
           self.color_range);
     field(OptionInfo{"legend", "", "show the color map and its range"}, self.legend);
-    field(OptionInfo{"front", "", "tone of the side that normals point from"}, self.front);
-    field(OptionInfo{"back", "", "tone of the other side"}, self.back);
+    field(OptionInfo{"front", "", "tone of the side that normals point from; default: of several bodies one each"},
+          self.front);
+    field(OptionInfo{"back", "", "tone of the other side; default: of several bodies one each"}, self.back);
     field(OptionInfo{"shading", "", "`smooth`, or `flat`: each face by itself"}, self.shading);
     field(OptionInfo{"wireframe", "", "draw the edges of the elements too"}, self.wireframe);
     field(OptionInfo{"colliders", "", "draw them; hidden ones act all the same"}, self.colliders);

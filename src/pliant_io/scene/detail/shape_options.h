@@ -7,7 +7,7 @@
 namespace pliant {
 
 using Shapes = std::tuple<GridOptions, NetOptions, PillowOptions, TorusOptions, SphereOptions, CylinderOptions,
-                          CapsuleOptions, BarOptions, ChainOptions>;
+                          CapsuleOptions, TubeOptions, BarOptions, ChainOptions>;
 
 inline Mesh make_shape(const GridOptions& options) {
   return grid(options);
@@ -29,6 +29,9 @@ inline Mesh make_shape(const CylinderOptions& options) {
 }
 inline Mesh make_shape(const CapsuleOptions& options) {
   return capsule(options);
+}
+inline Mesh make_shape(const TubeOptions& options) {
+  return tube(options);
 }
 inline Mesh make_shape(const BarOptions& options) {
   return bar(options);
