@@ -43,12 +43,13 @@ int print_error(std::string_view message, pliant::ErrorKind kind) {
   return static_cast<int>(kind);
 }
 
+constexpr std::string_view lost_output = "the standard output cannot be written; make room, or send it elsewhere";
+
 /// What went to standard output may still be lost, to a full disk for one.
 void flush_output() {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
   if (errno == EPIPE) throw std::system_error(EPIPE, std::generic_category());
-  throw pliant::Error(pliant::ErrorKind::output,
-                      "the standard output cannot be written; make room, or send it elsewhere");
+  throw pliant::Error(pliant::ErrorKind::output, std::string(lost_output));
 }
 
 /// Colors are chosen before anything is read, since what is wrong with the rest may be told in them.
@@ -188,7 +189,7 @@ int main(int argc, char** argv) {
     return print_error(error.what(), pliant::ErrorKind::input);
   } catch (const std::system_error& error) {                                                // of the standard output
     if (error.code().value() == EPIPE) return static_cast<int>(pliant::ErrorKind::output);  // its reader had enough
-    return print_error(error.what(), pliant::ErrorKind::output);
+    return print_error(lost_output, pliant::ErrorKind::output);
   } catch (const std::bad_alloc&) {
     return print_error("out of memory; use a smaller mesh or a machine with more", pliant::ErrorKind::input);
   } catch (const std::exception& error) {

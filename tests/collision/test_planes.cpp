@@ -118,6 +118,37 @@ TEST_CASE("whatever the wishes, no pair meets on its way") {
   CHECK(blind_shares > 120);
 }
 
+TEST_CASE("without sliding each vertex stays on its straight way, and no pair meets") {
+  Random random(12);
+  Index cut = 0;
+  for (int run = 0; run < 40; ++run) {
+    Soup soup = random_soup(random, 16);
+    soup.finish(0.03);
+    Positions q = soup.q;
+    for (int step = 0; step < 3; ++step) {
+      const Positions wish = random_wishes(random, q, 1);
+      Positions y = wish;
+      ThreadPool pool(1);
+      Planes planes;
+      const PlanesInput input{
+          .begin = q, .surface = soup.surface, .pairs = soup.pairs, .radii = soup.radii, .slides = false};
+      cut += planes.shorten(input, y, pool).vertices;
+      const Met met = count_met(soup, q, y, 1e-11);
+      CHECK(met.pairs == 0);
+      CHECK(met.shares == 0);
+      for (Index v = 0; v < y.rows(); ++v) {
+        const Vec3 way = row(wish, v) - row(q, v);
+        const Vec3 gone = row(y, v) - row(q, v);
+        CHECK(gone.cross(way).norm() <= 1e-12 * way.squaredNorm());
+        CHECK(gone.dot(way) >= 0);
+        CHECK(gone.norm() <= (1 + 1e-12) * way.norm());
+      }
+      q = y;
+    }
+  }
+  CHECK(cut > 100);
+}
+
 TEST_CASE("all vertices pulled to one point again and again, till triangles are slivers, cross nothing") {
   for (const std::uint64_t seed : std::array<std::uint64_t, 3>{1, 2, 20028}) {
     Random random(seed);

@@ -298,27 +298,30 @@ bool PairContact::shorten(const Positions& from, Positions& q, ThreadPool& threa
   return is_shortened;
 }
 
-/// What slides along a plane may come to where nothing was searched for.
+/// What slides along a plane may come to where nothing was searched for. Where vertices do so again and again they are
+/// held back on their straight ways.
 bool PairContact::shorten_way(const Positions& from, Positions& q, ThreadPool& threads) {
-  constexpr int most_searches = 10;
+  constexpr int most_searches = 11;
   list_.begin_way(from, q);
   if (list_.on_the_way(from, q, threads).pairs.empty()) return false;
   wish_ = q;
-  for (int i = 0; i < most_searches; ++i) {
+  for (int i = 0;; ++i) {
     const PairList::OnTheWay& found = i == 0 ? list_.last_on_the_way() : list_.on_the_way(from, wish_, threads);
     q = wish_;
     if (found.pairs.empty()) return false;
-    const PlanesInput input{
-        .begin = from, .surface = *surface_, .pairs = found.pairs, .distances = found.distances, .radii = radii_};
+    const bool slides = i + 1 < most_searches;
+    const PlanesInput input{.begin = from,
+                            .surface = *surface_,
+                            .pairs = found.pairs,
+                            .distances = found.distances,
+                            .radii = radii_,
+                            .slides = slides};
     const Shortened done = planes_.shorten(input, q, threads);
     if (done.vertices == 0) return false;
-    if (!list_.covers(from, wish_, q)) continue;
+    if (!list_.covers(from, wish_, q) && slides) continue;
     report_.shortened += done.vertices;
     return true;
   }
-  q = from;
-  report_.shortened += count_of(surface_->vertices);
-  return true;
 }
 
 void PairContact::find_forces(const Positions& q, ThreadPool& threads) {

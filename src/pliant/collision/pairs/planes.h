@@ -45,6 +45,7 @@ struct PlanesInput {
   std::span<const Real> distances{};  ///< of each pair, or less than that, at q [m]; empty: not known
   std::span<const Real> radii;        ///< r of each vertex [m]
   std::span<const HalfSpace> half_spaces{};
+  bool slides = true;  ///< else each vertex stays on its straight way
 };
 
 /// What was done to the ways.
