@@ -47,17 +47,23 @@ def numeric_options(text):
             if (unit or re.fullmatch(r"-?[\d.e+-]+|\[.*\]", default)) and not default.startswith('"')]
 
 
+# Defaults that the tables tell in words.
+POINTS = {("tube", "points"): [[0, 0, 0], [0, 0, 1]]}
+
+
 def shapes():
     """(name, key, default) of every number of a shape."""
-    return [(name, key, json.loads(default)) for name, text in sections("Shapes") for key, default in numeric_options(text)]
+    return [(name, key, json.loads(default) if default else POINTS[name, key])
+            for name, text in sections("Shapes") for key, default in numeric_options(text)]
 
 
 def variants(default, numbers):
-    """The number itself, or, for a list, the number in each place."""
+    """The number itself, or, for a list, the number in each place, of lists in it as well."""
     for number in numbers:
         if isinstance(default, list):
             for i in range(len(default)):
-                yield default[:i] + [number] + default[i + 1:]
+                for inner in variants(default[i], [number]) if isinstance(default[i], list) else [number]:
+                    yield default[:i] + [inner] + default[i + 1:]
             yield [number] * len(default)
         else:
             yield number
