@@ -13,8 +13,8 @@ using FourMasks = decltype(FourFloats{} < FourFloats{});
 
 constexpr std::size_t lanes = 4;
 
-/// Of the size of two features: what rounding adds to their distance, at most, where edges are almost parallel; ten
-/// times as much elsewhere would do.
+/// Of the size of two features: what rounding adds to their distance, at most. So much it is where edges are almost
+/// parallel, and less elsewhere.
 constexpr float uncertain_share = 3e-3F;
 /// Squared sine of the angle below which edges are taken for parallel ones.
 constexpr float parallel_angle_squared = 1e-6F;

@@ -127,7 +127,7 @@ void PairList::list(const Positions& q, ThreadPool& threads) {
     for (std::size_t i = begin; i < end; ++i) {
       const Real radius = radius_of(pairs[i]);
       const Real reach = (1 + list_slack) * radius;  // begin_way() counts on it for all pairs
-      if (!(box_distance(q, pairs[i]) < reach) || let_go_->has(pairs[i])) continue;
+      if (let_go_->has(pairs[i])) continue;
       const Gap gap = measure(q, pairs[i]);
       if (gap.distance < reach) listed_chunks_[chunk].push_back({{pairs[i], radius, gap.distance}, gap});
     }
