@@ -1,5 +1,6 @@
 #pragma once
 // OpenGL objects with automatic lifetime. Their context must be current whenever they are made, used or destroyed.
+#include <span>
 #include <string_view>
 #include <vector>
 
