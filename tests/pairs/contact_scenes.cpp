@@ -1,21 +1,31 @@
 // Runs the scenes by which contact between surfaces is judged, and counts crossings after every step.
 //
 //     contact_scenes --list
-//     contact_scenes twist fold --vertices 1600 --iterations 3
+//     contact_scenes twist fold builtin/dress --vertices 1600 --iterations 3
 //     contact_scenes all --vary --share 2/4
 //     contact_scenes tower arch --vertices 1300 --friction 0.6 --every 600
+//     contact_scenes everything --share 1/8 --log out/contact.log
+//
+// `everything` is what must hold before a release: scripts/check_contact.sh runs it. With --log a run whose line is
+// there already is not done again, so what was broken off goes on.
 //
 // Exits with 1 when anything crossed.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <fstream>
+#include <map>
+#include <ranges>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "pliant/core/error.h"
 #include "pliant/core/stopwatch.h"
+#include "tests/pairs/builtin_pair_scenes.h"
 #include "tests/pairs/masonry_scenes.h"
 #include "tests/pairs/pair_scene.h"
 
@@ -24,17 +34,32 @@ namespace {
 using namespace pliant;
 using namespace pliant_tests;
 
+/// What names of built-in scenes begin with.
+constexpr std::string_view builtin = "builtin/";
+
 /// A scene with what is other than usual about it.
 struct Run {
   std::string scene;
   std::string what;
   PairOptions options;
+  Index frames = 0;  // 0: what the scene takes
+
+  bool is_builtin() const { return scene.starts_with(builtin); }
+  std::string title() const {
+    const std::string size = is_builtin() ? "" : fmt::format(" {}", options.vertices);
+    return scene + size + (what.empty() ? "" : ", " + what);
+  }
+  PairScene make() const {
+    if (is_builtin()) return make_builtin_pair_scene(scene.substr(builtin.size()), options);
+    return make_pair_scene(scene, options);
+  }
 };
 
 struct Arguments {
   std::vector<std::string> scenes;
   std::string integrator = "implicit_euler";
   std::string share = "1/1";
+  std::string log;
   Index frames = 0;
   Index every = 0;
   Index piles = 1;
@@ -48,6 +73,8 @@ struct Figures {
   Index frames = 0;
   std::int64_t crossings = 0;
   Index frames_crossed = 0;
+  Index frames_let_go = 0;
+  Real lag = 0;  // the largest [m]
   Real smallest_gap = std::numeric_limits<Real>::infinity();
   std::int64_t shortened = 0;
   Index pairs = 0;         // most of a step
@@ -83,6 +110,8 @@ Figures measure(PairScene& scene, Index frames, Index every) {
     figures.frames_crossed += crossings > 0 ? 1 : 0;
     figures.smallest_gap = std::min(figures.smallest_gap, contact.smallest_gap);
     figures.shortened += contact.shortened;
+    figures.frames_let_go += contact.let_go > 0 ? 1 : 0;
+    figures.lag = std::max(figures.lag, contact.lag);
     figures.pairs = std::max(figures.pairs, contact.pairs);
     figures.energy = total_energy(scene.simulation) - energy;
     figures.most_energy = std::max(figures.most_energy, figures.energy);
@@ -99,25 +128,40 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// Runs it and prints its line. Returns whether nothing crossed.
-bool run(const Run& each, Index frames, Index every) {
-  const std::string title = each.what.empty() ? each.scene : each.scene + ", " + each.what;
+/// Of a run, its line.
+struct Outcome {
+  std::string line;
+  bool is_clean = false;
+};
+
+Outcome run(const Run& each, Index frames, Index every) {
   try {
-    PairScene scene = make_pair_scene(each.scene, each.options);
+    PairScene scene = each.make();
     const bool begins_apart = count_crossings(scene.simulation) == 0;
     const Figures figures = measure(scene, frames > 0 ? frames : scene.frames(), every);
-    fmt::print(
-        "{:36} {:6} vertices {:5} frames {:6} crossings in {:4} gap {:8.2e} m shortened {:8} pairs {:7} "
-        "{:8.2f} ms rms {:.1e} m/s lost {:.1e} N s energy {:+.1e} J, at most {:+.1e} J{}\n",
-        title, scene.simulation.state().vertex_count(), figures.frames, figures.crossings, figures.frames_crossed,
-        figures.smallest_gap, figures.shortened, figures.pairs, 1e3 * median(figures.seconds),
-        rms_speed(scene.simulation), figures.momentum_lost, figures.energy, figures.most_energy,
-        begins_apart ? "" : " BEGINS CROSSED");
-    std::fflush(stdout);
-    return begins_apart && figures.crossings == 0;
+    const double longest = *std::max_element(figures.seconds.begin(), figures.seconds.end());
+    return {
+        fmt::format("{:42} {:6} vertices {:5} frames {:6} crossings in {:4} let go in {:4} gap {:8.2e} m lag {:7.1e} "
+                    "m shortened {:8} pairs {:7} {:8.2f} ms, longest {:8.1f} rms {:.1e} m/s lost {:.1e} N s "
+                    "energy {:+.1e} J, at most {:+.1e} J{}",
+                    each.title(), scene.simulation.state().vertex_count(), figures.frames, figures.crossings,
+                    figures.frames_crossed, figures.frames_let_go, figures.smallest_gap, figures.lag, figures.shortened,
+                    figures.pairs, 1e3 * median(figures.seconds), 1e3 * longest, rms_speed(scene.simulation),
+                    figures.momentum_lost, figures.energy, figures.most_energy, begins_apart ? "" : " BEGINS CROSSED"),
+        begins_apart && figures.crossings == 0};
   } catch (const std::exception& error) {
-    fmt::print("{:36} FAILED: {}\n", title, error.what());
-    std::fflush(stdout);
+    return {fmt::format("{:42} FAILED: {}", each.title(), error.what()), false};
+  }
+}
+
+/// Whether something in it is free.
+bool can_be_thrown(Run run) {
+  if (!run.is_builtin()) return run.scene != "twist";
+  run.options.speed = 1;
+  try {
+    static_cast<void>(run.make());
+    return true;
+  } catch (const Error&) {
     return false;
   }
 }
@@ -138,34 +182,66 @@ void add_variations(const Run& usual, std::vector<Run>& runs) {
   vary("dragged", [](PairOptions& o) { o.drag = 1e6; });
   vary("distance halved", [](PairOptions& o) { o.distance_scale /= 2; });
   vary("distance doubled", [](PairOptions& o) { o.distance_scale *= 2; });
-  if (usual.scene != "twist") {
+  if (can_be_thrown(usual)) {
     vary("thrown at 30 m/s", [](PairOptions& o) { o.speed = 30; });
   }
 }
 
+void add_piles(const Run& usual, Index piles, std::vector<Run>& runs) {
+  for (Index i = 1; i < piles; ++i) {
+    runs.push_back(usual);
+    runs.back().options.seed += static_cast<std::uint64_t>(i);
+    runs.back().what = fmt::format("seed {}", runs.back().options.seed);
+  }
+}
+
+std::vector<std::string> names_of_all() {
+  std::vector<std::string> names;
+  for (const PairSceneEntry& entry : pair_scenes()) names.emplace_back(entry.name);
+  for (const std::string& name : builtin_pair_scenes()) names.push_back(std::string(builtin) + name);
+  return names;
+}
+
+/// All scenes with 1,600 vertices, or their own, and each of these varied; cloth with 10,000; a hundred piles.
+std::vector<Run> everything(const PairOptions& options) {
+  std::vector<Run> runs;
+  Run usual{"", "", options};
+  usual.options.vertices = 1600;
+  for (const std::string& name : names_of_all()) {
+    usual.scene = name;
+    runs.push_back(usual);
+    add_variations(usual, runs);
+  }
+  usual.scene = "pile";
+  usual.frames = 300;
+  add_piles(usual, 100, runs);
+  usual.frames = 0;
+  usual.options.vertices = 10'000;
+  for (const char* name :
+       {"drape", "rotating_sphere", "twist", "fold", "stack", "block", "fall", "two_sheets", "pile"}) {
+    usual.scene = name;
+    runs.push_back(usual);
+  }
+  return runs;
+}
+
 std::vector<Run> runs_of(const Arguments& arguments) {
   std::vector<Run> runs;
-  for (const PairSceneEntry& entry : pair_scenes()) {
-    const std::string name(entry.name);
-    const auto& asked = arguments.scenes;
-    const auto is_asked = [&](const std::string& other) {
-      return std::find(asked.begin(), asked.end(), other) != asked.end();
-    };
+  const auto& asked = arguments.scenes;
+  const auto is_asked = [&](const std::string& name) { return std::ranges::find(asked, name) != asked.end(); };
+  if (is_asked("everything")) return everything(arguments.options);
+  for (const std::string& name : names_of_all()) {
     if (!is_asked("all") && !is_asked(name)) continue;
     const Run usual{name, "", arguments.options};
     runs.push_back(usual);
     if (arguments.has_variations) add_variations(usual, runs);
-    for (Index i = 1; name == "pile" && i < arguments.piles; ++i) {
-      runs.push_back(usual);
-      runs.back().what = fmt::format("seed {}", arguments.options.seed + static_cast<std::uint64_t>(i));
-      runs.back().options.seed += static_cast<std::uint64_t>(i);
-    }
+    if (name == "pile") add_piles(usual, arguments.piles, runs);
   }
   return runs;
 }
 
 void read(int argc, char** argv, Arguments& to, CLI::App& app) {
-  app.add_option("scenes", to.scenes, "names of scenes, or `all`");
+  app.add_option("scenes", to.scenes, "names of scenes, `all`, or `everything`");
   app.add_flag("--list", to.is_list, "print what would be run, or all scenes, and stop");
   app.add_flag("--vary", to.has_variations, "each scene also with other iterations, time steps, distances, speeds");
   app.add_option("--vertices", to.options.vertices, "about so many in all")->check(CLI::Range(16, 10'000'000));
@@ -184,6 +260,7 @@ void read(int argc, char** argv, Arguments& to, CLI::App& app) {
       ->check(CLI::Range(0, 100'000'000));
   app.add_option("--seed", to.options.seed, "of what is drawn by chance");
   app.add_option("--piles", to.piles, "so many piles, each of another seed")->check(CLI::Range(1, 1'000'000));
+  app.add_option("--log", to.log, "a file to which lines are added; runs whose line is there are not done again");
   app.add_option("--share", to.share, "i/n: the i-th of n parts of the runs");
   app.parse(argc, argv);
   if (to.integrator == "bdf2") to.options.settings.integrator = Integrator::bdf2;
@@ -201,23 +278,49 @@ std::vector<Run> share_of(const std::vector<Run>& runs, const std::string& share
   return mine;
 }
 
+/// The lines of a log, by the titles of their runs.
+std::map<std::string, std::string> lines_of(const std::string& log) {
+  std::map<std::string, std::string> lines;
+  std::ifstream file(log);
+  for (std::string line; std::getline(file, line);) {
+    const std::size_t end = line.find('\t');
+    if (end != std::string::npos) lines.emplace(line.substr(0, end), line.substr(end + 1));
+  }
+  return lines;
+}
+
+bool do_runs(const Arguments& arguments) {
+  const auto done = lines_of(arguments.log);
+  bool is_clean = true;
+  for (const Run& each : share_of(runs_of(arguments), arguments.share)) {
+    if (const auto found = done.find(each.title()); found != done.end()) {
+      is_clean &= !found->second.starts_with("NOT ");
+      continue;
+    }
+    const Outcome outcome = run(each, each.frames > 0 ? each.frames : arguments.frames, arguments.every);
+    is_clean &= outcome.is_clean;
+    const std::string line = (outcome.is_clean ? "" : "NOT CLEAN: ") + outcome.line;
+    fmt::print("{}\n", line);
+    std::fflush(stdout);
+    if (!arguments.log.empty()) std::ofstream(arguments.log, std::ios::app) << each.title() << '\t' << line << '\n';
+  }
+  return is_clean;
+}
+
 int run_program(const Arguments& arguments) {
+  const std::vector<std::string> known = names_of_all();
   for (const std::string& name : arguments.scenes) {
-    if (name != "all") static_cast<void>(make_pair_scene(name, {.vertices = 16}));  // throws on an unknown name
+    if (name == "all" || name == "everything" || std::ranges::find(known, name) != known.end()) continue;
+    fail_input(fmt::format("no scene '{}'; choose `all`, `everything` or some of {}", name, fmt::join(known, ", ")));
   }
   if (arguments.scenes.empty()) {
     for (const PairSceneEntry& entry : pair_scenes()) fmt::print("{:18}{}\n", entry.name, entry.about);
+    for (const std::string& name : builtin_pair_scenes()) fmt::print("{}{}\n", builtin, name);
     return 0;
   }
-  bool is_clean = true;
-  for (const Run& each : share_of(runs_of(arguments), arguments.share)) {
-    if (arguments.is_list) {
-      fmt::print("{}{}{}\n", each.scene, each.what.empty() ? "" : ", ", each.what);
-    } else {
-      is_clean &= run(each, arguments.frames, arguments.every);
-    }
-  }
-  return is_clean ? 0 : 1;
+  if (!arguments.is_list) return do_runs(arguments) ? 0 : 1;
+  for (const Run& each : share_of(runs_of(arguments), arguments.share)) fmt::print("{}\n", each.title());
+  return 0;
 }
 
 }  // namespace

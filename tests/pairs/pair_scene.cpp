@@ -8,6 +8,7 @@
 
 #include "pliant/collision/crossings.h"
 #include "pliant/core/error.h"
+#include "pliant/simulation/held.h"
 #include "tests/pairs/body_scenes.h"
 #include "tests/pairs/bounce_scenes.h"
 #include "tests/pairs/cloth_scenes.h"
@@ -23,7 +24,7 @@ Index PairScene::frames() const {
 
 StepReport PairScene::step() {
   if (move) move(simulation);
-  return simulation.step();
+  return take ? take(simulation) : simulation.step();
 }
 
 std::span<const PairSceneEntry> pair_scenes() {
@@ -85,7 +86,15 @@ struct AllFeatures {
 
 std::int64_t count_crossings(const Simulation& simulation) {
   const AllFeatures all(simulation);
-  return find_crossings({simulation.state().positions, all.triangles, all.edges}, 0).count;
+  const std::vector<char> held = held_vertices(simulation);
+  const auto is_held = [&](Index vertex) { return held[at(vertex)] != 0; };
+  std::int64_t count = 0;
+  visit_crossings({simulation.state().positions, all.triangles, all.edges}, [&](const Crossing& crossing) {
+    const bool are_both_held = std::ranges::all_of(crossing.edge, is_held) &&
+                               std::ranges::all_of(all.triangles[at(crossing.triangle)], is_held);
+    if (!are_both_held) ++count;
+  });
+  return count;
 }
 
 std::int64_t count_unknown_crossings(const Simulation& simulation) {

@@ -24,6 +24,8 @@ struct PairScene {
   pliant::Simulation simulation;
   pliant::Real duration = 0;                                ///< [s]
   std::function<void(pliant::Simulation&)> move = nullptr;  ///< pins and colliders, before each step; may be empty
+  /// Takes a step; empty: Simulation::step().
+  std::function<pliant::StepReport(pliant::Simulation&)> take = nullptr;
 
   pliant::Index frames() const;  ///< steps that the duration takes
   pliant::StepReport step();     ///< moves what is moved, then takes a step
@@ -39,7 +41,7 @@ std::span<const PairSceneEntry> pair_scenes();
 /// Throws Error(input) on a name that there is not.
 PairScene make_pair_scene(std::string_view name, const PairOptions& options);
 
-/// Crossings of all surfaces and ropes of a simulation, by the exact checker.
+/// Crossings of all surfaces and ropes of a simulation, by the exact checker, but for those between what is pinned.
 std::int64_t count_crossings(const pliant::Simulation& simulation);
 /// Those of which a vertex of the edge and one of the triangle have not been let go.
 std::int64_t count_unknown_crossings(const pliant::Simulation& simulation);

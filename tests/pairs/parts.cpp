@@ -15,20 +15,6 @@ BodyId add_moving(Simulation& simulation, const Mesh& mesh, const Mass& mass, co
   return simulation.add_body(mesh, mass, {.velocities = velocity.transpose().replicate(mesh.vertex_count(), 1)});
 }
 
-/// A vertex in the middle of the last body goes round a circle of 0.6 m across, once a second.
-void add_drag(PairScene& scene, Real stiffness) {
-  const Body& body = scene.simulation.bodies().back();
-  const Index vertex = body.mesh.vertex_count() / 2;
-  const Vec3 begin = row(body.mesh.vertices, vertex);
-  const auto id = static_cast<BodyId>(count_of(scene.simulation.bodies()) - 1);
-  const GroupId drag = scene.simulation.add(id, Drag{.stencils = {{vertex}}, .stiffness = stiffness});
-  scene.move = [drag, begin, before = scene.move](Simulation& simulation) {
-    if (before) before(simulation);
-    const Real angle = 2 * std::numbers::pi * (simulation.state().time + simulation.settings().time_step);
-    simulation.set_target(drag, 0, begin + 0.3 * Vec3(std::sin(angle), 0, 1 - std::cos(angle)));
-  };
-}
-
 }  // namespace
 
 Index side_of(Index count, Real share) {
@@ -115,6 +101,19 @@ Simulation empty_simulation(const PairOptions& options, const Vec3& gravity) {
   return simulation;
 }
 
+void add_drag(PairScene& scene, std::size_t body, Real stiffness) {
+  const Body& dragged = scene.simulation.bodies()[body];
+  const Index vertex = dragged.mesh.vertex_count() / 2;
+  const Vec3 begin = row(scene.simulation.state().positions, dragged.first_vertex + vertex);
+  const GroupId drag =
+      scene.simulation.add(static_cast<BodyId>(body), Drag{.stencils = {{vertex}}, .stiffness = stiffness});
+  scene.move = [drag, begin, before = scene.move](Simulation& simulation) {
+    if (before) before(simulation);
+    const Real angle = 2 * std::numbers::pi * (simulation.state().time + simulation.settings().time_step);
+    simulation.set_target(drag, 0, begin + 0.3 * Vec3(std::sin(angle), 0, 1 - std::cos(angle)));
+  };
+}
+
 void finish(PairScene& scene, const PairOptions& options) {
   Simulation& simulation = scene.simulation;
   ContactSettings contact = options.contact;
@@ -124,7 +123,7 @@ void finish(PairScene& scene, const PairOptions& options) {
     contact.distance = options.distance_scale * least;
   }
   simulation.set_contact(contact);
-  if (options.drag > 0) add_drag(scene, options.drag);
+  if (options.drag > 0) add_drag(scene, simulation.bodies().size() - 1, options.drag);
 }
 
 }  // namespace pliant_tests

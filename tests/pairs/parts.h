@@ -40,6 +40,9 @@ pliant::Vec3 falling(const PairOptions& options);
 pliant::Simulation empty_simulation(const PairOptions& options,
                                     const pliant::Vec3& gravity = pliant::Vec3(0, 0, -9.81));
 
+/// A vertex in the middle of a body goes round a circle of 0.6 m across, once a second, pulled with a stiffness [N/m].
+void add_drag(PairScene& scene, std::size_t body, pliant::Real stiffness);
+
 /// Contact and the drag as they were asked for. Call it when all bodies are there and `move` is set.
 void finish(PairScene& scene, const PairOptions& options);
 
