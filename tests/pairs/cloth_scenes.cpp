@@ -160,10 +160,53 @@ PairScene two_layers_free(const PairOptions& options) {
   return layers_free(options, {.count = 2, .shift = 0.37, .speed_of_top = 1});
 }
 
-SlopeScene slope2(const PairOptions& options, Real degrees) {
+namespace {
+
+/// Without bodies, gravity tilted.
+SlopeScene empty_slope(const PairOptions& options, Real degrees) {
   const Real angle = degrees * std::numbers::pi / 180;
   const Vec3 gravity(9.81 * std::sin(angle), 0, -9.81 * std::cos(angle));
-  SlopeScene slope{{empty_simulation(options, gravity), 1}, angle, options.contact.friction};
+  return {{empty_simulation(options, gravity), 1}, angle, options.contact.friction};
+}
+
+/// Edges alone.
+Mesh net_of(const std::vector<Vec3>& points, std::vector<Edge> edges) {
+  Mesh mesh;
+  mesh.vertices.resize(count_of(points), 3);
+  for (std::size_t i = 0; i < points.size(); ++i) mesh.vertices.row(static_cast<Index>(i)) = points[i].transpose();
+  mesh.edges = std::move(edges);
+  return mesh;
+}
+
+}  // namespace
+
+SlopeScene rails(const PairOptions& options, Real degrees) {
+  SlopeScene slope = empty_slope(options, degrees);
+  Simulation& simulation = slope.scene.simulation;
+  PairOptions exact = options;
+  exact.contact.distance = options.distance_scale * 0.01;
+  exact.distance_scale = 1;
+  const Index links = std::max(Index{1}, options.vertices / 2);
+  std::vector<Vec3> points;
+  std::vector<Edge> edges;
+  for (const Real y : {-0.1, 0.1}) {
+    for (Index i = 0; i <= links; ++i) {
+      points.emplace_back(-0.5 + 3.0 * i / links, y, 0);
+      if (i > 0) edges.push_back({count_of(points) - 2, count_of(points) - 1});
+    }
+  }
+  simulation.add(add_rope(simulation, net_of(points, edges)), Position{});
+  const Real z = 1.0005 * exact.contact.distance;
+  const Mesh frame = net_of({{-0.11, -0.2, z}, {0.09, -0.2, z}, {-0.09, 0.2, z}, {0.11, 0.2, z}},
+                            {{0, 1}, {0, 2}, {1, 3}, {2, 3}, {0, 3}, {1, 2}});
+  const BodyId body = simulation.add_body(frame, Mass::per_vertex(0.02), {.name = "frame"});
+  simulation.add(body, EdgeSpring{.stiffness = 1e4});
+  finish(slope.scene, exact);
+  return slope;
+}
+
+SlopeScene slope2(const PairOptions& options, Real degrees) {
+  SlopeScene slope = empty_slope(options, degrees);
   Simulation& simulation = slope.scene.simulation;
   const Index n = side_of(options.vertices, 7);
   const Mesh low = sheet_mesh(4 * n, 2.2, {-0.2, -0.2, 0}, Plane::xy, 3 * n / 2);

@@ -46,6 +46,8 @@ struct SlopeScene {
   pliant::Real exact_way(pliant::Index steps) const;
 };
 SlopeScene slope2(const PairOptions& options, pliant::Real degrees);
+/// The same of a frame of ropes on two pinned ropes along the slope: edges touch edges, at four places, and nothing else.
+SlopeScene rails(const PairOptions& options, pliant::Real degrees);
 PairScene slope2_steep(const PairOptions& options);   ///< 30°
 PairScene slope2_gentle(const PairOptions& options);  ///< 16°, which a friction of 0.3 holds
 
