@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "pliant/mesh/join.h"
 #include "tests/pairs/parts.h"
 
 namespace pliant_tests {
@@ -169,6 +170,13 @@ SlopeScene empty_slope(const PairOptions& options, Real degrees) {
   return {{empty_simulation(options, gravity), 1}, angle, options.contact.friction};
 }
 
+/// With a contact distance [m] that is scaled as it was asked for.
+PairOptions with_distance(PairOptions options, Real distance) {
+  options.contact.distance = options.distance_scale * distance;
+  options.distance_scale = 1;
+  return options;
+}
+
 /// Edges alone.
 Mesh net_of(const std::vector<Vec3>& points, std::vector<Edge> edges) {
   Mesh mesh;
@@ -183,9 +191,7 @@ Mesh net_of(const std::vector<Vec3>& points, std::vector<Edge> edges) {
 SlopeScene rails(const PairOptions& options, Real degrees) {
   SlopeScene slope = empty_slope(options, degrees);
   Simulation& simulation = slope.scene.simulation;
-  PairOptions exact = options;
-  exact.contact.distance = options.distance_scale * 0.01;
-  exact.distance_scale = 1;
+  const PairOptions exact = with_distance(options, 0.01);
   const Index links = std::max(Index{1}, options.vertices / 2);
   std::vector<Vec3> points;
   std::vector<Edge> edges;
@@ -197,10 +203,37 @@ SlopeScene rails(const PairOptions& options, Real degrees) {
   }
   simulation.add(add_rope(simulation, net_of(points, edges)), Position{});
   const Real z = 1.0005 * exact.contact.distance;
-  const Mesh frame = net_of({{-0.11, -0.2, z}, {0.09, -0.2, z}, {-0.09, 0.2, z}, {0.11, 0.2, z}},
-                            {{0, 1}, {0, 2}, {1, 3}, {2, 3}, {0, 3}, {1, 2}});
+  const Mesh frame = net_of({{-0.11, -0.2, z}, {0.09, -0.2, z}, {-0.09, 0.2, z}, {0.11, 0.2, z}, {0, 0, z + 0.1}},
+                            {{0, 1}, {0, 2}, {1, 3}, {2, 3}, {0, 3}, {0, 4}, {1, 4}, {2, 4}, {3, 4}});
   const BodyId body = simulation.add_body(frame, Mass::per_vertex(0.02), {.name = "frame"});
   simulation.add(body, EdgeSpring{.stiffness = 1e4});
+  finish(slope.scene, exact);
+  return slope;
+}
+
+SlopeScene ridges(const PairOptions& options, Real degrees) {
+  SlopeScene slope = empty_slope(options, degrees);
+  Simulation& simulation = slope.scene.simulation;
+  const PairOptions exact = with_distance(options, 0.01);
+  const Index links = std::max(Index{1}, options.vertices / 6);
+  std::vector<MeshPart> roofs;
+  for (const Real y : {-0.1, 0.1}) {
+    Mesh roof = grid({.columns = links + 1, .rows = 3, .size = {3, 0.1}, .plane = Plane::xy});
+    for (Index i = 0; i < roof.vertex_count(); ++i) {
+      const Real across = roof.vertices(i, 1) - 0.05;
+      roof.vertices.row(i) << roof.vertices(i, 0) - 0.5, y + across, -std::abs(across);
+    }
+    roofs.push_back({"", roof});
+  }
+  simulation.add(add_cloth(simulation, join(roofs)), Position{});
+  const Real z = 1.0005 * exact.contact.distance;
+  Mesh sled = bar({.cells = {2, 1, 1}, .size = {0.2, 0.4, 0.1}});
+  for (Index i = 0; i < sled.vertex_count(); ++i) {
+    const Vec3 x = row(sled.vertices, i);
+    const Real lift = std::abs(x.x() - 0.1) < 0.05 ? 0.05 : 0;
+    sled.vertices.row(i) << x.x() - 0.1 + 0.025 * (x.y() - 0.2), x.y() - 0.2, z + x.z() + lift;
+  }
+  add_rubber(simulation, sled, 1e6);
   finish(slope.scene, exact);
   return slope;
 }

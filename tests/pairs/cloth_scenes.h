@@ -48,6 +48,8 @@ struct SlopeScene {
 SlopeScene slope2(const PairOptions& options, pliant::Real degrees);
 /// The same of a frame of ropes on two pinned ropes along the slope: edges touch edges, at four places, and nothing else.
 SlopeScene rails(const PairOptions& options, pliant::Real degrees);
+/// The same of a solid whose lower edges lie across the ridges of two pinned roofs.
+SlopeScene ridges(const PairOptions& options, pliant::Real degrees);
 PairScene slope2_steep(const PairOptions& options);   ///< 30°
 PairScene slope2_gentle(const PairOptions& options);  ///< 16°, which a friction of 0.3 holds
 

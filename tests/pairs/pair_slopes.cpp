@@ -49,6 +49,10 @@ SlopeScene make(const Arguments& arguments, Index side, Real angle) {
     options.vertices = 2 * side;
     return rails(options, angle);
   }
+  if (arguments.scene == "ridges") {
+    options.vertices = 6 * side;
+    return ridges(options, angle);
+  }
   options.vertices = 7 * side * side;
   return slope2(options, angle);
 }
@@ -76,8 +80,8 @@ int main(int argc, char** argv) {
   CLI::App app("Friction between surfaces, beside Coulomb's law.");
   Arguments arguments;
   SolverSettings& settings = arguments.options.settings;
-  app.add_option("--scene", arguments.scene, "a sheet on a sheet, or a frame on rails: edges alone")
-      ->check(CLI::IsMember({"sheet", "rails"}));
+  app.add_option("--scene", arguments.scene, "a sheet on a sheet; edges alone: a frame on rails, a solid on ridges")
+      ->check(CLI::IsMember({"sheet", "rails", "ridges"}));
   app.add_option("--side", arguments.sides, "vertices of a side of the sheet, links of a rail")
       ->check(CLI::Range(1, 1000));
   app.add_option("--angle", arguments.angles, "of the slope [degrees]");

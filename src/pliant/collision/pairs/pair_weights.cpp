@@ -6,8 +6,12 @@
 namespace pliant {
 namespace {
 
-/// Of r: by how much two edges must be nearer than their vertices' own pairs to push with all their stiffness.
+/// Of r: by how much two edges must be nearer than their vertices' own pairs to push with all their stiffness, where
+/// one of them lies in what is flat.
 constexpr Real weight_width = 0.5;
+/// The same where none does, or the depth if that is more: a vertex farther away than r carries nothing, so where edges
+/// left it the load from much farther there would be a hole.
+constexpr Real least_width = 0.01;
 /// Of r: how far apart two places of a surface are that a vertex touches as if they were one.
 constexpr Real one_place_width = 0.5;
 
@@ -25,6 +29,23 @@ Vec3 place_of(const Positions& q, const Pair& pair, const Gap& gap) {
   Vec3 place = Vec3::Zero();
   for (std::size_t j = 1; j < 4; ++j) place -= gap.weights[j] * row(q, pair.vertices[j]);
   return place;
+}
+
+/// From 1 where the triangles at an edge lie across the normal, to 0 where one of them rises by 17° or more from there,
+/// or the edge has none.
+Real flatness(const Positions& q, const Surface& surface, Index edge, const Vec3& normal) {
+  constexpr Real steepest_flat = 0.3;
+  const auto& [a, b] = surface.edges[at(edge)];
+  const Vec3 along = (row(q, b) - row(q, a)).normalized();
+  const std::span<const Index> corners = surface.opposite(edge);
+  Real steepest = corners.empty() ? 1 : 0;
+  for (const Index corner : corners) {
+    const Vec3 away = row(q, corner) - row(q, a);
+    const Vec3 across = away - along.dot(away) * along;
+    const Real length = across.norm();
+    steepest = std::max(steepest, length > 0 ? std::abs(across.dot(normal)) / length : Real{1});
+  }
+  return smooth_step(1 - steepest / steepest_flat);
 }
 
 }  // namespace
@@ -89,7 +110,7 @@ void PairWeights::weigh(NearPairs near, const Surface& surface, const Positions&
   }
   for (std::size_t i = 0; i < near.size();) {
     if (is_of_edges(near[i].pair)) {
-      weigh_edges(i, near[i]);
+      weigh_edges(i, surface, near[i], q);
       ++i;
       continue;
     }
@@ -103,12 +124,18 @@ void PairWeights::weigh(NearPairs near, const Surface& surface, const Positions&
   }
 }
 
-void PairWeights::weigh_edges(std::size_t i, const PairList::Near& near) {
+void PairWeights::weigh_edges(std::size_t i, const Surface& surface, const PairList::Near& near, const Positions& q) {
   if (weights_[i] >= 0) return;
+  weights_[i] = 0;
+  const Gap& gap = gaps_[i];
   Real least = std::numeric_limits<Real>::infinity();
   for (const Index v : near.pair.vertices) least = std::min(least, vertex_gaps_[at(v)]);
-  weights_[i] =
-      is_counting_[i] != 0 ? smooth_step((least - gaps_[i].distance) / (weight_width * near.radius)) : Real{0};
+  if (is_counting_[i] == 0 || !(least > gap.distance)) return;
+  const Real flat = std::max(flatness(q, surface, near.pair.features[0], gap.normal),
+                             flatness(q, surface, near.pair.features[1], gap.normal));
+  const Real depth = near.radius - gap.distance;
+  const Real width = std::max(depth, std::max(least_width, flat * weight_width) * near.radius);
+  weights_[i] = smooth_step((least - gap.distance) / width);
 }
 
 /// All pairs of one vertex. Where a valley becomes flat, the two sides of it become one place.

@@ -27,7 +27,7 @@ class PairWeights {
   using NearPairs = std::span<const PairList::Near>;
 
   void weigh(NearPairs near, const Surface& surface, const Positions& q, ThreadPool& threads);
-  void weigh_edges(std::size_t i, const PairList::Near& near);
+  void weigh_edges(std::size_t i, const Surface& surface, const PairList::Near& near, const Positions& q);
   void weigh_vertex(NearPairs near, std::size_t begin, std::size_t end, const Positions& q);
   void remember(NearPairs near);
 
