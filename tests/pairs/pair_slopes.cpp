@@ -24,6 +24,7 @@ struct Arguments {
   std::vector<Index> sides{12};
   std::vector<Real> angles{16, 17, 30};
   std::string integrator = "implicit_euler";
+  Index every = 0;
   PairOptions options;
 };
 
@@ -61,7 +62,14 @@ void run(const Arguments& arguments, Index side, Real angle) {
   SlopeScene slope = make(arguments, side, angle);
   const Index frames = slope.scene.frames();
   Index shortened = 0;
-  for (Index i = 0; i < frames; ++i) shortened += slope.scene.step().contact.shortened;
+  for (Index i = 0; i < frames; ++i) {
+    const StepReport report = slope.scene.step();
+    shortened += report.contact.shortened;
+    if (arguments.every > 0 && (i + 1) % arguments.every == 0) {
+      fmt::print("  {:4} {:.6f} m, exact {:.6f} m, shortened {}, backtracks {}, residual {:.1e} N\n", i + 1, slope.way(),
+                 slope.exact_way(i + 1), report.contact.shortened, report.backtracks, report.residual);
+    }
+  }
   Real exact = slope.exact_way(frames);
   if (arguments.options.settings.integrator == Integrator::bdf2) {
     const Real h = arguments.options.settings.time_step / static_cast<Real>(arguments.options.settings.substeps);
@@ -90,6 +98,8 @@ int main(int argc, char** argv) {
   app.add_option("--threads", settings.threads, "at most")->check(CLI::Range(0, 1024));
   app.add_option("--integrator", arguments.integrator, "how a step is made")
       ->check(CLI::IsMember({"implicit_euler", "bdf2"}));
+  app.add_option("--every", arguments.every, "print where it is each so many steps; 0: not")
+      ->check(CLI::Range(0, 1'000'000));
   try {
     app.parse(argc, argv);
     if (arguments.integrator == "bdf2") settings.integrator = Integrator::bdf2;
