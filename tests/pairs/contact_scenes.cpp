@@ -12,6 +12,7 @@
 // Exits with 1 when anything crossed.
 #include <algorithm>
 #include <cstdio>
+#include <ctime>
 #include <exception>
 #include <fstream>
 #include <map>
@@ -24,7 +25,6 @@
 #include <fmt/ranges.h>
 
 #include "pliant/core/error.h"
-#include "pliant/core/stopwatch.h"
 #include "tests/pairs/builtin_pair_scenes.h"
 #include "tests/pairs/masonry_scenes.h"
 #include "tests/pairs/pair_scene.h"
@@ -62,6 +62,7 @@ struct Arguments {
   std::string log;
   Index frames = 0;
   Index every = 0;
+  double slow = 0;  // [s]
   Index piles = 1;
   bool is_list = false;
   bool has_variations = false;
@@ -77,11 +78,11 @@ struct Figures {
   Real lag = 0;  // the largest [m]
   Real smallest_gap = std::numeric_limits<Real>::infinity();
   std::int64_t shortened = 0;
-  Index pairs = 0;         // most of a step
-  Real momentum_lost = 0;  // sum over all steps [N s]
-  Real energy = 0;         // kinetic, elastic and potential at the end, less that of the start [J]
-  Real most_energy = 0;    // of a step
-  std::vector<double> seconds;
+  Index pairs = 0;              // most of a step
+  Real momentum_lost = 0;       // sum over all steps [N s]
+  Real energy = 0;              // kinetic, elastic and potential at the end, less that of the start [J]
+  Real most_energy = 0;         // of a step
+  std::vector<double> seconds;  // of the processor
 };
 
 /// How its bodies stand after so many frames, and what the last of them has done.
@@ -96,14 +97,24 @@ void print_standing(const Simulation& simulation, Index frames, Real energy, con
   std::fflush(stdout);
 }
 
-Figures measure(PairScene& scene, Index frames, Index every) {
+void print_slow(Index frame, double seconds, const StepReport& report) {
+  const ContactReport& contact = report.contact;
+  fmt::print(
+      "  frame {:5} took {:.2f} s: pairs {} active {} shortened {} backtracks {} factors {} lag {:.1e} m let go {}\n",
+      frame, seconds, contact.pairs, contact.active, contact.shortened, report.backtracks, contact.refactorizations,
+      contact.lag, contact.let_go);
+  std::fflush(stdout);
+}
+
+Figures measure(PairScene& scene, Index frames, Index every, double slow) {
   Figures figures;
   const Real energy = total_energy(scene.simulation);
   for (Index i = 0; i < frames; ++i) {
-    const Stopwatch watch;
+    const std::clock_t begin = std::clock();
     const StepReport report = scene.step();
     const ContactReport& contact = report.contact;
-    figures.seconds.push_back(watch.seconds());
+    figures.seconds.push_back(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
+    if (slow > 0 && figures.seconds.back() > slow) print_slow(i + 1, figures.seconds.back(), report);
     ++figures.frames;
     const std::int64_t crossings = count_crossings(scene.simulation);
     figures.crossings += crossings;
@@ -134,11 +145,12 @@ struct Outcome {
   bool is_clean = false;
 };
 
-Outcome run(const Run& each, Index frames, Index every) {
+Outcome run(const Run& each, const Arguments& arguments) {
   try {
     PairScene scene = each.make();
     const bool begins_apart = count_crossings(scene.simulation) == 0;
-    const Figures figures = measure(scene, frames > 0 ? frames : scene.frames(), every);
+    const Index asked = each.frames > 0 ? each.frames : arguments.frames;
+    const Figures figures = measure(scene, asked > 0 ? asked : scene.frames(), arguments.every, arguments.slow);
     const double longest = *std::max_element(figures.seconds.begin(), figures.seconds.end());
     return {
         fmt::format("{:42} {:6} vertices {:5} frames {:6} crossings in {:4} let go in {:4} gap {:8.2e} m lag {:7.1e} "
@@ -258,6 +270,8 @@ void read(int argc, char** argv, Arguments& to, CLI::App& app) {
   app.add_option("--frames", to.frames, "steps; 0: what the scene takes")->check(CLI::Range(0, 100'000'000));
   app.add_option("--every", to.every, "print how bodies stand each so many steps; 0: not")
       ->check(CLI::Range(0, 100'000'000));
+  app.add_option("--slow", to.slow, "print steps that take more processor time than that [s]; 0: none")
+      ->check(CLI::NonNegativeNumber);
   app.add_option("--seed", to.options.seed, "of what is drawn by chance");
   app.add_option("--piles", to.piles, "so many piles, each of another seed")->check(CLI::Range(1, 1'000'000));
   app.add_option("--log", to.log, "a file to which lines are added; runs whose line is there are not done again");
@@ -297,7 +311,7 @@ bool do_runs(const Arguments& arguments) {
       is_clean &= !found->second.starts_with("NOT ");
       continue;
     }
-    const Outcome outcome = run(each, each.frames > 0 ? each.frames : arguments.frames, arguments.every);
+    const Outcome outcome = run(each, arguments);
     is_clean &= outcome.is_clean;
     const std::string line = (outcome.is_clean ? "" : "NOT CLEAN: ") + outcome.line;
     fmt::print("{}\n", line);
