@@ -56,7 +56,7 @@ constexpr std::array trials{
     Trial{"rope", rope_through_sheet, 35, true},
     Trial{"loop", crossed_loop, 40, false},
     Trial{"pile", crossed_pile, 24, false},
-    Trial{"closing", [](const PairOptions& options) { return closing_sheets(options, 0.6); }, 50, true},
+    Trial{"closing", [](const PairOptions& options) { return closing_sheets(options, 0.6); }, 120, true},
     Trial{"driven", driven_through, 70, true}};
 
 /// How long the free sheet between closing plates stays crumpled in long steps is a matter of chance.

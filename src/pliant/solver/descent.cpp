@@ -17,8 +17,10 @@ constexpr Real longest_of_factor = 8;
 /// Of a move that has raised the objective: what must be left of it to be worth a trial.
 constexpr Real least_share = 0.05;
 
-/// Of the longest way of a global solve: how far a move with memory may lead where surfaces touch.
+/// Of the longest way of a global solve: how far a move with memory may lead where surfaces touch; and of a plain move
+/// where it is also longer than this share of the longest way that the substep is to take.
 constexpr Real longest_of_memory = 5;
+constexpr Real longest_of_step = 0.5;
 
 Real scalar_product(const Positions& a, const Positions& b) {
   return a.cwiseProduct(b).sum();
@@ -108,7 +110,7 @@ void Descent::move(const LocalResult& local, const StepContext& context, Working
   lbfgs_.move(work.solution, lbfgs_.is_plain() ? curvature(context, work) : 0, work.positions, context.threads);
   has_moved_ = true;
   have_pairs_pushed_ |= context.contact.pairs_push();
-  if (!lbfgs_.is_plain() && have_pairs_pushed_ && is_too_long(work)) {
+  if (!lbfgs_.is_plain() && have_pairs_pushed_ && is_too_long(context, work)) {
     move_plainly(context, work);
   } else {
     hold_back(context, work);
@@ -116,10 +118,14 @@ void Descent::move(const LocalResult& local, const StepContext& context, Working
 }
 
 /// Whether a move with memory leads farther than surfaces should be searched for. Where contacts begin, the memory may
-/// know next to no resistance, and such a move is taken back anyway.
-bool Descent::is_too_long(const WorkingState& work) const {
-  const Real longest = (work.positions - lbfgs_.positions_before()).rowwise().squaredNorm().maxCoeff();
-  return longest > longest_of_memory * longest_of_memory * work.solution.rowwise().squaredNorm().maxCoeff();
+/// know next to no resistance, and such a move is taken back anyway, or cut at thousands of planes.
+bool Descent::is_too_long(const StepContext& context, const WorkingState& work) const {
+  const auto longest_of = [](const auto& ways) { return ways.rowwise().norm().maxCoeff(); };
+  const Real longest = longest_of(work.positions - lbfgs_.positions_before());
+  const Real of_solve = longest_of(work.solution);
+  if (longest > longest_of_memory * of_solve) return true;
+  if (longest < longest_of_step * longest_of(work.prediction - work.begin.positions)) return false;
+  return longest > longest_of_memory * lbfgs_.plain_length(curvature(context, work)) * of_solve;
 }
 
 /// x = B⁻¹ r, with contact in B where that dominates.

@@ -38,7 +38,7 @@ class Descent {
   void factorize(const StepContext& context, WorkingState& work, StepReport& report);
   void move_plainly(const StepContext& context, WorkingState& work);
   void hold_back(const StepContext& context, WorkingState& work);
-  bool is_too_long(const WorkingState& work) const;
+  bool is_too_long(const StepContext& context, const WorkingState& work) const;
 
   Lbfgs lbfgs_;
   RigidBalance balance_;

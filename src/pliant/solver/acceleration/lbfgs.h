@@ -45,6 +45,11 @@ class Lbfgs {
   /// q ← q + H r, as was prepared. A plain move is q ← q + α x, α = xᵀr / (xᵀr + c): the minimum of a quadratic
   /// objective with the matrix B + C and c = xᵀ C x, `curvature` [N m].
   void move(const Positions& x, Real curvature, Positions& q, ThreadPool& threads);
+  /// α of a plain move from where the next one was prepared.
+  Real plain_length(Real curvature) const {
+    const Real resistance = descent_ + curvature;
+    return descent_ > 0 && resistance > 0 ? descent_ / resistance : 1;
+  }
   /// Of the move that was prepared or made last.
   bool is_plain() const { return is_plain_; }
   /// From where the last move went, and what the local step found there.
@@ -70,10 +75,6 @@ class Lbfgs {
   /// Forgets everything but the newest solution, which becomes the first.
   void forget_pairs(Numbers& products);
   void forget_oldest_pair();
-  Real plain_length(Real curvature) const {
-    const Real resistance = descent_ + curvature;
-    return descent_ > 0 && resistance > 0 ? descent_ / resistance : 1;
-  }
   std::size_t last_solution() const { return pair_count_ + (has_moved_ ? 1 : 0); }
 
   // Oldest first: pair i is move i, and solution i less solution i + 1. After a move there is one of each besides,
