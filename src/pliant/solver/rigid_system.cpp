@@ -70,8 +70,7 @@ void RigidSystem::find_sets() {
 }
 
 /// Finds the neighbors of each body when its turn comes.
-std::vector<std::size_t> RigidSystem::order_of(const Set& set,
-                                               std::vector<std::vector<std::size_t>>& neighbors) const {
+std::vector<std::size_t> RigidSystem::order_of(const Set& set, std::vector<std::vector<std::size_t>>& neighbors) const {
   std::vector<std::size_t> left = set.bodies;
   std::vector<std::size_t> order;
   while (!left.empty()) {

@@ -13,9 +13,8 @@ bool is_before(const RigidCoupling& a, const RigidCoupling& b) {
 
 void RigidCouplings::finish() {
   std::ranges::sort(all_, is_before);
-  const auto rest = std::ranges::unique(all_, [](const RigidCoupling& a, const RigidCoupling& b) {
-    return a.is_of_same(b);
-  });
+  const auto rest =
+      std::ranges::unique(all_, [](const RigidCoupling& a, const RigidCoupling& b) { return a.is_of_same(b); });
   all_.erase(rest.begin(), rest.end());
   last_ = 0;
 }
@@ -36,8 +35,8 @@ void RigidCouplings::add_stiffness(std::size_t component_a, std::size_t componen
   const Vec3& arm = is_in_order ? a : b;
   const Vec3& other_arm = is_in_order ? b : a;
   RigidCoupling& sum = find(std::min(component_a, component_b), std::max(component_a, component_b));
-  Mat3 turning;   // A K
-  Mat3 turned;    // K B, the transpose of −B K
+  Mat3 turning;  // A K
+  Mat3 turned;   // K B, the transpose of −B K
   for (int i = 0; i < 3; ++i) {
     turning.col(i) = arm.cross(stiffness.col(i));
     turned.row(i) = -other_arm.cross(stiffness.col(i)).transpose();

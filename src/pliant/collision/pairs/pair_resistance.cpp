@@ -27,6 +27,18 @@ void visit_pushing(std::span<const NearPair> pairs, std::span<const Index> compo
   }
 }
 
+Mat3 stiffness_of(const NearPair& pair, SlidingFriction sliding) {
+  Mat3 stiffness = pair.pushed.curvature * pair.gap.normal * pair.gap.normal.transpose() -
+                   pair.rubbed.curvature * pair.friction_normal * pair.friction_normal.transpose();
+  stiffness.diagonal().array() += pair.rubbed.curvature;
+  const bool slides = pair.rubbed.curvature < pair.weight * pair.stiffness;
+  if (slides && sliding == SlidingFriction::as_it_is) {
+    const Vec3 along = pair.rubbed.force.stableNormalized();
+    stiffness -= pair.rubbed.curvature * along * along.transpose();
+  }
+  return stiffness;
+}
+
 std::size_t least_of(std::span<std::size_t> least, std::size_t component) {
   while (least[component] != component) component = least[component] = least[least[component]];
   return component;
@@ -64,9 +76,8 @@ void add_resistance(std::span<const NearPair> pairs, const Positions& q, const P
       }
       (j < first_side ? first : second).add_force(x, each.force_on(j));
     }
-    Mat3 stiffness = each.pushed.curvature * each.gap.normal * each.gap.normal.transpose() -
-                     each.rubbed.curvature * each.friction_normal * each.friction_normal.transpose();
-    stiffness.diagonal().array() += each.rubbed.curvature;
+    const bool is_bounded = first.sliding == SlidingFriction::bounded || second.sliding == SlidingFriction::bounded;
+    const Mat3 stiffness = stiffness_of(each, is_bounded ? SlidingFriction::bounded : SlidingFriction::as_it_is);
     first.add_stiffness(place, stiffness);
     second.add_stiffness(place_of_second, stiffness);
     couplings.add_stiffness(of_pair.first, of_pair.second, place - first.center, place_of_second - second.center,
