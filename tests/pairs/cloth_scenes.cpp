@@ -274,6 +274,10 @@ PairScene slope2_steep(const PairOptions& options) {
   return slope2(options, 30).scene;
 }
 
+PairScene slope2_near_limit(const PairOptions& options) {
+  return slope2(options, 17).scene;
+}
+
 PairScene slope2_gentle(const PairOptions& options) {
   return slope2(options, 16).scene;
 }

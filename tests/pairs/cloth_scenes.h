@@ -52,5 +52,8 @@ SlopeScene rails(const PairOptions& options, pliant::Real degrees);
 SlopeScene ridges(const PairOptions& options, pliant::Real degrees);
 PairScene slope2_steep(const PairOptions& options);   ///< 30°
 PairScene slope2_gentle(const PairOptions& options);  ///< 16°, which a friction of 0.3 holds
+PairScene slope2_steep(const PairOptions& options);       ///< 30°
+PairScene slope2_near_limit(const PairOptions& options);  ///< 17°, 0.3° more than a friction of 0.3 holds
+PairScene slope2_gentle(const PairOptions& options);      ///< 16°, which it holds
 
 }  // namespace pliant_tests

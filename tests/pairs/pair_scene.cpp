@@ -38,6 +38,7 @@ std::span<const PairSceneEntry> pair_scenes() {
       PairSceneEntry{"fall", "a sheet hits a sphere with 5.5 m/s, 1 s", fall},
       PairSceneEntry{"two_sheets", "a sheet falls on a pinned one, 3 s", two_sheets},
       PairSceneEntry{"slope2_gentle", "a sheet on a pinned one, at 16 degrees, 1 s", slope2_gentle},
+      PairSceneEntry{"slope2_near_limit", "a sheet on a pinned one, at 17 degrees, 1 s", slope2_near_limit},
       PairSceneEntry{"slope2_steep", "a sheet on a pinned one, at 30 degrees, 1 s", slope2_steep},
       PairSceneEntry{"layers_free", "a sheet slides on a free one on a plane, 2 s", two_layers_free},
       PairSceneEntry{"rope", "a coil of rope falls on a pinned sheet, 3 s", rope},

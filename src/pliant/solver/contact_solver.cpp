@@ -176,15 +176,17 @@ void ContactSolver::add_diagonal(std::span<Real> diagonal) const {
   if (has_pairs()) pairs_.add_diagonal(diagonal);
 }
 
-void ContactSolver::add_touching(std::span<const Index> component_of_vertex, std::vector<Index>& vertices) const {
+void ContactSolver::add_touching(std::span<const Index> component_of_vertex, std::vector<Index>& vertices,
+                                 RigidCouplings& couplings) const {
   contact_.add_touching(vertices);
-  if (has_pairs()) pliant::add_touching(pairs_.near(), component_of_vertex, vertices);
+  if (has_pairs()) pliant::add_touching(pairs_.near(), component_of_vertex, vertices, couplings);
 }
 
 void ContactSolver::add_resistance(const Positions& q, std::span<const Index> component_of_vertex,
-                                   std::span<RigidResistance> components) const {
+                                   std::span<RigidResistance> components, RigidCouplings& couplings) const {
   contact_.add_resistance(q, component_of_vertex, components);
-  if (has_pairs()) pliant::add_resistance(pairs_.near(), q, pairs_.begin(), component_of_vertex, components);
+  if (!has_pairs()) return;
+  pliant::add_resistance(pairs_.near(), q, pairs_.begin(), component_of_vertex, components, couplings);
 }
 
 void ContactSolver::add_energies(std::span<const Index> component_of_vertex, std::span<Real> components) const {

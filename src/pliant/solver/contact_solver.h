@@ -2,6 +2,7 @@
 // Contact in the steps of a solver: where a step takes the colliders, when friction is refreshed, the order of
 // vertices.
 #include "pliant/collision/contact/contact.h"
+#include "pliant/collision/contact/rigid_couplings.h"
 #include "pliant/collision/contact/vertex_touch.h"
 #include "pliant/collision/pairs/pair_contact.h"
 #include "pliant/solver/system.h"
@@ -67,9 +68,10 @@ class ContactSolver {
   /// Of components that move as rigid bodies: vertices that may touch something, and what that does to the components
   /// with those vertices at q; see pair_resistance.h.
   bool is_anything_near() const { return contact_.is_anything_near() || (has_pairs() && !pairs_.near().empty()); }
-  void add_touching(std::span<const Index> component_of_vertex, std::vector<Index>& vertices) const;
+  void add_touching(std::span<const Index> component_of_vertex, std::vector<Index>& vertices,
+                    RigidCouplings& couplings) const;
   void add_resistance(const Positions& q, std::span<const Index> component_of_vertex,
-                      std::span<RigidResistance> components) const;
+                      std::span<RigidResistance> components, RigidCouplings& couplings) const;
   /// The energies where the forces were found last, and which components may touch each other.
   void add_energies(std::span<const Index> component_of_vertex, std::span<Real> components) const;
   void join_components(std::span<const Index> component_of_vertex, std::span<std::size_t> least) const;

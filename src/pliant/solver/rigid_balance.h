@@ -1,6 +1,8 @@
 #pragma once
 // Free components that touch something, moved rigidly to where the forces on them as a whole are in balance.
+#include "pliant/collision/contact/rigid_couplings.h"
 #include "pliant/solver/rigid_moments.h"
+#include "pliant/solver/rigid_system.h"
 #include "pliant/solver/step_context.h"
 
 namespace pliant {
@@ -26,6 +28,10 @@ class RigidBalance {
 
  private:
   using Motion = RigidResistance::Motion;
+  using Matrix = Eigen::Matrix<Real, 6, 6>;
+
+  /// What moves on its own: each component, or those that push each other all alike.
+  enum class Motions { each, common };
 
   /// A free component.
   struct Part {
@@ -39,10 +45,14 @@ class RigidBalance {
     RigidPlacement placement_now;  // under trial
     Real rise = 0;                 // of the energy of inertia, there [J]
     Real rise_now = 0;
+    Motion force = Motion::Zero();      // on it where it has come to
+    Matrix curvature = Matrix::Zero();  // M + C there
+    Motion motion = Motion::Zero();     // to be tried from there
     SlidingFriction sliding = SlidingFriction::as_it_is;
     Real share_of_motion = 1;
     Real share_of_way = 1;
     int motions_left = 0;
+    bool is_light = false;  // nothing touches it, and it would not move either
     bool is_tried = false;  // placement_now
     bool moves = false;
     bool goes_back = false;
@@ -51,12 +61,20 @@ class RigidBalance {
   void find_masses(const System& system, const Positions& q);
   void find_moments(const System& system, const WorkingState& work);
   void find_touching(const StepContext& context, const WorkingState& work);
+  void find_links();
   void ask_contact(const StepContext& context, const WorkingState& work);
 
-  bool find_placements(const StepContext& context, const WorkingState& work);
-  bool find_motions(bool knows_contact);
-  static bool is_misplaced(const Part& part, const Motion& force);
-  static bool find_motion(const RigidResistance* contact, Part& part);
+  bool find_placements(const StepContext& context, const WorkingState& work, Motions motions);
+  static bool may_gain(const Part& part);
+  bool find_motions(Motions motions);
+  void find_force(Part& part) const;
+  static bool is_misplaced(const Part& part);
+  bool is_worthwhile(std::span<const std::size_t> parts) const;
+  bool find_motion(Part& part);
+  bool find_joint_motions(std::size_t set);
+  bool solve_jointly(std::size_t set);
+  bool find_common_motion(std::size_t set);
+  static void try_placement(const RigidPlacement& placement, Part& part);
   bool judge_motions();
 
   bool go_there(const StepContext& context, WorkingState& work, LocalResult& local);
@@ -72,6 +90,11 @@ class RigidBalance {
   std::vector<Index> part_of_component_;       // −1: it is not free
   std::vector<Index> touching_;                // vertices
   Positions trial_;                            // of those
+  RigidSystem system_;                         // of parts that push each other
+  RigidCouplings couplings_;                   // of components, where they have come to
+  std::vector<RigidLink> links_;               // of parts
+  std::vector<std::size_t> linked_;            // of each link, its coupling
+  std::vector<Motion> motions_;                // of each part; scratch
   std::vector<RigidResistance> resistances_;   // of each component, where it has come to
   std::vector<RigidResistance> trial_result_;  // and under trial
   std::vector<Real> energies_asked_before_;    // of contact, of each component, where placements begin [J]

@@ -27,6 +27,18 @@ void visit_pushing(std::span<const NearPair> pairs, std::span<const Index> compo
   }
 }
 
+Mat3 stiffness_of(const NearPair& pair, SlidingFriction sliding) {
+  Mat3 stiffness = pair.pushed.curvature * pair.gap.normal * pair.gap.normal.transpose() -
+                   pair.rubbed.curvature * pair.friction_normal * pair.friction_normal.transpose();
+  stiffness.diagonal().array() += pair.rubbed.curvature;
+  const bool slides = pair.rubbed.curvature < pair.weight * pair.stiffness;
+  if (slides && sliding == SlidingFriction::as_it_is) {
+    const Vec3 along = pair.rubbed.force.stableNormalized();
+    stiffness -= pair.rubbed.curvature * along * along.transpose();
+  }
+  return stiffness;
+}
+
 std::size_t least_of(std::span<std::size_t> least, std::size_t component) {
   while (least[component] != component) component = least[component] = least[least[component]];
   return component;
@@ -35,31 +47,41 @@ std::size_t least_of(std::span<std::size_t> least, std::size_t component) {
 }  // namespace
 
 void add_touching(std::span<const NearPair> pairs, std::span<const Index> component_of_vertex,
-                  std::vector<Index>& vertices) {
-  visit_pushing(pairs, component_of_vertex, [&](const NearPair& each, const ComponentPair&) {
+                  std::vector<Index>& vertices, RigidCouplings& couplings) {
+  visit_pushing(pairs, component_of_vertex, [&](const NearPair& each, const ComponentPair& of_pair) {
+    couplings.add(of_pair.first, of_pair.second);
     vertices.insert(vertices.end(), each.pair.vertices.begin(), each.pair.vertices.end());
   });
 }
 
 void add_resistance(std::span<const NearPair> pairs, const Positions& q, const Positions& begin,
-                    std::span<const Index> component_of_vertex, std::span<RigidResistance> components) {
+                    std::span<const Index> component_of_vertex, std::span<RigidResistance> components,
+                    RigidCouplings& couplings) {
   visit_pushing(pairs, component_of_vertex, [&](const NearPair& known, const ComponentPair& of_pair) {
     NearPair each = known;
     each.look(q, begin);
     if (!each.is_active()) return;
-    components[of_pair.first].energy += each.energy();
+    RigidResistance& first = components[of_pair.first];
+    RigidResistance& second = components[of_pair.second];
+    first.energy += each.energy();
     const auto first_side = static_cast<std::size_t>(each.pair.first_side());
     Vec3 place = Vec3::Zero();
+    Vec3 place_of_second = Vec3::Zero();
     for (std::size_t j = 0; j < 4; ++j) {
       const Vec3 x = row(q, each.pair.vertices[j]);
-      if (j < first_side) place += each.gap.weights[j] * x;
-      components[j < first_side ? of_pair.first : of_pair.second].add_force(x, each.force_on(j));
+      if (j < first_side) {
+        place += each.gap.weights[j] * x;
+      } else {
+        place_of_second -= each.gap.weights[j] * x;
+      }
+      (j < first_side ? first : second).add_force(x, each.force_on(j));
     }
-    Mat3 stiffness = each.pushed.curvature * each.gap.normal * each.gap.normal.transpose() -
-                     each.rubbed.curvature * each.friction_normal * each.friction_normal.transpose();
-    stiffness.diagonal().array() += each.rubbed.curvature;
-    components[of_pair.first].add_stiffness(place, stiffness);
-    components[of_pair.second].add_stiffness(place, stiffness);
+    const bool is_bounded = first.sliding == SlidingFriction::bounded || second.sliding == SlidingFriction::bounded;
+    const Mat3 stiffness = stiffness_of(each, is_bounded ? SlidingFriction::bounded : SlidingFriction::as_it_is);
+    first.add_stiffness(place, stiffness);
+    second.add_stiffness(place_of_second, stiffness);
+    couplings.add_stiffness(of_pair.first, of_pair.second, place - first.center, place_of_second - second.center,
+                            stiffness);
   });
 }
 

@@ -1,19 +1,20 @@
 #pragma once
 // What pairs do to components that move as rigid bodies.
-#include "pliant/collision/contact/rigid_resistance.h"
+#include "pliant/collision/contact/rigid_couplings.h"
 #include "pliant/collision/pairs/near_pair.h"
 
 namespace pliant {
 
-/// Adds the vertices of pairs between two components that may push each other.
+/// Adds the vertices of pairs between two components that may push each other, and those components.
 void add_touching(std::span<const NearPair> pairs, std::span<const Index> component_of_vertex,
-                  std::vector<Index>& vertices);
+                  std::vector<Index>& vertices, RigidCouplings& couplings);
 
 /// Adds what pairs between two components do with those vertices at q, of which others are not asked: forces on each,
-/// what they resist rigid motions of each with, as if the other one stood still, and the energy of each pair to one of
-/// its components. begin: positions at the beginning of the substep.
+/// what they resist rigid motions of each with, as if the other one stood still, and of both together besides, and the
+/// energy of each pair to one of its components. begin: positions at the beginning of the substep.
 void add_resistance(std::span<const NearPair> pairs, const Positions& q, const Positions& begin,
-                    std::span<const Index> component_of_vertex, std::span<RigidResistance> components);
+                    std::span<const Index> component_of_vertex, std::span<RigidResistance> components,
+                    RigidCouplings& couplings);
 
 /// Adds the energy of each pair to the same one of its components [J].
 void add_energies(std::span<const NearPair> pairs, std::span<const Index> component_of_vertex,
