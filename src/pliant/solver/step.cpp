@@ -48,6 +48,7 @@ void Solver::take_substep(State& state, StepReport& report) {
   check_finite(context(state), work_);                            //
   find_velocities();                                              // 8   v = (q − a)/η
   if (contact_.is_active()) add_momentum_lost(report.contact);    //     M v falls short by η r
+  if (contact_.has_pairs()) limit_energy(state, report.contact);  //     contact gives no energy
   if (projects_energy()) energy_.project(context(state), work_);  //     onto the energy that q and v should have
   commit(state, report);                                          //     qₙ = q, vₙ = v
 }
@@ -169,6 +170,10 @@ void Solver::add_momentum_lost(ContactReport& report) const {
   for (Index i = 0; i < system_.vertex_count(); ++i) {
     if (system_.is_pinned()[at(i)] == 0) report.momentum_lost += step * row(work_.residual, i);
   }
+}
+
+void Solver::limit_energy(const State& state, ContactReport& report) {
+  report.energy_taken += contact_energy_.limit(context(state), work_);
 }
 
 /// Velocities that are damped as e^(-2ch) a step make the amplitude of an oscillation decay as e^(-ct), besides what
