@@ -43,10 +43,11 @@ LocalResult Descent::evaluate(const StepContext& context, WorkingState& work) co
   return local;
 }
 
-/// A plain move without contact is known to be good.
+/// A plain move without contact is known to be good, unless it was cut: what is between a vertex that stops and its
+/// neighbors that go on is stretched.
 bool Descent::must_go_back(const LocalResult& local) const {
   if (!has_moved_) return false;
-  const bool is_known = lbfgs_.is_plain() && !(local.contact > 0) && !(lbfgs_.local_before().contact > 0);
+  const bool is_known = !was_cut_ && lbfgs_.is_plain() && !(local.contact > 0) && !(lbfgs_.local_before().contact > 0);
   return !is_known && lbfgs_.has_risen(local);
 }
 
@@ -59,6 +60,7 @@ LocalResult Descent::local_step(const StepContext& context, WorkingState& work, 
     local = evaluate(context, work);
     local.seconds_projections += seconds;
   }
+  if (getenv("DBG")) printf("   it inertia %.3e elastic %.3e contact %.3e moved %d plain %d bt %d\n", local.inertia, local.elastic, local.contact, has_moved_, lbfgs_.is_plain(), (int)report.backtracks);
   return local;
 }
 
@@ -90,8 +92,10 @@ void Descent::move_plainly(const StepContext& context, WorkingState& work) {
 /// Where a move is cut it makes no pair, and where it meets another potential it cannot be judged: then it is a plain
 /// one, which does not go far.
 void Descent::hold_back(const StepContext& context, WorkingState& work) {
+  was_cut_ = false;
   if (!context.contact.is_active()) return;
   const HeldBack held = context.contact.hold_back(lbfgs_.positions_before(), work.positions, context.threads);
+  was_cut_ = held.is_shortened;
   if (held.has_moved || held.has_new_potential) lbfgs_.forget();
   if (!held.has_new_potential) return;
   if (lbfgs_.is_plain()) {
@@ -103,6 +107,8 @@ void Descent::hold_back(const StepContext& context, WorkingState& work) {
 
 void Descent::move(const LocalResult& local, const StepContext& context, WorkingState& work, StepReport& report) {
   solve(local, context, work, report);
+  static const Real thr = getenv("STEEP") ? atof(getenv("STEEP")) : 0;
+  if (has_moved_ && context.contact.pairs_push() && local.objective() < thr * lbfgs_.local_before().objective()) lbfgs_.forget();
   if (!is_accelerated_) lbfgs_.forget();
   lbfgs_.prepare(local, work.residual, work.solution, context.threads);
   lbfgs_.move(work.solution, lbfgs_.is_plain() ? curvature(context, work) : 0, work.positions, context.threads);

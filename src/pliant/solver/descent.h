@@ -45,6 +45,7 @@ class Descent {
   bool is_accelerated_ = false;
   bool checks_plain_moves_ = false;  // contact: the factor is no bound
   bool has_moved_ = false;           // and the objective is still the one that the move was made for
+  bool was_cut_ = false;             // the move, so that no surface passes through another
   bool is_first_ = true;             // of the moves of a substep
   bool have_pairs_pushed_ = false;   // in this substep
 };

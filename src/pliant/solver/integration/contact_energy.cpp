@@ -33,6 +33,11 @@ void scale_beside(const RigidMotion& rigid, Real factor, std::span<const Index> 
   }
 }
 
+/// By what velocities of that kinetic energy are scaled to take some of it, or all.
+Real factor_that_takes(Real energy, Real kinetic) {
+  return energy < kinetic ? std::sqrt(1 - energy / kinetic) : 0;
+}
+
 }  // namespace
 
 Real ContactEnergy::limit(const StepContext& context, WorkingState& work) {
@@ -43,9 +48,18 @@ Real ContactEnergy::limit(const StepContext& context, WorkingState& work) {
   context.contact.add_stored_energies(system.components_of_vertices(), stored_);
   find_groups(context, work);
   Real taken = 0;
+  Real residual_work[8] = {};
+  static const bool bdf = getenv("BDFR");
   if (std::ranges::any_of(touches_, [](char each) { return each != 0; })) {
     find_excess(context, work);
     for (std::size_t group = 0; group < count; ++group) {
+      if (bdf && context.settings.integrator == Integrator::bdf2) {
+        Real sum = 0;
+        for (Index v = 0; v < system.vertex_count(); ++v) if (group_of_[at(system.components_of_vertices()[at(v)])] == group && !system.is_pinned()[at(v)]) sum -= context.time_step * row(work.residual, v).dot(row(work.velocities, v));
+        excess_[group] = std::min(excess_[group], std::max<Real>(sum, 0));
+      }
+      (void)residual_work;
+      if (getenv("DBG") && touches_[group]) { Real sv=0; for (auto s: elastic_) sv+=s; Real st=0; for (auto s: stored_) st+=s; printf("  group %zu excess %.3e size %.3e elastic %.3e stored %.3e\n", group, excess_[group], size_[group], sv, st); }
       if (excess_[group] > least_excess * size_[group]) taken += take(context, group, work);
     }
   }
@@ -125,33 +139,52 @@ void ContactEnergy::find_excess(const StepContext& context, const WorkingState& 
   }
 }
 
+/// What the group has too much is taken from vibrations, then from what its components do against each other.
 Real ContactEnergy::take(const StepContext& context, std::size_t group, WorkingState& work) {
-  const System& system = context.system;
-  const std::span<const char> is_pinned = system.is_pinned();
-  const Components& components = system.components();
-  const auto rigid_motion = [&](std::size_t c) {
-    return is_held_[c] != 0 ? RigidMotion{}
-                            : fit_rigid_motion(components.component(c), work.positions, work.begin.masses,
-                                               work.velocities);
-  };
-  Real vibrating = 0;
-  for (std::size_t c = group; c < components.count(); ++c) {
-    if (group_of_[c] == group) vibrating += energy_beside(rigid_motion(c), components.component(c), is_pinned, work);
-  }
-  const Real excess = excess_[group];
-  const Real factor = vibrating > 0 ? std::sqrt(std::max<Real>(0, 1 - excess / vibrating)) : 0;
-  Real elastic = 0;
+  const Components& components = context.system.components();
+  members_.clear();
+  vertices_.clear();
+  bool is_held = false;
   for (std::size_t c = group; c < components.count(); ++c) {
     if (group_of_[c] != group) continue;
-    scale_beside(rigid_motion(c), factor, components.component(c), is_pinned, work);
-    elastic += elastic_[c];
+    const std::span<const Index> of_component = components.component(c);
+    members_.push_back(c);
+    vertices_.insert(vertices_.end(), of_component.begin(), of_component.end());
+    is_held = is_held || is_held_[c] != 0;
   }
-  const Real taken = std::min(excess, vibrating);
-  const Real left = std::min(excess - taken, elastic);
-  for (std::size_t c = group; c < components.count(); ++c) {
-    if (group_of_[c] == group && left > 0) owed_[c] = left * elastic_[c] / elastic;
+  const std::vector<Real>& masses = work.begin.masses;
+  const auto rigid_motion = [&](std::span<const Index> vertices, bool is_held_there) {
+    return is_held_there ? RigidMotion{} : fit_rigid_motion(vertices, work.positions, masses, work.velocities);
+  };
+  const std::span<const char> is_pinned = context.system.is_pinned();
+  Real vibrating = 0;
+  for (const std::size_t c : members_) {
+    vibrating += energy_beside(rigid_motion(components.component(c), is_held_[c] != 0), components.component(c), is_pinned, work);
   }
+  Real left = excess_[group];
+  const Real factor = factor_that_takes(left, vibrating);
+  for (const std::size_t c : members_) {
+    scale_beside(rigid_motion(components.component(c), is_held_[c] != 0), factor, components.component(c), is_pinned, work);
+  }
+  Real taken = std::min(left, vibrating);
+  left -= taken;
+  if (left > least_excess * size_[group] && !getenv("NOST2")) {
+    const RigidMotion rigid = rigid_motion(vertices_, is_held);
+    const Real moving = energy_beside(rigid, vertices_, is_pinned, work);
+    scale_beside(rigid, factor_that_takes(left, moving), vertices_, is_pinned, work);
+    taken += std::min(left, moving);
+    left -= std::min(left, moving);
+  }
+  owe(left);
   return taken;
+}
+
+/// What is left must be elastic energy, or will become it no more.
+void ContactEnergy::owe(Real energy) {
+  Real elastic = 0;
+  for (const std::size_t c : members_) elastic += elastic_[c];
+  if (!(energy > 0) || !(elastic > 0)) return;
+  for (const std::size_t c : members_) owed_[c] = std::min(energy / elastic, Real(1)) * elastic_[c];
 }
 
 void ContactEnergy::write_energies(const System& system, WorkingState& work) const {

@@ -22,16 +22,11 @@ class ContactEnergy {
   Real limit(const StepContext& context, WorkingState& work);
 
  private:
-  /// Components that touch each other.
-  struct Group {
-    std::vector<Index> vertices;
-    bool is_held = false;
-  };
-
   void find_groups(const StepContext& context, const WorkingState& work);
   void mark_driven(const System& system, const WorkingState& work);
   void find_excess(const StepContext& context, const WorkingState& work);
   Real take(const StepContext& context, std::size_t group, WorkingState& work);
+  void owe(Real energy);
   void write_energies(const System& system, WorkingState& work) const;
 
   std::vector<std::size_t> group_of_;  // of each component, the least of those that touch
@@ -39,7 +34,8 @@ class ContactEnergy {
   std::vector<Real> stored_, elastic_, elastic_before_;  // of each component [J]
   std::vector<Real> excess_, size_;                      // of each group, and of the energies that it is a difference of
   std::vector<Real> owed_;                               // of each component
-  std::vector<Index> vertices_;                          // scratch
+  std::vector<std::size_t> members_;                     // of the group at hand
+  std::vector<Index> vertices_;                          // of them
   Positions forces_;                                     // scratch
 };
 
