@@ -65,8 +65,8 @@ void print_standing(const Simulation& simulation, Index frames, Real energy, con
       "  frame {:5} highest {:.5f} m sag {:.5f} m sideways {:.6f} m fastest {:.1e} m/s rms {:.1e} m/s energy {:+.2e} J "
       "lost {:.1e} N s taken {:.1e} J active {:4} shortened {:4} backtracks {:2} factors {} residual {:.1e} N\n",
       frames, now.highest, now.sag, now.sideways, now.fastest, rms_speed(simulation), energy,
-      report.contact.momentum_lost.norm(), report.contact.energy_taken, report.contact.active, report.contact.shortened, report.backtracks,
-      report.contact.refactorizations, report.residual);
+      report.contact.momentum_lost.norm(), report.contact.energy_taken, report.contact.active, report.contact.shortened,
+      report.backtracks, report.contact.refactorizations, report.residual);
   std::fflush(stdout);
 }
 
@@ -114,8 +114,8 @@ bool run(const Run& each, Index frames, Index every) {
         "{:.1e} J{}\n",
         title, scene.simulation.state().vertex_count(), figures.frames, figures.crossings, figures.frames_crossed,
         figures.smallest_gap, figures.shortened, figures.pairs, 1e3 * median(figures.seconds),
-        rms_speed(scene.simulation), figures.momentum_lost, figures.energy, figures.most_energy,
-        figures.energy_taken, begins_apart ? "" : " BEGINS CROSSED");
+        rms_speed(scene.simulation), figures.momentum_lost, figures.energy, figures.most_energy, figures.energy_taken,
+        begins_apart ? "" : " BEGINS CROSSED");
     std::fflush(stdout);
     return begins_apart && figures.crossings == 0;
   } catch (const std::exception& error) {

@@ -150,11 +150,8 @@ void ContactSolver::start_as_a_whole(System& system, WorkingState& work, ThreadP
     return local.inertia + local.elastic;
   };
   held_back_ = work.positions;
-  static const bool dbg = getenv("DBG");
-  if (dbg) { const Real e0 = energy(); std::swap(work.positions, work.begin.positions); const Real eb=energy(); std::swap(work.positions, work.begin.positions); printf("start %.3e begin %.3e\n", e0, eb); }
   if (!pairs_.shorten_components(system.components_of_vertices(), work.positions, threads)) return;
   const Real as_a_whole = energy();
-  if (dbg) printf("  whole %.3e\n", as_a_whole);
   std::swap(held_back_, work.positions);
   if (worth_stopping * as_a_whole < energy()) std::swap(held_back_, work.positions);
 }

@@ -17,6 +17,11 @@ constexpr Real longest_of_factor = 8;
 /// Of a move that has raised the objective: what must be left of it to be worth a trial.
 constexpr Real least_share = 0.05;
 
+/// Of the objective: below which a move must bring it to be forgotten, if more than the other share of it was in pairs
+/// that are pressed into the logarithm of their potential.
+constexpr Real steep_fall = 0.8;
+constexpr Real mostly = 0.5;
+
 /// Of the longest way of a global solve: how far a move with memory may lead where surfaces touch.
 constexpr Real longest_of_memory = 5;
 
@@ -32,6 +37,7 @@ void Descent::begin(const StepContext& context) {
   is_accelerated_ = chosen == Acceleration::lbfgs || (chosen == Acceleration::automatic && checks_plain_moves_);
   has_moved_ = false;
   is_first_ = true;
+  steep_energy_ = 0;
   have_pairs_pushed_ = false;
   balance_.begin();
   if (is_needed()) lbfgs_.begin(context.system.vertex_count());
@@ -60,7 +66,6 @@ LocalResult Descent::local_step(const StepContext& context, WorkingState& work, 
     local = evaluate(context, work);
     local.seconds_projections += seconds;
   }
-  if (getenv("DBG")) printf("   it inertia %.3e elastic %.3e contact %.3e moved %d plain %d bt %d\n", local.inertia, local.elastic, local.contact, has_moved_, lbfgs_.is_plain(), (int)report.backtracks);
   return local;
 }
 
@@ -107,18 +112,24 @@ void Descent::hold_back(const StepContext& context, WorkingState& work) {
 
 void Descent::move(const LocalResult& local, const StepContext& context, WorkingState& work, StepReport& report) {
   solve(local, context, work, report);
-  static const Real thr = getenv("STEEP") ? atof(getenv("STEEP")) : 0;
-  if (has_moved_ && context.contact.pairs_push() && local.objective() < thr * lbfgs_.local_before().objective()) lbfgs_.forget();
-  if (!is_accelerated_) lbfgs_.forget();
+  if (!is_accelerated_ || has_left_steep_place(local)) lbfgs_.forget();
   lbfgs_.prepare(local, work.residual, work.solution, context.threads);
   lbfgs_.move(work.solution, lbfgs_.is_plain() ? curvature(context, work) : 0, work.positions, context.threads);
   has_moved_ = true;
+  steep_energy_ = context.contact.steep_energy();
   have_pairs_pushed_ |= context.contact.pairs_push();
   if (!lbfgs_.is_plain() && have_pairs_pushed_ && is_too_long(work)) {
     move_plainly(context, work);
   } else {
     hold_back(context, work);
   }
+}
+
+/// Whether the last move has led out of where the potential of pairs is a logarithm, which is far stiffer than what it
+/// is there: what such a move says of contact is wrong from now on.
+bool Descent::has_left_steep_place(const LocalResult& local) const {
+  const Real before = lbfgs_.local_before().objective();
+  return has_moved_ && local.objective() < steep_fall * before && steep_energy_ > mostly * before;
 }
 
 /// Whether a move with memory leads farther than surfaces should be searched for. Where contacts begin, the memory may

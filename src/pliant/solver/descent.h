@@ -38,6 +38,7 @@ class Descent {
   void factorize(const StepContext& context, WorkingState& work, StepReport& report);
   void move_plainly(const StepContext& context, WorkingState& work);
   void hold_back(const StepContext& context, WorkingState& work);
+  bool has_left_steep_place(const LocalResult& local) const;
   bool is_too_long(const WorkingState& work) const;
 
   Lbfgs lbfgs_;
@@ -48,6 +49,7 @@ class Descent {
   bool was_cut_ = false;             // the move, so that no surface passes through another
   bool is_first_ = true;             // of the moves of a substep
   bool have_pairs_pushed_ = false;   // in this substep
+  Real steep_energy_ = 0;            // of pairs where the last move began [J]
 };
 
 }  // namespace pliant

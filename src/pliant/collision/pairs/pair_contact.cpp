@@ -58,9 +58,9 @@ std::array<Index, 2> PairContact::vertices_of(const PairMemory& pair) const {
     return number < count_of(surface_->vertices) ? surface_->vertices[at(number)] : -1;
   };
   const auto [first, second] = pair.features;
-  return {pair.kind == PairKind::edge_edge ? one_of(surface_->edges, first) : vertex(first),
-          pair.kind == PairKind::vertex_triangle ? one_of(surface_->triangles, second)
-                                                 : one_of(surface_->edges, second)};
+  return {
+      pair.kind == PairKind::edge_edge ? one_of(surface_->edges, first) : vertex(first),
+      pair.kind == PairKind::vertex_triangle ? one_of(surface_->triangles, second) : one_of(surface_->edges, second)};
 }
 
 // ---- who may touch whom in a substep
@@ -350,6 +350,14 @@ Real PairContact::add(Positions& r) const {
     if (!each.is_active()) continue;
     energy += each.energy();
     for (std::size_t j = 0; j < 4; ++j) r.row(each.pair.vertices[j]) += each.force_on(j).transpose();
+  }
+  return energy;
+}
+
+Real PairContact::steep_energy() const {
+  Real energy = 0;
+  for (const NearPair& each : near_) {
+    if (each.pushed.force > 0 && each.gap.distance < each.radius / 2) energy += each.pushed.energy;
   }
   return energy;
 }

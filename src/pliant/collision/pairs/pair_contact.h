@@ -65,6 +65,8 @@ class PairContact {
   void find_forces(const Positions& q, ThreadPool& threads);
   /// Adds the forces that were found last to r [N]; returns their energy [J].
   Real add(Positions& r) const;
+  /// Of them alone that are pressed below r/2, into the logarithm [J].
+  Real steep_energy() const;
   void subtract(Positions& r) const;
   /// Takes the present loads for friction, and weighs edges anew.
   void refresh(const Positions& q, ThreadPool& threads);
@@ -120,7 +122,7 @@ class PairContact {
   Positions wish_;                  // where a move would lead
   Positions whole_;                 // where the substep would begin if nothing were in the way
   bool has_pushed_ahead_ = false, is_shortened_ = false;
-  std::vector<char> was_shortened_;  // of each vertex, whether a move of it was, in this substep
+  std::vector<char> was_shortened_;           // of each vertex, whether a move of it was, in this substep
   std::vector<Real> shares_, shares_before_;  // scratch, of components
   Positions passed_;                          // where it has let go more than before
   Tangles tangles_;
