@@ -208,6 +208,10 @@ void ContactSolver::find_touching(std::span<const Index> component_of_vertex, st
   contact_.mark_driven(component_of_vertex, is_driven);
 }
 
+Real ContactSolver::steep_energy() const {
+  return pairs_push() ? pliant::steep_energy(pairs_.near()) : 0;
+}
+
 void ContactSolver::join_components(std::span<const Index> component_of_vertex, std::span<std::size_t> least) const {
   if (has_pairs()) pliant::join_components(pairs_.near(), component_of_vertex, least);
 }

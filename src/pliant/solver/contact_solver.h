@@ -90,7 +90,7 @@ class ContactSolver {
   /// Whether surfaces pushed each other where forces were added last.
   bool pairs_push() const { return pair_energy_ > 0; }
   /// Of these, what is in pairs that are pressed into the logarithm of their potential [J].
-  Real steep_energy() const { return pairs_push() ? pairs_.steep_energy() : 0; }
+  Real steep_energy() const;
 
   const Contact& contact() const { return contact_; }
   const PairContact& pairs() const { return pairs_; }

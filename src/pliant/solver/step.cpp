@@ -189,6 +189,7 @@ void Solver::commit(State& state, StepReport& report) {
   if (settings_.damping > 0 && settings_.integrator == Integrator::bdf2) {
     damp(work_.begin.positions, work_.begin.velocities);
   }
+  if (!contact_.has_pairs()) state.contact.energies.clear();
   if (contact_.is_active()) contact_.commit_substep(system_, work_, threads_.pool(), state, report.contact);
   work_.scatter(system_.order(), settings_.integrator, substep(), state);
 }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "pliant/collision/contact/stiffness.h"
+#include "pliant/collision/pairs/pair_memory.h"
 #include "pliant/collision/pairs/pair_resistance.h"
 
 namespace pliant {
@@ -44,23 +45,10 @@ void PairContact::clear() {
 void PairContact::find_loaded_vertices(const ContactState& state, std::vector<char>& is_loaded) const {
   is_loaded.assign(surface_->body.size(), 0);
   for (const PairMemory& each : state.pairs) {
-    for (const Index v : vertices_of(each)) {
+    for (const Index v : vertices_of(each, *surface_)) {
       if (v >= 0) is_loaded[at(v)] = 1;
     }
   }
-}
-
-std::array<Index, 2> PairContact::vertices_of(const PairMemory& pair) const {
-  const auto one_of = [](const auto& features, Index number) {
-    return number < count_of(features) ? features[at(number)][0] : -1;
-  };
-  const auto vertex = [&](Index number) {
-    return number < count_of(surface_->vertices) ? surface_->vertices[at(number)] : -1;
-  };
-  const auto [first, second] = pair.features;
-  return {
-      pair.kind == PairKind::edge_edge ? one_of(surface_->edges, first) : vertex(first),
-      pair.kind == PairKind::vertex_triangle ? one_of(surface_->triangles, second) : one_of(surface_->edges, second)};
 }
 
 // ---- who may touch whom in a substep
@@ -354,14 +342,6 @@ Real PairContact::add(Positions& r) const {
   return energy;
 }
 
-Real PairContact::steep_energy() const {
-  Real energy = 0;
-  for (const NearPair& each : near_) {
-    if (each.pushed.force > 0 && each.gap.distance < each.radius / 2) energy += each.pushed.energy;
-  }
-  return energy;
-}
-
 void PairContact::subtract(Positions& r) const {
   for (const NearPair& each : near_) {
     if (!each.is_active()) continue;
@@ -415,7 +395,7 @@ void PairContact::join_touching(std::span<const Index> component_of_vertex, std:
                                 std::span<char> touches) const {
   pliant::join_touching(near_, component_of_vertex, least, touches);
   for (const PairMemory& each : memory_) {
-    const auto [first, second] = vertices_of(each);
+    const auto [first, second] = vertices_of(each, *surface_);
     if (first < 0 || second < 0) continue;
     const auto a = at(component_of_vertex[at(first)]);
     const auto b = at(component_of_vertex[at(second)]);

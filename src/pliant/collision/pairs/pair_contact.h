@@ -65,8 +65,6 @@ class PairContact {
   void find_forces(const Positions& q, ThreadPool& threads);
   /// Adds the forces that were found last to r [N]; returns their energy [J].
   Real add(Positions& r) const;
-  /// Of them alone that are pressed below r/2, into the logarithm [J].
-  Real steep_energy() const;
   void subtract(Positions& r) const;
   /// Takes the present loads for friction, and weighs edges anew.
   void refresh(const Positions& q, ThreadPool& threads);
@@ -93,8 +91,6 @@ class PairContact {
   Index number_of(Index vertex) const { return step_->vertices.empty() ? vertex : step_->vertices[at(vertex)]; }
   void begin_exceptions(const ContactState& state, ThreadPool& threads);
   void begin_to_touch(ThreadPool& threads);
-  /// A vertex of each feature of a pair of the step before, or −1 where it is not there any more.
-  std::array<Index, 2> vertices_of(const PairMemory& pair) const;
   void push_ahead(Positions& q, ThreadPool& threads);
   bool push_ahead(const Pair& pair, std::span<const Index> side, Real longest, Positions& q);
   bool shorten(const Positions& from, Positions& q, ThreadPool& threads);

@@ -78,6 +78,14 @@ void add_stored_energies(std::span<const NearPair> pairs, std::span<const Index>
   }
 }
 
+Real steep_energy(std::span<const NearPair> pairs) {
+  Real energy = 0;
+  for (const NearPair& each : pairs) {
+    if (each.pushed.force > 0 && each.gap.distance < each.radius / 2) energy += each.pushed.energy;
+  }
+  return energy;
+}
+
 void join(std::size_t a, std::size_t b, std::span<std::size_t> least) {
   const std::size_t first = least_of(least, a);
   const std::size_t second = least_of(least, b);

@@ -23,6 +23,9 @@ void add_energies(std::span<const NearPair> pairs, std::span<const Index> compon
 void add_stored_energies(std::span<const NearPair> pairs, std::span<const Index> component_of_vertex,
                          std::span<Real> components);
 
+/// The potential of those that are pressed below r/2, into its logarithm [J].
+Real steep_energy(std::span<const NearPair> pairs);
+
 /// Of each component the least of those that it can come to touch, directly or by way of others. `least` begins with
 /// every component's own number.
 void join_components(std::span<const NearPair> pairs, std::span<const Index> component_of_vertex,
