@@ -50,6 +50,7 @@ constexpr std::array quantities = {
     Quantity{"active", "pairs of surfaces that push", "", Of::step},
     Quantity{"shortened", "moves cut by surfaces", " [a step]", Of::step},
     Quantity{"momentum_lost", "momentum that steps of contact lose", " [N·s]", Of::step},
+    Quantity{"energy_taken", "energy that contact would have given", " [J]", Of::step},
     Quantity{"lag", "lag of pinned surfaces", " [m]", Of::step},
     Quantity{"let_go", "crossings and pinned vertices let go", "", Of::step},
 };

@@ -27,11 +27,11 @@ struct FigureInfo {
 
 /// All figures in the order of their columns. Of kinetic, elastic (of all groups), gravitational, other potential and
 /// total energy, speed_sum, momentum, residual, objective and iterations, and of contacts, deepest, backtracks and
-/// refactorizations, which only runs with contact have, and of pairs, active, shortened, momentum_lost, lag and let_go,
-/// which only those have in which surfaces touch: `_end` of the last record, `_mean` and `_max` of all. Then
-/// smallest_gap_min of the latter; speed_sum_late, the mean over the last third of the time; time_end, the simulated
-/// time; the means of the times; the seconds of the whole run. The record of the start counts for the state alone, and
-/// not for what a step does: residual, objective, iterations, contact, times.
+/// refactorizations, which only runs with contact have, and of pairs, active, shortened, momentum_lost, energy_taken,
+/// lag and let_go, which only those have in which surfaces touch: `_end` of the last record, `_mean` and `_max` of all.
+/// Then smallest_gap_min of the latter; speed_sum_late, the mean over the last third of the time; time_end, the
+/// simulated time; the means of the times; the seconds of the whole run. The record of the start counts for the state
+/// alone, and not for what a step does: residual, objective, iterations, contact, times.
 std::span<const FigureInfo> figure_infos();
 
 /// The place of a figure in figure_infos(). @throws std::logic_error for an unknown name

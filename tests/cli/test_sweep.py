@@ -96,7 +96,7 @@ class Sweep(unittest.TestCase):
         row = {key: float(value) for key, value in texts.items() if value and key not in ("outcome", "message")}
         self.assertEqual({key.split("_")[0] for key, value in texts.items() if not value and key != "message"},
                          {"contacts", "deepest", "backtracks", "refactorizations", "pairs", "active", "shortened",
-                          "momentum", "smallest", "lag", "let"})  # nothing touches
+                          "momentum", "energy", "smallest", "lag", "let"})  # nothing touches
         elastic = [line["elastic_hook"] + line["elastic_links"] for line in alone]
         self.assertEqual(len(alone), 11)
         self.assertEqual(row["total_end"], alone[-1]["total"])

@@ -50,8 +50,6 @@ SlopeScene slope2(const PairOptions& options, pliant::Real degrees);
 SlopeScene rails(const PairOptions& options, pliant::Real degrees);
 /// The same of a solid whose lower edges lie across the ridges of two pinned roofs.
 SlopeScene ridges(const PairOptions& options, pliant::Real degrees);
-PairScene slope2_steep(const PairOptions& options);   ///< 30°
-PairScene slope2_gentle(const PairOptions& options);  ///< 16°, which a friction of 0.3 holds
 PairScene slope2_steep(const PairOptions& options);       ///< 30°
 PairScene slope2_near_limit(const PairOptions& options);  ///< 17°, 0.3° more than a friction of 0.3 holds
 PairScene slope2_gentle(const PairOptions& options);      ///< 16°, which it holds

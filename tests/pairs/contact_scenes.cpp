@@ -80,6 +80,7 @@ struct Figures {
   std::int64_t shortened = 0;
   Index pairs = 0;              // most of a step
   Real momentum_lost = 0;       // sum over all steps [N s]
+  Real energy_taken = 0;        // sum over all steps [J]
   Real energy = 0;              // kinetic, elastic and potential at the end, less that of the start [J]
   Real most_energy = 0;         // of a step
   std::vector<double> seconds;  // of the processor
@@ -90,10 +91,10 @@ void print_standing(const Simulation& simulation, Index frames, Real energy, con
   const Standing now = standing(simulation);
   fmt::print(
       "  frame {:5} highest {:.5f} m sag {:.5f} m sideways {:.6f} m fastest {:.1e} m/s rms {:.1e} m/s energy {:+.2e} J "
-      "lost {:.1e} N s active {:4} shortened {:4} backtracks {:2} factors {} residual {:.1e} N\n",
+      "lost {:.1e} N s taken {:.1e} J active {:4} shortened {:4} backtracks {:2} factors {} residual {:.1e} N\n",
       frames, now.highest, now.sag, now.sideways, now.fastest, rms_speed(simulation), energy,
-      report.contact.momentum_lost.norm(), report.contact.active, report.contact.shortened, report.backtracks,
-      report.contact.refactorizations, report.residual);
+      report.contact.momentum_lost.norm(), report.contact.energy_taken, report.contact.active, report.contact.shortened,
+      report.backtracks, report.contact.refactorizations, report.residual);
   std::fflush(stdout);
 }
 
@@ -127,6 +128,7 @@ Figures measure(PairScene& scene, Index frames, Index every, double slow) {
     figures.energy = total_energy(scene.simulation) - energy;
     figures.most_energy = std::max(figures.most_energy, figures.energy);
     figures.momentum_lost += contact.momentum_lost.norm();
+    figures.energy_taken += contact.energy_taken;
     if (every > 0 && (i + 1) % every == 0) print_standing(scene.simulation, i + 1, figures.energy, report);
   }
   return figures;
@@ -155,11 +157,12 @@ Outcome run(const Run& each, const Arguments& arguments) {
     return {
         fmt::format("{:42} {:6} vertices {:5} frames {:6} crossings in {:4} let go in {:4} gap {:8.2e} m lag {:7.1e} "
                     "m shortened {:8} pairs {:7} {:8.2f} ms, longest {:8.1f} rms {:.1e} m/s lost {:.1e} N s "
-                    "energy {:+.1e} J, at most {:+.1e} J{}",
+                    "energy {:+.1e} J, at most {:+.1e} J taken {:.1e} J{}",
                     each.title(), scene.simulation.state().vertex_count(), figures.frames, figures.crossings,
                     figures.frames_crossed, figures.frames_let_go, figures.smallest_gap, figures.lag, figures.shortened,
                     figures.pairs, 1e3 * median(figures.seconds), 1e3 * longest, rms_speed(scene.simulation),
-                    figures.momentum_lost, figures.energy, figures.most_energy, begins_apart ? "" : " BEGINS CROSSED"),
+                    figures.momentum_lost, figures.energy, figures.most_energy, figures.energy_taken,
+                    begins_apart ? "" : " BEGINS CROSSED"),
         begins_apart && figures.crossings == 0};
   } catch (const std::exception& error) {
     return {fmt::format("{:42} FAILED: {}", each.title(), error.what()), false};

@@ -77,6 +77,7 @@ void check_resume(const SceneOverrides& overrides) {
       REQUIRE(state.velocities == expected.velocities);
       REQUIRE(state.contact.pairs.size() == expected.contact.pairs.size());
       REQUIRE(state.contact.stiffening == expected.contact.stiffening);
+      REQUIRE(state.contact.energies == expected.contact.energies);
       if (i == scene.steps) break;
       resumed.step();
     }

@@ -194,6 +194,7 @@ void Colliders::check_contact(const ContactState& contact) const {
     return (numbers.empty() || numbers.size() == state_.masses.size()) && std::ranges::all_of(numbers, is_in_range);
   };
   if (!fits(contact.stiffening, 1)) fail("a stiffness of contacts is out of range");
+  if (!fits(contact.energies, std::numeric_limits<Real>::lowest())) fail("an energy of contact is not finite");
   if (!fits(contact.in_factor, 0)) fail("what the factor has of contact is out of range");
 }
 

@@ -77,6 +77,7 @@ BodyId Simulation::add_body(Mesh mesh, const Mass& mass, BodyOptions options) {
   if (!state_.energy_surplus.empty()) state_.energy_surplus.resize(state_.masses.size(), 0);
   if (!state_.contact.stiffening.empty()) state_.contact.stiffening.resize(state_.masses.size(), 1);
   if (!state_.contact.in_factor.empty()) state_.contact.in_factor.resize(state_.masses.size(), 0);
+  if (!state_.contact.energies.empty()) state_.contact.energies.resize(state_.masses.size(), 0);
   state_.contact.pairs.clear();  // their features have other numbers now
   state_.contact.let_go.is_known = false;
   bodies_.push_back({std::move(options.name), std::move(mesh), first_vertex});
@@ -201,6 +202,7 @@ void Simulation::set_state(const Positions& positions, const Positions& velociti
   state_.contact.let_go = {};
   state_.contact.stiffening.clear();
   state_.contact.in_factor.clear();
+  state_.contact.energies.clear();
   solver_->forget_prediction();
 }
 

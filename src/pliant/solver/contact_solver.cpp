@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "pliant/collision/pairs/pair_resistance.h"
 #include "pliant/core/stopwatch.h"
@@ -88,6 +89,8 @@ void ContactSolver::gather(const State& state, const System& system, WorkingStat
   work.in_factor.clear();
   if (is_active()) system.order().gather(state.contact.in_factor, work.in_factor);
   work.light_steps = state.contact.light_steps;
+  work.contact_energies.clear();
+  if (has_pairs()) system.order().gather(state.contact.energies, work.contact_energies);
 }
 
 void ContactSolver::begin_substep(const State& state, Real begin, Real end, Real h, System& system, WorkingState& work,
@@ -194,6 +197,23 @@ void ContactSolver::add_energies(std::span<const Index> component_of_vertex, std
   if (has_pairs()) pliant::add_energies(pairs_.near(), component_of_vertex, components);
 }
 
+void ContactSolver::add_stored_energies(std::span<const Index> component_of_vertex, std::span<Real> components) const {
+  contact_.add_stored_energies(component_of_vertex, components);
+  if (has_pairs()) pliant::add_stored_energies(pairs_.near(), component_of_vertex, components);
+}
+
+void ContactSolver::find_touching(std::span<const Index> component_of_vertex, std::span<std::size_t> least,
+                                  std::span<char> touches, std::span<char> is_driven) const {
+  std::iota(least.begin(), least.end(), std::size_t{0});
+  pairs_.join_touching(component_of_vertex, least, touches);
+  flatten(least);
+  contact_.mark_driven(component_of_vertex, is_driven);
+}
+
+Real ContactSolver::steep_energy() const {
+  return pairs_push() ? pliant::steep_energy(pairs_.near()) : 0;
+}
+
 void ContactSolver::join_components(std::span<const Index> component_of_vertex, std::span<std::size_t> least) const {
   if (has_pairs()) pliant::join_components(pairs_.near(), component_of_vertex, least);
 }
@@ -242,6 +262,7 @@ HeldBack ContactSolver::hold_back(const Positions& from, Positions& q, ThreadPoo
   const HeldBack by_pairs = pairs_.hold_back(from, q, threads);
   if (by_pairs.has_moved) contact_.find_forces(q, threads);
   held.has_moved |= by_pairs.has_moved;
+  held.is_shortened = by_pairs.has_moved;
   held.has_new_potential |= by_pairs.has_new_potential;
   pairs_.find_forces(q, threads);
   return held;
@@ -258,6 +279,7 @@ void ContactSolver::commit_substep(const System& system, WorkingState& work, Thr
   if (work.light_steps >= light_steps_needed) work.in_factor.clear();
   state.contact.light_steps = work.in_factor.empty() ? 0 : work.light_steps;
   system.order().scatter(work.in_factor, state.contact.in_factor);
+  system.order().scatter(work.contact_energies, state.contact.energies);
   report.held_back += contact_.held_back();
   report.contacts = count_of(contact_.points());
   report.deepest = 0;

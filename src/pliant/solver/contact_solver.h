@@ -36,6 +36,7 @@ class ContactSolver {
   /// Surfaces that touch each other and themselves; no parts: none do.
   void set_surfaces(SolverSurfaces surfaces);
   bool is_active() const { return contact_.is_active() || has_pairs(); }
+  bool has_pairs() const { return !surfaces_.parts.empty(); }
   /// The order of the vertices is another, or which are pinned.
   void forget_order();
   /// Whether there is a substep that was not forgotten.
@@ -74,6 +75,12 @@ class ContactSolver {
                       std::span<RigidResistance> components, RigidCouplings& couplings) const;
   /// The energies where the forces were found last, and which components may touch each other.
   void add_energies(std::span<const Index> component_of_vertex, std::span<Real> components) const;
+  /// What of them contact may give back: without what friction takes away.
+  void add_stored_energies(std::span<const Index> component_of_vertex, std::span<Real> components) const;
+  /// Of each component the least of those that it touches, or did at the beginning, directly or by way of others, and
+  /// whether it does or a move of it was cut; whether a collider that moves is near.
+  void find_touching(std::span<const Index> component_of_vertex, std::span<std::size_t> least, std::span<char> touches,
+                     std::span<char> is_driven) const;
   void join_components(std::span<const Index> component_of_vertex, std::span<std::size_t> least) const;
   void commit_substep(const System& system, WorkingState& work, ThreadPool& threads, State& state,
                       ContactReport& report);
@@ -84,12 +91,13 @@ class ContactSolver {
 
   /// Whether surfaces pushed each other where forces were added last.
   bool pairs_push() const { return pair_energy_ > 0; }
+  /// Of these, what is in pairs that are pressed into the logarithm of their potential [J].
+  Real steep_energy() const;
 
   const Contact& contact() const { return contact_; }
   const PairContact& pairs() const { return pairs_; }
 
  private:
-  bool has_pairs() const { return !surfaces_.parts.empty(); }
   void lay_out_surfaces(const System& system);
   void start_as_a_whole(System& system, WorkingState& work, ThreadPool& threads);
   void start_with_loads(const State& state, const System& system, WorkingState& work);

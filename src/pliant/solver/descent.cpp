@@ -17,6 +17,11 @@ constexpr Real longest_of_factor = 8;
 /// Of a move that has raised the objective: what must be left of it to be worth a trial.
 constexpr Real least_share = 0.05;
 
+/// Of the objective: below which a move must bring it to be forgotten, if more than the other share of it was in pairs
+/// that are pressed into the logarithm of their potential.
+constexpr Real steep_fall = 0.8;
+constexpr Real mostly = 0.5;
+
 /// Of the longest way of a global solve: how far a move with memory may lead where surfaces touch; and of a plain move
 /// where it is also longer than this share of the longest way that the substep is to take.
 constexpr Real longest_of_memory = 5;
@@ -34,6 +39,7 @@ void Descent::begin(const StepContext& context) {
   is_accelerated_ = chosen == Acceleration::lbfgs || (chosen == Acceleration::automatic && checks_plain_moves_);
   has_moved_ = false;
   is_first_ = true;
+  steep_energy_ = 0;
   have_pairs_pushed_ = false;
   balance_.begin();
   if (is_needed()) lbfgs_.begin(context.system.vertex_count());
@@ -45,10 +51,11 @@ LocalResult Descent::evaluate(const StepContext& context, WorkingState& work) co
   return local;
 }
 
-/// A plain move without contact is known to be good.
+/// A plain move without contact is known to be good, unless it was cut: what is between a vertex that stops and its
+/// neighbors that go on is stretched.
 bool Descent::must_go_back(const LocalResult& local) const {
   if (!has_moved_) return false;
-  const bool is_known = lbfgs_.is_plain() && !(local.contact > 0) && !(lbfgs_.local_before().contact > 0);
+  const bool is_known = !was_cut_ && lbfgs_.is_plain() && !(local.contact > 0) && !(lbfgs_.local_before().contact > 0);
   return !is_known && lbfgs_.has_risen(local);
 }
 
@@ -92,8 +99,10 @@ void Descent::move_plainly(const StepContext& context, WorkingState& work) {
 /// Where a move is cut it makes no pair, and where it meets another potential it cannot be judged: then it is a plain
 /// one, which does not go far.
 void Descent::hold_back(const StepContext& context, WorkingState& work) {
+  was_cut_ = false;
   if (!context.contact.is_active()) return;
   const HeldBack held = context.contact.hold_back(lbfgs_.positions_before(), work.positions, context.threads);
+  was_cut_ = held.is_shortened;
   if (held.has_moved || held.has_new_potential) lbfgs_.forget();
   if (!held.has_new_potential) return;
   if (lbfgs_.is_plain()) {
@@ -105,16 +114,24 @@ void Descent::hold_back(const StepContext& context, WorkingState& work) {
 
 void Descent::move(const LocalResult& local, const StepContext& context, WorkingState& work, StepReport& report) {
   solve(local, context, work, report);
-  if (!is_accelerated_) lbfgs_.forget();
+  if (!is_accelerated_ || has_left_steep_place(local)) lbfgs_.forget();
   lbfgs_.prepare(local, work.residual, work.solution, context.threads);
   lbfgs_.move(work.solution, lbfgs_.is_plain() ? curvature(context, work) : 0, work.positions, context.threads);
   has_moved_ = true;
+  steep_energy_ = context.contact.steep_energy();
   have_pairs_pushed_ |= context.contact.pairs_push();
   if (!lbfgs_.is_plain() && have_pairs_pushed_ && is_too_long(context, work)) {
     move_plainly(context, work);
   } else {
     hold_back(context, work);
   }
+}
+
+/// Whether the last move has led out of where the potential of pairs is a logarithm, which is far stiffer than what it
+/// is there: what such a move says of contact is wrong from now on.
+bool Descent::has_left_steep_place(const LocalResult& local) const {
+  const Real before = lbfgs_.local_before().objective();
+  return has_moved_ && local.objective() < steep_fall * before && steep_energy_ > mostly * before;
 }
 
 /// Whether a move with memory leads farther than surfaces should be searched for. Where contacts begin, the memory may

@@ -38,6 +38,7 @@ class Descent {
   void factorize(const StepContext& context, WorkingState& work, StepReport& report);
   void move_plainly(const StepContext& context, WorkingState& work);
   void hold_back(const StepContext& context, WorkingState& work);
+  bool has_left_steep_place(const LocalResult& local) const;
   bool is_too_long(const StepContext& context, const WorkingState& work) const;
 
   Lbfgs lbfgs_;
@@ -45,8 +46,10 @@ class Descent {
   bool is_accelerated_ = false;
   bool checks_plain_moves_ = false;  // contact: the factor is no bound
   bool has_moved_ = false;           // and the objective is still the one that the move was made for
+  bool was_cut_ = false;             // the move, so that no surface passes through another
   bool is_first_ = true;             // of the moves of a substep
   bool have_pairs_pushed_ = false;   // in this substep
+  Real steep_energy_ = 0;            // of pairs where the last move began [J]
 };
 
 }  // namespace pliant

@@ -4,6 +4,7 @@
 
 #include "pliant/solver/applied_forces.h"
 #include "pliant/solver/descent.h"
+#include "pliant/solver/integration/contact_energy.h"
 #include "pliant/solver/integration/energy_projection.h"
 #include "pliant/solver/state.h"
 #include "pliant/solver/step_context.h"
@@ -84,6 +85,7 @@ class Solver {
   void global_step(const State& state, const LocalResult& local, StepReport& report);
   void find_velocities();
   void add_momentum_lost(ContactReport& report) const;
+  void limit_energy(const State& state, ContactReport& report);
   void commit(State& state, StepReport& report);
 
   SolverSettings settings_;
@@ -95,6 +97,7 @@ class Solver {
   Descent descent_;
   ContactSolver contact_;
   EnergyProjection energy_;
+  ContactEnergy contact_energy_;
   State step_start_;           // of a step with substeps
   Real substep_fraction_ = 1;  // of the path to their targets that pinned vertices have gone at the end of the substep
   std::vector<Real> history_;

@@ -77,6 +77,9 @@ struct ContactReport {
   /// What momentum is short of, after what all forces have given in the step [N s]: what moves that were cut and
   /// iterations that have not converged leave. Bodies that nothing holds lose as much. Of vertices that are not pinned.
   Vec3 momentum_lost = Vec3::Zero();
+  /// What contact, and iterations that have not converged, would have put into bodies that touch, and was taken from
+  /// their velocities [J].
+  Real energy_taken = 0;
   /// At its end, edges that pass through a triangle, and pinned vertices that may pass what has held them up.
   Index let_go = 0;
   std::vector<LetGoBodies> let_go_bodies{};  ///< of which something is let go since this step

@@ -48,6 +48,7 @@ void Solver::take_substep(State& state, StepReport& report) {
   check_finite(context(state), work_);                            //
   find_velocities();                                              // 8   v = (q − a)/η
   if (contact_.is_active()) add_momentum_lost(report.contact);    //     M v falls short by η r
+  if (contact_.has_pairs()) limit_energy(state, report.contact);  //     contact gives no energy
   if (projects_energy()) energy_.project(context(state), work_);  //     onto the energy that q and v should have
   commit(state, report);                                          //     qₙ = q, vₙ = v
 }
@@ -171,6 +172,10 @@ void Solver::add_momentum_lost(ContactReport& report) const {
   }
 }
 
+void Solver::limit_energy(const State& state, ContactReport& report) {
+  report.energy_taken += contact_energy_.limit(context(state), work_);
+}
+
 /// Velocities that are damped as e^(-2ch) a step make the amplitude of an oscillation decay as e^(-ct), besides what
 /// the integrator takes. Those before, from which BDF2 goes on, are then a step further away.
 void Solver::commit(State& state, StepReport& report) {
@@ -184,6 +189,7 @@ void Solver::commit(State& state, StepReport& report) {
   if (settings_.damping > 0 && settings_.integrator == Integrator::bdf2) {
     damp(work_.begin.positions, work_.begin.velocities);
   }
+  if (!contact_.has_pairs()) state.contact.energies.clear();
   if (contact_.is_active()) contact_.commit_substep(system_, work_, threads_.pool(), state, report.contact);
   work_.scatter(system_.order(), settings_.integrator, substep(), state);
 }

@@ -53,6 +53,8 @@ class System {
   LocalResult local_step(const Positions& q, const Positions& s, Positions& r, ThreadPool& threads);
   /// −∇V at q, pinned vertices among them, and V of each component without external groups [J].
   void elastic_step(const Positions& q, Positions& forces, std::span<Real> energies, ThreadPool& threads);
+  /// V of each component without external groups in the last local step, which was at q or turned from there [J].
+  void elastic_energies(const Positions& q, std::span<Real> energies) { local_step_.elastic_energies(q, energies); }
   /// q ← q + Y⁻¹ r; largest: about the largest number in r.
   SolveTimes global_step(const Positions& r, Real largest, Positions& q, ThreadPool& threads);
   /// x = Y⁻¹ r.

@@ -17,10 +17,11 @@ struct WorkingState {
   Positions residual;          ///< r, m × 3 [N]
   Positions solution;          ///< x = Y⁻¹ r, m × 3 [m]; where the global step is accelerated
   Positions velocities;        ///< vₙ₊₁, m × 3 [m/s]
-  std::vector<Real> energy_surplus;  ///< for the next step (State::energy_surplus); empty: nothing
-  std::vector<Real> in_factor;       ///< D of contact [N/m], also for the next step; empty: none (ContactState)
-  Index light_steps = 0;             ///< of those for the next step
-  Real predicted_step = 0;           ///< η of the prediction [s]; 0: it does not belong to the state
+  std::vector<Real> energy_surplus;    ///< for the next step (State::energy_surplus); empty: nothing
+  std::vector<Real> in_factor;         ///< D of contact [N/m], also for the next step; empty: none (ContactState)
+  Index light_steps = 0;               ///< of those for the next step
+  std::vector<Real> contact_energies;  ///< ContactState::energies
+  Real predicted_step = 0;             ///< η of the prediction [s]; 0: it does not belong to the state
 
   /// For m vertices; without a prediction.
   void resize(Index vertex_count);

@@ -307,13 +307,13 @@ ContactState read_contact(const Node& node, const State& fresh) {
   contact.memory = read_memory(node);
   contact.pairs = read_pairs(node);
   if (const auto let_go = node.find("let_go")) contact.let_go = read_let_go(*let_go);
-  const auto read_of_vertices = [&](const char* key, std::vector<Real>& numbers) {
-    const Node entry = node.require(key);
+  const auto read_of_vertices = [&](const Node& entry, std::vector<Real>& numbers) {
     if (!entry.is_bytes() || !entry.bytes().empty()) numbers.resize(fresh.masses.size());
     read_numbers(entry, numbers);
   };
-  read_of_vertices("stiffening", contact.stiffening);
-  read_of_vertices("in_factor", contact.in_factor);
+  read_of_vertices(node.require("stiffening"), contact.stiffening);
+  read_of_vertices(node.require("in_factor"), contact.in_factor);
+  if (const auto energies = node.find("energies")) read_of_vertices(*energies, contact.energies);
   read(node.require("light_steps"), contact.light_steps);
   if (contact.light_steps < 0 || contact.light_steps > most_light_steps) {
     node.require("light_steps").fail(fmt::format("{} is out of range; take another checkpoint", contact.light_steps));

@@ -128,6 +128,7 @@ Json write_contact(const ContactState& contact) {
           {"anchors_and_loads", bytes_of(numbers)},
           {"stiffening", bytes_of(contact.stiffening)},
           {"in_factor", bytes_of(contact.in_factor)},
+          {"energies", bytes_of(contact.energies)},
           {"light_steps", contact.light_steps}};
 }
 

@@ -60,6 +60,7 @@ constexpr std::array of_surfaces = {
     Column{"smallest_gap", [](const Measurements& row) { return row.report.contact.smallest_gap; }},
     Column{"shortened", [](const Measurements& row) { return static_cast<Real>(row.report.contact.shortened); }},
     Column{"momentum_lost", [](const Measurements& row) { return row.report.contact.momentum_lost.norm(); }},
+    Column{"energy_taken", [](const Measurements& row) { return row.report.contact.energy_taken; }},
     Column{"lag", [](const Measurements& row) { return row.report.contact.lag; }},
     Column{"let_go", [](const Measurements& row) { return static_cast<Real>(row.report.contact.let_go); }},
 };

@@ -89,6 +89,24 @@ void Contact::add_energies(std::span<const Index> component_of_vertex, std::span
   }
 }
 
+void Contact::add_stored_energies(std::span<const Index> component_of_vertex, std::span<Real> components) const {
+  for (const Chunk& chunk : chunks_) {
+    for (const Candidate& each : chunk.candidates) {
+      if (each.room > 0) continue;
+      components[at(component_of_vertex[at(each.vertex)])] +=
+          each.push().energy + each.friction().stored_energy(each.stiffness);
+    }
+  }
+}
+
+void Contact::mark_driven(std::span<const Index> component_of_vertex, std::span<char> components) const {
+  for (const Chunk& chunk : chunks_) {
+    for (const Candidate& each : chunk.candidates) {
+      if (!colliders_[at(each.collider)].is_still()) components[at(component_of_vertex[at(each.vertex)])] = 1;
+    }
+  }
+}
+
 ContactSums Contact::refresh(Positions& r, ThreadPool& threads) {
   for_each_chunk(threads, [&](Chunk& chunk, Index begin, Index end) {
     if (chunk.candidates.empty()) return;

@@ -50,6 +50,7 @@ struct ContactSums {
 /// What holding back has done.
 struct HeldBack {
   bool has_moved = false;          ///< a vertex
+  bool is_shortened = false;       ///< where surfaces would meet
   bool has_new_potential = false;  ///< a vertex meets a half-space from now on
 };
 
@@ -84,6 +85,10 @@ class Contact {
                       std::span<RigidResistance> components) const;
   /// Adds up the energies of the forces that were found last, of each component [J].
   void add_energies(std::span<const Index> component_of_vertex, std::span<Real> components) const;
+  /// The same without what friction takes away: what contact may give back.
+  void add_stored_energies(std::span<const Index> component_of_vertex, std::span<Real> components) const;
+  /// Marks components that are near a collider that moves, or whose surface does.
+  void mark_driven(std::span<const Index> component_of_vertex, std::span<char> components) const;
   /// After add(): takes the present loads for friction and corrects r. Returns the new sums.
   ContactSums refresh(Positions& r, ThreadPool& threads);
 

@@ -39,11 +39,14 @@ struct ContactState {
   /// nothing.
   std::vector<Real> in_factor;
   Index light_steps = 0;
+  /// What contact may give back to each component, at one vertex of it, m numbers [J] (ContactEnergy); below 0 it is
+  /// owed. Empty: nothing.
+  std::vector<Real> energies;
 
   /// Whether a simulation without contact would have the same.
   bool is_empty() const {
     return colliders.empty() && memory.empty() && pairs.empty() && let_go.is_empty() && stiffening.empty() &&
-           in_factor.empty();
+           in_factor.empty() && energies.empty();
   }
 };
 

@@ -14,6 +14,8 @@ struct ContactCollider {
   Real friction = 0;                     ///< μ
   bool has_own_friction = false;         ///< else a body's own goes before it
   Pose begin{}, end{};                   ///< of the substep
+
+  bool is_still() const { return begin == end && surface_velocity.isZero(0); }
 };
 
 /// What contact is told of a substep. Must outlive it.

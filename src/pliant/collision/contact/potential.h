@@ -21,6 +21,9 @@ struct Friction {
   Real energy = 0;            ///< [J]
   Vec3 force = Vec3::Zero();  ///< [N]
   Real curvature = 0;         ///< [N/m]
+
+  /// Of the energy, what friction of stiffness k [N/m] > 0 gives back when the load is gone; the rest has slid away.
+  Real stored_energy(Real stiffness) const { return force.squaredNorm() / (2 * stiffness); }
 };
 
 /// Huber's function of a slide u [m]: k/2 ‖u‖² while k ‖u‖ ≤ μλ, which is `limit` [N]; then μλ ‖u‖ − (μλ)²/2k.

@@ -73,6 +73,11 @@ struct NearPair {
     return pushed.curvature * along * along + rubbed.curvature * across.squaredNorm();
   }
   Real energy() const { return pushed.energy + rubbed.energy; }
+  /// What of it the pair may give back: without what friction has taken away.
+  Real stored_energy() const {
+    const Real k = weight * stiffness;
+    return pushed.energy + (k > 0 ? rubbed.stored_energy(k) : 0);
+  }
   Vec3 force_on(std::size_t corner) const {
     return gap.weights[corner] * pushed.force * gap.normal + friction_weights[corner] * rubbed.force;
   }

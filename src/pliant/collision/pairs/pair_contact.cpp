@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "pliant/collision/contact/stiffness.h"
+#include "pliant/collision/pairs/pair_memory.h"
+#include "pliant/collision/pairs/pair_resistance.h"
 
 namespace pliant {
 namespace {
@@ -43,21 +45,8 @@ void PairContact::clear() {
 void PairContact::find_loaded_vertices(const ContactState& state, std::vector<char>& is_loaded) const {
   is_loaded.assign(surface_->body.size(), 0);
   for (const PairMemory& each : state.pairs) {
-    const auto mark = [&](Index vertex) { is_loaded[at(vertex)] = 1; };
-    const auto mark_one_of = [&](const auto& features, Index number) {
-      if (number < count_of(features)) mark(features[at(number)][0]);
-    };
-    const Index first = each.features[0];
-    const Index second = each.features[1];
-    if (each.kind == PairKind::edge_edge) {
-      mark_one_of(surface_->edges, first);
-    } else if (first < count_of(surface_->vertices)) {
-      mark(surface_->vertices[at(first)]);
-    }
-    if (each.kind == PairKind::vertex_triangle) {
-      mark_one_of(surface_->triangles, second);
-    } else {
-      mark_one_of(surface_->edges, second);
+    for (const Index v : vertices_of(each, *surface_)) {
+      if (v >= 0) is_loaded[at(v)] = 1;
     }
   }
 }
@@ -69,6 +58,7 @@ void PairContact::begin_substep(const ContactStep& step, const ContactState& sta
   step_.emplace(step);
   begin_ = step.begin;
   report_ = {};
+  was_shortened_.assign(step.masses.size(), 0);
   stiffening_.assign(step.masses.size(), 1);
   for (std::size_t i = 0; i < state.stiffening.size(); ++i) {
     stiffening_[i] = state.stiffening[step.vertices.empty() ? i : at(step.vertices[i])];
@@ -320,6 +310,9 @@ bool PairContact::shorten_way(const Positions& from, Positions& q, ThreadPool& t
     if (done.vertices == 0) return false;
     if (!list_.covers(from, wish_, q) && slides) continue;
     report_.shortened += done.vertices;
+    for (const Index v : surface_->vertices) {
+      if ((row(q, v).array() != row(wish_, v).array()).any()) was_shortened_[at(v)] = 1;
+    }
     return true;
   }
 }
@@ -395,6 +388,22 @@ void PairContact::add_diagonal(std::span<Real> diagonal) const {
           each.pushed.curvature * std::abs(each.gap.weights[j]) * sum +
           each.rubbed.curvature * std::abs(each.friction_weights[j]) * sum_of_friction;
     }
+  }
+}
+
+void PairContact::join_touching(std::span<const Index> component_of_vertex, std::span<std::size_t> least,
+                                std::span<char> touches) const {
+  pliant::join_touching(near_, component_of_vertex, least, touches);
+  for (const PairMemory& each : memory_) {
+    const auto [first, second] = vertices_of(each, *surface_);
+    if (first < 0 || second < 0) continue;
+    const auto a = at(component_of_vertex[at(first)]);
+    const auto b = at(component_of_vertex[at(second)]);
+    join(a, b, least);
+    touches[a] = touches[b] = 1;
+  }
+  for (const Index v : surface_->vertices) {
+    if (was_shortened_[at(v)] != 0) touches[at(component_of_vertex[at(v)])] = 1;
   }
 }
 

@@ -78,6 +78,10 @@ class PairContact {
   /// What stays when the substep has ended at q. diagonal: of Y [N/m]. Raises κ in `state`, which has those of the next
   /// substep.
   void commit(const Positions& q, std::span<const Real> diagonal, ContactState& state, ThreadPool& threads);
+  /// Joins components that touch now, or did in the step before, and marks them and those of which a move was cut; see
+  /// join_touching().
+  void join_touching(std::span<const Index> component_of_vertex, std::span<std::size_t> least,
+                     std::span<char> touches) const;
   const PairReport& report() const { return report_; }
   std::span<const NearPair> near() const { return near_; }
   /// Where the substep began [m].
@@ -114,6 +118,7 @@ class PairContact {
   Positions wish_;                  // where a move would lead
   Positions whole_;                 // where the substep would begin if nothing were in the way
   bool has_pushed_ahead_ = false, is_shortened_ = false;
+  std::vector<char> was_shortened_;           // of each vertex, whether a move of it was, in this substep
   std::vector<Real> shares_, shares_before_;  // scratch, of components
   Positions passed_;                          // where it has let go more than before
   Tangles tangles_;

@@ -92,15 +92,49 @@ void add_energies(std::span<const NearPair> pairs, std::span<const Index> compon
   }
 }
 
+void add_stored_energies(std::span<const NearPair> pairs, std::span<const Index> component_of_vertex,
+                         std::span<Real> components) {
+  for (const NearPair& each : pairs) {
+    if (!each.is_active()) continue;
+    components[components_of(each.pair, component_of_vertex).first] += each.stored_energy();
+  }
+}
+
+Real steep_energy(std::span<const NearPair> pairs) {
+  Real energy = 0;
+  for (const NearPair& each : pairs) {
+    if (each.pushed.force > 0 && each.gap.distance < each.radius / 2) energy += each.pushed.energy;
+  }
+  return energy;
+}
+
+void join(std::size_t a, std::size_t b, std::span<std::size_t> least) {
+  const std::size_t first = least_of(least, a);
+  const std::size_t second = least_of(least, b);
+  least[std::max(first, second)] = std::min(first, second);
+}
+
+void flatten(std::span<std::size_t> least) {
+  for (std::size_t i = 0; i < least.size(); ++i) least[i] = least_of(least, i);
+}
+
 void join_components(std::span<const NearPair> pairs, std::span<const Index> component_of_vertex,
                      std::span<std::size_t> least) {
   for (const NearPair& each : pairs) {
     const auto [a, b] = components_of(each.pair, component_of_vertex);
-    const std::size_t first = least_of(least, a);
-    const std::size_t second = least_of(least, b);
-    least[std::max(first, second)] = std::min(first, second);
+    join(a, b, least);
   }
-  for (std::size_t i = 0; i < least.size(); ++i) least[i] = least_of(least, i);
+  flatten(least);
+}
+
+void join_touching(std::span<const NearPair> pairs, std::span<const Index> component_of_vertex,
+                   std::span<std::size_t> least, std::span<char> touches) {
+  for (const NearPair& each : pairs) {
+    if (!(each.load > 0) && !(each.gap.distance < pushing_reach * each.radius)) continue;
+    const auto [a, b] = components_of(each.pair, component_of_vertex);
+    join(a, b, least);
+    touches[a] = touches[b] = 1;
+  }
 }
 
 }  // namespace pliant

@@ -20,9 +20,22 @@ void add_resistance(std::span<const NearPair> pairs, const Positions& q, const P
 void add_energies(std::span<const NearPair> pairs, std::span<const Index> component_of_vertex,
                   std::span<Real> components);
 
+/// The same without what friction takes away: what the pairs may give back.
+void add_stored_energies(std::span<const NearPair> pairs, std::span<const Index> component_of_vertex,
+                         std::span<Real> components);
+
+/// The potential of those that are pressed below r/2, into its logarithm [J].
+Real steep_energy(std::span<const NearPair> pairs);
+
 /// Of each component the least of those that it can come to touch, directly or by way of others. `least` begins with
 /// every component's own number.
 void join_components(std::span<const NearPair> pairs, std::span<const Index> component_of_vertex,
                      std::span<std::size_t> least);
+/// The same of those that push or soon may, also marked, and of the two of such a pair alone; see flatten().
+void join_touching(std::span<const NearPair> pairs, std::span<const Index> component_of_vertex,
+                   std::span<std::size_t> least, std::span<char> touches);
+void join(std::size_t a, std::size_t b, std::span<std::size_t> least);
+/// Makes every number that join() has left the least one.
+void flatten(std::span<std::size_t> least);
 
 }  // namespace pliant
