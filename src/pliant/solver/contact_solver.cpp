@@ -255,6 +255,15 @@ void ContactSolver::refresh(WorkingState& work, LocalResult& local, ThreadPool& 
   finish(work, local, contact_.refresh(work.residual, threads));
 }
 
+void ContactSolver::refresh_loads(WorkingState& work, LocalResult& local, ThreadPool& threads) {
+  const AddedTime timed(seconds_);
+  if (has_pairs()) {
+    pairs_.subtract(work.residual);
+    pairs_.refresh_loads(work.positions);
+  }
+  finish(work, local, contact_.refresh(work.residual, threads));
+}
+
 HeldBack ContactSolver::hold_back(const Positions& from, Positions& q, ThreadPool& threads) {
   const AddedTime timed(seconds_);
   HeldBack held = contact_.hold_back(q, threads);

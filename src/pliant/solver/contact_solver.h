@@ -56,6 +56,8 @@ class ContactSolver {
   /// have converged before.
   bool is_refresh_due(Index iteration, Index iterations, bool has_converged) const;
   void refresh(WorkingState& work, LocalResult& local, ThreadPool& threads);
+  /// The loads alone: without friction the objective stays as it is.
+  void refresh_loads(WorkingState& work, LocalResult& local, ThreadPool& threads);
   /// Takes the forces that were found last from r [N].
   void subtract(Positions& r, ThreadPool& threads);
   /// Holds q back on its way from `from`, and finds the forces where it then is.

@@ -204,10 +204,15 @@ void Descent::factorize(const StepContext& context, WorkingState& work, StepRepo
   ++report.contact.refactorizations;
 }
 
+/// Where surfaces push each other, friction then goes by the loads that a substep ends with, as far as motions of
+/// bodies as a whole can follow: the iterations cannot any more.
 void Descent::check_last_move(const StepContext& context, WorkingState& work, StepReport& report) {
   if (!has_moved_ && checks_plain_moves_) evaluate(context, work);  // cannot be judged, but its residual is reported
   if (!has_moved_ || (lbfgs_.is_plain() && !checks_plain_moves_)) return;
   LocalResult local = local_step(context, work, report);
+  settle(context, work, local);
+  if (!context.contact.pairs_push()) return;
+  context.contact.refresh_loads(work, local, context.threads);
   settle(context, work, local);
 }
 

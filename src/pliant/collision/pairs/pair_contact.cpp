@@ -353,10 +353,12 @@ void PairContact::refresh(const Positions& q, ThreadPool& threads) {
   list_.go_to(q);
   weights_.refresh(list_, *surface_, q, threads);
   collect();
-  for (NearPair& each : near_) {
-    each.push(q, begin_);
-    each.freeze(q, begin_);
-  }
+  for (NearPair& each : near_) each.push(q, begin_);
+  refresh_loads(q);
+}
+
+void PairContact::refresh_loads(const Positions& q) {
+  for (NearPair& each : near_) each.freeze(q, begin_);
 }
 
 Real PairContact::curvature(const Positions& p) const {

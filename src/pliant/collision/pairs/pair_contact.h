@@ -68,6 +68,8 @@ class PairContact {
   void subtract(Positions& r) const;
   /// Takes the present loads for friction, and weighs edges anew.
   void refresh(const Positions& q, ThreadPool& threads);
+  /// The loads alone, at q, where the forces were found last.
+  void refresh_loads(const Positions& q);
 
   /// pᵀ C p [N m] with the curvature C where the forces were found last; of those alone whose κ > 4.
   Real curvature(const Positions& p) const;
