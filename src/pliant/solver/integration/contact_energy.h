@@ -12,7 +12,7 @@
 // contact that is another one than that of the substep before: stiffer, or of other pairs. Velocities are scaled by
 // what there is too much: first what vibrates, which leaves momentum and angular momentum of each component, then what
 // the components do against each other, which leaves those of all together where nothing holds them. Positions stay.
-// What cannot be taken so is elastic energy; it is owed: taken off C, which belongs to the state.
+// What cannot be taken so is elastic energy; it is owed: nine tenths of it are taken off C, which belongs to the state.
 //
 // T + V of BDF2 goes up and down by itself. There no more is taken than −h Σ r·v, what the residual has put in.
 #include "pliant/solver/step_context.h"
@@ -22,8 +22,9 @@ namespace pliant {
 class ContactEnergy {
  public:
   /// After the last local step of a substep, with velocities found. Scales them, and writes C for the next substep.
-  /// Returns what it has taken [J]. Leaves alone what touches nothing and owes nothing, and what something drives, with
-  /// all that touches it: a pin or a collider that moves, soft pins, drags and forces that act through constraints.
+  /// Returns what it has taken [J]. Leaves alone where no pairs touch and nothing is owed, and what something drives,
+  /// with all that touches it: a pin or a collider that moves, soft pins, drags and forces that act through
+  /// constraints.
   Real limit(const StepContext& context, WorkingState& work);
 
  private:
