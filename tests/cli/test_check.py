@@ -58,7 +58,7 @@ class Check(unittest.TestCase):
         sheet = {"mesh": {"shape": "grid", "columns": 3, "rows": 3, "plane": "xy"}, "mass": {"total": 1}}
         pole = {"mesh": {"shape": "chain", "links": 1, "direction": [0, 0, 1]}, "mass": {"total": 1}}
         scene.write_text(json.dumps({
-            "pliant": 1, "contact": {"surfaces": True, "friction": 0.25},
+            "pliant": 1, "contact": {"friction": 0.25},
             "bodies": [{"name": "shirt", "contact": contact or {}, **sheet},
                        {"name": "skin", "transform": {"translate": [0.1, 0, 0.2]}, **sheet},
                        {"name": "pole", "transform": {"translate": [0.4, 0.3, -0.5]}, **pole}]}))
@@ -72,11 +72,17 @@ class Check(unittest.TestCase):
                                              "ignores": ["pole", "skin"]})
         self.assertEqual(info["bodies"][1], {"name": "skin", "distance": 0.125, "self": True, "ignores": []})
         text = self.pliant("check", scene).stdout
-        self.assertIn("\ncontact: bodies touch each other, themselves and colliders; friction 0.25\n", text)
+        self.assertIn("\ncontact: bodies touch each other and themselves; friction 0.25\n", text)
         self.assertIn("\n  shirt: distance 0.01 m, friction 0.5, does not touch itself, ignores pole, skin\n", text)
         self.assertIn("\n  skin: distance 0.125 m\n", text)
         without = self.pliant("check", scene, "--set", "contact.surfaces=false").stdout
-        self.assertNotIn("contact:", without)
+        self.assertIn("\ncontact: none; bodies pass through each other and through themselves\n", without)
+        floor = ("--set", 'colliders=[{"type": "plane", "position": [0, 0, -3]}]')
+        self.assertIn("\ncontact: bodies touch each other, themselves and colliders; friction 0.25\n",
+                      self.pliant("check", scene, *floor).stdout)
+        self.assertIn("\ncontact: bodies touch colliders alone, and pass through each other and through themselves; "
+                      "friction 0.25\n",
+                      self.pliant("check", scene, *floor, "--set", "contact.surfaces=false").stdout)
         self.assertEqual(json.loads(self.pliant("check", "curtain", "--json").stdout)["contact"], {})
         self.assertIn("contact: bodies touch each other",
                       self.pliant("check", "curtain", "--set", "contact.surfaces=true").stdout)

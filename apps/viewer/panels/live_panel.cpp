@@ -59,6 +59,10 @@ void LiveSource::draw_pace() {
                                                                 1e3 * statistics.local, 1e3 * statistics.global)
                                                   : "-";
   row("phases", phases, help);
+  if (statistics.contact > 0) {
+    row("contact", fmt::format("{:.3g} ms of it", 1e3 * statistics.contact),
+        "what contact takes in these phases; without `surfaces`, below, bodies meet colliders alone, which is faster");
+  }
   row_label("speed", "simulated seconds in a second, where the machine can; Ctrl + click: type a number");
   double speed = speed_;
   constexpr double slowest = 0.01, fastest = 10;
