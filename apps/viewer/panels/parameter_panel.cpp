@@ -92,10 +92,11 @@ void ParameterPanel::draw(const Snapshot& snapshot, LiveScene& live) {
   draw_all("Solver", those_of(0), true);
   draw_all("Constraints", groups, groups.size() <= 4 * many_groups);
   draw_all("Forces", those_of(2), true);
+  if (section_header("Contact")) {
+    draw_owners(those_of(4), live);
+    draw_body_contacts(those_of(5), live);
+  }
   if (!snapshot.wrenches.empty() && section_header("Colliders")) draw_colliders(those_of(3), snapshot, live);
-  if (!section_header("Contact")) return;
-  draw_owners(those_of(4), live);
-  draw_body_contacts(those_of(5), live);
 }
 
 /// Of each collider what it feels, and its options, which fold.
