@@ -37,7 +37,7 @@ int main() {
   //! [colliders]
   const auto ball = simulation.add(pliant::SphereCollider{.radius = 0.3, .friction = 0.4});
   simulation.add(pliant::PlaneCollider{.position = {0, 0, -0.4}, .surface_velocity = {0.1, 0, 0}}, "belt");
-  simulation.set_contact({.distance = 0.01, .friction = 0.3});  // m; μ of colliders that have none of their own
+  simulation.set_contact({.distance = 0.01, .friction = 0.3});  // m, μ; the cloth touches itself as well then
   //! [colliders]
   for (int i = 0; i < 60; ++i) simulation.step();
 

@@ -32,7 +32,7 @@ int main() {
   simulation.add(pliant::Gravity{});
 
   //! [body_contact]
-  simulation.set_contact({.friction = 0.3, .surfaces = true});
+  simulation.set_contact({.friction = 0.3});
   simulation.set_contact(scarf, {.distance = 0.008, .friction = 0.6});
   simulation.set_contact(tag, {.self = false, .ignores = {scarf}});
   //! [body_contact]

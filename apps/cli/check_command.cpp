@@ -284,12 +284,16 @@ void print_colliders(const Json& colliders) {
   fmt::print("\n");
 }
 
-void print_contact(const Json& contact) {
-  if (contact.empty()) return;
+void print_contact(const Json& contact, bool has_colliders) {
+  if (contact.empty()) {
+    fmt::print("contact: none; bodies pass through each other and through themselves\n");
+    return;
+  }
   const bool surfaces = contact["surfaces"].get<bool>();
-  fmt::print("contact: {}; friction {:.4g}\n",
-             surfaces ? "bodies touch each other, themselves and colliders" : "bodies touch colliders alone",
-             contact["friction"].get<Real>());
+  const char* touched = !surfaces ? "bodies touch colliders alone, and pass through each other and through themselves"
+                        : has_colliders ? "bodies touch each other, themselves and colliders"
+                                        : "bodies touch each other and themselves";
+  fmt::print("contact: {}; friction {:.4g}\n", touched, contact["friction"].get<Real>());
   for (const Json& body : contact["bodies"]) {
     fmt::print("  {}: distance {:.3g} m", text_of(body["name"]), body["distance"].get<Real>());
     if (body.contains("friction")) fmt::print(", friction {:.4g}", body["friction"].get<Real>());
@@ -312,7 +316,7 @@ void print_text(const Json& json) {
   for (const Json& force : json["forces"]) fmt::print(" {}", text_of(force));
   fmt::print("{}; events: {}\n", json["forces"].empty() ? " none" : "", json["events"].get<std::size_t>());
   print_colliders(json["colliders"]);
-  print_contact(json["contact"]);
+  print_contact(json["contact"], !json["colliders"].empty());
   const Json& vertices = json["vertices"];
   fmt::print("vertices: {}, of which {} free and {} pinned\n", vertices["all"].get<Index>(),
              vertices["free"].get<Index>(), vertices["pinned"].get<Index>());

@@ -83,8 +83,14 @@ void print_missed(const pliant::MissedTolerance& missed) {
                   missed.steps, missed.worst_residual));
 }
 
+/// What a run needs to tell of itself at its end.
+struct RunEnd {
+  pliant::RunInfo& info;
+  double contact_seconds = 0;
+};
+
 void simulate(Scene& scene, pliant::Recorder& recorder, const fs::path& checkpoint, const RecordingOptions& options,
-              pliant::RunInfo& info) {
+              RunEnd& end) {
   std::int64_t step = scene.simulation.state().step;
   Progress progress(step, scene.steps, options.quiet ? Progress::Show::never : Progress::Show::on_terminal);
   Warnings warnings;
@@ -94,7 +100,8 @@ void simulate(Scene& scene, pliant::Recorder& recorder, const fs::path& checkpoi
   while (step < scene.steps && !was_interrupted()) {
     const std::optional<pliant::StepReport> report = step_unless_given_up(scene, checkpoint);
     if (!report) break;
-    count_missed(*report, scene.simulation.settings().tolerance, info.missed_tolerance);
+    count_missed(*report, scene.simulation.settings().tolerance, end.info.missed_tolerance);
+    end.contact_seconds += report->contact.seconds;
     recorder.record(scene.simulation, *report);
     ++step;
     if (every > 0 && step % every == 0 && step < scene.steps) pliant::write_checkpoint(checkpoint, scene);
@@ -110,7 +117,17 @@ std::string size_text(std::uintmax_t bytes) {
   return fmt::format("{:.1f} MB", static_cast<double>(bytes) * 1e-6);
 }
 
-void print_summary(const Scene& scene, const pliant::RunInfo& info, const fs::path& folder) {
+/// Where contact takes much of the time, how to do without.
+void print_cost_of_contact(const Scene& scene, const RunEnd& end) {
+  constexpr double much = 0.3;
+  const double share = end.contact_seconds / std::max(end.info.wall_seconds, 1e-9);
+  if (!scene.simulation.contact().surfaces || share < much) return;
+  fmt::print("  contact took {:.0f} % of the time; with --set contact.surfaces=false bodies pass through each other\n",
+             100 * share);
+}
+
+void print_summary(const Scene& scene, const RunEnd& end, const fs::path& folder) {
+  const pliant::RunInfo& info = end.info;
   const std::int64_t steps = scene.simulation.state().step;
   fmt::print("{}: {} of {} steps", pliant::printable(scene.name), steps, scene.steps);
   if (info.resumed_from) fmt::print(", from step {} on", *info.resumed_from);
@@ -118,6 +135,7 @@ void print_summary(const Scene& scene, const pliant::RunInfo& info, const fs::pa
   const std::int64_t taken = steps - info.resumed_from.value_or(0);
   if (taken > 0) fmt::print(", {:.3g} ms a step", 1e3 * info.wall_seconds / static_cast<double>(taken));
   fmt::print(" ({}, threads: {})\n", scene.simulation.backend(), scene.simulation.thread_count());
+  print_cost_of_contact(scene, end);
   for (const std::string& name : pliant::run_files(info.frame_format)) {
     const fs::path file = folder / name;
     std::error_code ignored;
@@ -129,7 +147,8 @@ void print_summary(const Scene& scene, const pliant::RunInfo& info, const fs::pa
 
 /// Simulates and records; what was recorded is whole however it ends.
 void record_run(Scene& scene, pliant::Recorder& recorder, const fs::path& folder, const RecordingOptions& options,
-                pliant::RunInfo& info) {
+                RunEnd& end) {
+  pliant::RunInfo& info = end.info;
   if (!info.resumed_from) recorder.record(scene.simulation, {});
   const auto begin = std::chrono::steady_clock::now();
   const auto count = [&] {
@@ -138,7 +157,7 @@ void record_run(Scene& scene, pliant::Recorder& recorder, const fs::path& folder
     info.last_frame = recorder.last_frame_checksum();
   };
   try {
-    simulate(scene, recorder, folder / pliant::checkpoint_name, options, info);
+    simulate(scene, recorder, folder / pliant::checkpoint_name, options, end);
   } catch (...) {
     count();
     throw;
@@ -184,9 +203,10 @@ int record_scene(Scene& scene, const fs::path& folder, pliant::RunInfo info, con
     open();  // what is no run to go on with stays as it is
     pliant::resume_run(folder, info, scene.simulation);
   }
+  RunEnd end{info};
   try {
     if (!recorder) open();
-    record_run(scene, *recorder, folder, options, info);
+    record_run(scene, *recorder, folder, options, end);
   } catch (const std::exception& error) {
     const auto* known = dynamic_cast<const pliant::Error*>(&error);
     const bool is_diverged = known != nullptr && known->kind() == pliant::ErrorKind::diverged;
@@ -198,7 +218,7 @@ int record_scene(Scene& scene, const fs::path& folder, pliant::RunInfo info, con
   const bool interrupted = was_interrupted() && scene.simulation.state().step < scene.steps;
   info.outcome = interrupted ? Outcome::interrupted : Outcome::ok;
   pliant::end_run(folder, info, scene.simulation);
-  if (!options.quiet) print_summary(scene, info, folder);
+  if (!options.quiet) print_summary(scene, end, folder);
   print_missed(info.missed_tolerance);
   return interrupted ? exit_interrupted : 0;
 }

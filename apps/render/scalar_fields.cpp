@@ -89,15 +89,13 @@ std::vector<float> vertex_speed(const pliant::Positions& velocities) {
 }
 
 std::vector<float> vertex_gap(const pliant::Simulation& simulation) {
+  Real most = 0;
+  for (Index b = 0; b < pliant::count_of(simulation.bodies()); ++b) {
+    most = std::max(most, simulation.contact_distance(pliant::BodyId{b}));
+  }
   std::vector<float> gaps;
-  const std::vector<pliant::VertexTouch> touches = simulation.touches();
-  for (std::size_t b = 0; b < simulation.bodies().size(); ++b) {
-    const pliant::Body& body = simulation.bodies()[b];
-    const Real most = simulation.contact_distance(pliant::BodyId{static_cast<Index>(b)});
-    for (Index v = 0; v < body.mesh.vertex_count(); ++v) {
-      const Real gap = touches[static_cast<std::size_t>(body.first_vertex + v)].gap;
-      gaps.push_back(static_cast<float>(std::clamp<Real>(gap, 0, most)));
-    }
+  for (const pliant::VertexTouch& each : simulation.touches()) {
+    gaps.push_back(static_cast<float>(std::clamp<Real>(each.gap, 0, most)));
   }
   return gaps;
 }

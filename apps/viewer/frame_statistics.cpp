@@ -23,6 +23,7 @@ FrameStatistics::Means FrameStatistics::means(Clock::time_point now) const {
     means.local += sample.local / count;
     means.global += sample.global / count;
     means.factor += sample.factor / count;
+    means.contact += sample.contact / count;
     means.total += sample.total / count;
   }
   if (samples_.size() < 2) return means;

@@ -16,6 +16,7 @@ class FrameStatistics {
     double local = 0;      ///< [s]
     double global = 0;     ///< [s]
     double factor = 0;     ///< [s]
+    double contact = 0;    ///< in those [s]
     double total = 0;      ///< [s]
   };
   void add(const Sample& sample);
@@ -27,6 +28,7 @@ class FrameStatistics {
     double local = 0;  ///< mean of a sample [s], as the following
     double global = 0;
     double factor = 0;
+    double contact = 0;
     double total = 0;
   };
   /// The means at a time; when the last sample is long ago, the rate drops accordingly.

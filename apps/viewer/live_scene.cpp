@@ -167,7 +167,7 @@ void LiveScene::step() {
     pacer_.took_step();
     context_.single_steps = std::max<std::int64_t>(context_.single_steps - 1, 0);
     statistics_.add({Clock::now(), session_.simulation().state().time - before, report.seconds_local,
-                     report.seconds_global, report.seconds_factor, report.seconds_total});
+                     report.seconds_global, report.seconds_factor, report.contact.seconds, report.seconds_total});
   } catch (const std::exception& error) {
     const auto* known = dynamic_cast<const pliant::Error*>(&error);
     if (known == nullptr || known->kind() != pliant::ErrorKind::interrupted) {

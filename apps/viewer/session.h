@@ -62,8 +62,8 @@ class Session {
   /// scene no longer move it. Does nothing with a collider that has no end.
   void move_collider(pliant::ColliderId collider, const Vec3f& position);
 
-  /// Of the scene's settings, groups, forces and colliders, and of contact; the pull and pins that were set by hand
-  /// have none.
+  /// Of the scene's settings, groups, forces and colliders, and of contact and its bodies; the pull and pins that were
+  /// set by hand have none.
   std::vector<Slider> sliders() const;
   /// Sets a parameter by the key of its slider; does nothing where there is none. @throws pliant::Error (input): a
   /// value out of range.

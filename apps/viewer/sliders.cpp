@@ -47,8 +47,12 @@ std::vector<Slider> list_sliders(const pliant::Simulation& simulation, const std
   for (const auto& [id, collider] : simulation.colliders()) {
     add_sliders(names.next("collider", collider.name), list_parameters(simulation, id), list);
   }
-  if (simulation.contact().surfaces || !simulation.colliders().empty())
-    add_sliders("contact", list_parameters(simulation, pliant::ContactOwner{}), list);
+  add_sliders("contact", list_parameters(simulation, pliant::ContactOwner{}), list);
+  if (!simulation.contact().surfaces && simulation.colliders().empty()) return list;
+  for (Index i = 0; i < pliant::count_of(simulation.bodies()); ++i) {
+    const pliant::BodyId id{i};
+    add_sliders(names.next("contact", simulation.body(id).name), list_parameters(simulation, id), list);
+  }
   return list;
 }
 

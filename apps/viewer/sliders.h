@@ -16,11 +16,11 @@ struct Slider {
   /// Which one it is, from restart to restart: "settings.iterations", "group:stretch.stiffness", and with a number
   /// behind the name where several have it. It is compared, never taken apart.
   std::string key;
-  std::string heading;  ///< of its group, force or collider, for people: "triangle_strain \"stretch\""
+  std::string heading;  ///< of its group, force, collider or body, for people: "triangle_strain \"stretch\""
   pliant::Parameter parameter;
 };
 
-/// All parameters, but for groups that are hidden.
+/// All parameters, but for groups that are hidden, in an order in which they can be set.
 std::vector<Slider> list_sliders(const pliant::Simulation& simulation,
                                  const std::function<bool(pliant::GroupId)>& is_hidden = {});
 

@@ -58,7 +58,7 @@ class Check(unittest.TestCase):
         sheet = {"mesh": {"shape": "grid", "columns": 3, "rows": 3, "plane": "xy"}, "mass": {"total": 1}}
         pole = {"mesh": {"shape": "chain", "links": 1, "direction": [0, 0, 1]}, "mass": {"total": 1}}
         scene.write_text(json.dumps({
-            "pliant": 1, "contact": {"surfaces": True, "friction": 0.25},
+            "pliant": 1, "contact": {"friction": 0.25},
             "bodies": [{"name": "shirt", "contact": contact or {}, **sheet},
                        {"name": "skin", "transform": {"translate": [0.1, 0, 0.2]}, **sheet},
                        {"name": "pole", "transform": {"translate": [0.4, 0.3, -0.5]}, **pole}]}))
@@ -72,11 +72,17 @@ class Check(unittest.TestCase):
                                              "ignores": ["pole", "skin"]})
         self.assertEqual(info["bodies"][1], {"name": "skin", "distance": 0.125, "self": True, "ignores": []})
         text = self.pliant("check", scene).stdout
-        self.assertIn("\ncontact: bodies touch each other, themselves and colliders; friction 0.25\n", text)
+        self.assertIn("\ncontact: bodies touch each other and themselves; friction 0.25\n", text)
         self.assertIn("\n  shirt: distance 0.01 m, friction 0.5, does not touch itself, ignores pole, skin\n", text)
         self.assertIn("\n  skin: distance 0.125 m\n", text)
         without = self.pliant("check", scene, "--set", "contact.surfaces=false").stdout
-        self.assertNotIn("contact:", without)
+        self.assertIn("\ncontact: none; bodies pass through each other and through themselves\n", without)
+        floor = ("--set", 'colliders=[{"type": "plane", "position": [0, 0, -3]}]')
+        self.assertIn("\ncontact: bodies touch each other, themselves and colliders; friction 0.25\n",
+                      self.pliant("check", scene, *floor).stdout)
+        self.assertIn("\ncontact: bodies touch colliders alone, and pass through each other and through themselves; "
+                      "friction 0.25\n",
+                      self.pliant("check", scene, *floor, "--set", "contact.surfaces=false").stdout)
         self.assertEqual(json.loads(self.pliant("check", "curtain", "--json").stdout)["contact"], {})
         self.assertIn("contact: bodies touch each other",
                       self.pliant("check", "curtain", "--set", "contact.surfaces=true").stdout)
@@ -133,7 +139,7 @@ class Check(unittest.TestCase):
                  "transform": {"translate": [0, 0, 1]}, "mass": {"total": 1},
                  "constraints": [{"type": "edge_spring", "stiffness": 100}]}
         scene.write_text(json.dumps({"pliant": 1, "gravity": list(gravity), "bodies": (bodies or [sheet]) + list(more),
-                                     "contact": contact or {}, "colliders": colliders}))
+                                     "contact": {} if contact is None else contact, "colliders": colliders}))
         return [line for line in json.loads(self.pliant("check", scene, "--json").stdout)["warnings"]
                 if "nothing holds" in line]
 
@@ -162,13 +168,13 @@ class Check(unittest.TestCase):
                 self.assertEqual(self.free_of(colliders, gravity), [] if held else falls)
 
     def test_what_animated_bodies_hold_is_not_free(self):
-        surfaces = {"surfaces": True}
+        surfaces = {}
         def statue(at):
             return {"name": "statue", "mesh": {"shape": "sphere", "subdivisions": 2, "radius": 0.3},
                     "transform": {"translate": at}, "animation": {}}
         for name, at, gravity, contact, held in [
                 ("below it", [0.5, 0.5, 0], (0, 0, -9.81), surfaces, True),
-                ("below it, where nothing touches", [0.5, 0.5, 0], (0, 0, -9.81), {}, False),
+                ("below it, where nothing touches", [0.5, 0.5, 0], (0, 0, -9.81), {"surfaces": False}, False),
                 ("beside it", [2, 0.5, 0], (0, 0, -9.81), surfaces, False),
                 ("above it", [0.5, 0.5, 2], (0, 0, -9.81), surfaces, False),
                 ("above it, where it falls up", [0.5, 0.5, 2], (0, 0, 9.81), surfaces, True),

@@ -1,4 +1,6 @@
 // The contact of a body in scene files: what it is read as, what events make of it, what is refused and how.
+#include <array>
+
 #include <doctest/doctest.h>
 
 #include "../mesh/meshes.h"
@@ -71,6 +73,31 @@ TEST_CASE("contact of a body in a scene: an event changes what it names, and no 
   CHECK(shirt_of(scene).friction == 0.7);
   CHECK(scene.simulation.contact().friction == 0.9);
   CHECK_FALSE(scene.simulation.contact().surfaces);
+}
+
+TEST_CASE("contact of a scene lets surfaces touch, unless it says otherwise; events and --set as well") {
+  const std::string start = R"({"pliant": 1, "bodies": [{"mesh": {"shape": "grid"}, "mass": {"total": 1}}])";
+  const std::string floor = R"(, "colliders": [{"type": "plane"}])";
+  const auto touches = [&](const std::string& rest, const std::vector<std::string>& set = {}) {
+    Scene scene = parse_scene(start + rest + "}", {}, "s.json", {.set = set});
+    const bool at_start = scene.simulation.contact().surfaces;
+    for (int i = 0; i < 3; ++i) scene.step();
+    CHECK(scene.has_surfaces == (at_start || scene.simulation.contact().surfaces));
+    return std::array{at_start, scene.simulation.contact().surfaces};
+  };
+  const std::array on{true, true}, off{false, false}, later{false, true};
+  CHECK(touches(R"(, "contact": {})") == on);
+  CHECK(touches(R"(, "contact": {"friction": 0.5})" + floor) == on);
+  CHECK(touches(R"(, "contact": {"friction": 0.5, "surfaces": false})" + floor) == off);
+  CHECK(touches(floor) == off);
+  CHECK(touches("") == off);
+  // What an event does not name stays as it is.
+  CHECK(touches(floor + R"(, "events": [{"step": 1, "contact": {"friction": 0.1}}])") == off);
+  CHECK(touches(R"(, "contact": {}, "events": [{"step": 1, "contact": {"friction": 0.1}}])") == on);
+  CHECK(touches(floor + R"(, "events": [{"step": 1, "contact": {"surfaces": true}}])") == later);
+  CHECK(touches(floor, {"contact.friction=0.1"}) == on);  // as if it stood in the file
+  CHECK(touches(floor, {"contact.friction=0.1", "contact.surfaces=false"}) == off);
+  CHECK(touches("", {"contact.surfaces=true"}) == on);
 }
 
 TEST_CASE("contact of a body in a scene: an event that lets surfaces touch is known beforehand") {

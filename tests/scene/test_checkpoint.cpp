@@ -68,7 +68,7 @@ constexpr std::string_view scene_with_colliders = R"({
     {"name": "block", "mesh": {"shape": "bar", "cells": [2, 2, 2], "size": [0.2, 0.2, 0.2]},
      "transform": {"translate": [0.4, 0.4, 0.02]}, "mass": {"total": 4},
      "constraints": [{"type": "tetrahedron_strain", "name": "flesh", "stiffness": 50000}]}],
-  "contact": {"friction": 0.5},
+  "contact": {"friction": 0.5, "surfaces": false},
   "colliders": [
     {"type": "sphere", "name": "ball", "center": [0.5, 0.5, -0.32], "radius": 0.3, "angular_velocity": [0, 0, 1]},
     {"type": "plane", "name": "floor", "position": [0, 0, -0.4], "surface_velocity": [0.3, 0, 0], "friction": 0.2}],
@@ -218,7 +218,7 @@ class Spoiled {
     spoil(changed);
     std::string bytes;
     Json::to_cbor(changed, bytes);
-    return refusal(pliant_tests::checkpoint_bytes(bytes, 3));
+    return refusal(pliant_tests::checkpoint_bytes(bytes, 4));
   }
   void check_contact(const std::string& what, const std::function<void(Json&)>& spoil) const {
     check(what, "run.pliant: state", [&](Json& json) { spoil(json["state"]["contact"]); });
@@ -358,14 +358,52 @@ TEST_CASE("checkpoints of other versions are refused by name") {
   const Scene scene = small_chain();
   write_checkpoint(folder.path() / "c.pliant", scene);
   const std::string content = TemporaryFolder::read(folder.path() / "c.pliant").substr(24);
-  CHECK(refusal(pliant_tests::checkpoint_bytes(content, 3)) == "(taken)");
+  for (const std::uint32_t known : {3U, 4U}) {
+    CHECK(refusal(pliant_tests::checkpoint_bytes(content, known)) == "(taken)");
+  }
   CHECK(refusal(pliant_tests::checkpoint_bytes(content, 1)) ==
         "run.pliant: this checkpoint was written by Pliant 0.1.0, whose format this version no longer reads; resume it "
         "with Pliant 0.1.0, or run the scene from its start");
-  for (const std::uint32_t other : {2U, 4U}) {
+  for (const std::uint32_t other : {2U, 5U}) {
     CHECK(refusal(pliant_tests::checkpoint_bytes(content, other))
-              .find(fmt::format("has the format {}, and this program reads 3;", other)) != std::string::npos);
+              .find(fmt::format("has the format {}, and this program reads 4;", other)) != std::string::npos);
   }
+}
+
+TEST_CASE("a checkpoint of the format 3, in which surfaces touched on request alone, goes on without them") {
+  constexpr std::string_view text = R"({"pliant": 1, "steps": 20, "settings": {"threads": 1}, "bodies": [
+    {"name": "upper", "mesh": {"shape": "grid", "columns": 4, "rows": 4, "plane": "xy"}, "mass": {"total": 1},
+     "transform": {"translate": [0, 0, 0.1]}, "constraints": [{"type": "triangle_strain", "stiffness": 100}]},
+    {"name": "lower", "mesh": {"shape": "grid", "columns": 5, "rows": 5, "plane": "xy"}, "mass": {"total": 1},
+     "constraints": [{"type": "position"}]}], "contact": {"friction": 0.4}})";
+  const TemporaryFolder folder;
+  Scene old = parse_scene(text, {}, "s.json", {.set = {"contact.surfaces=false"}});
+  for (int i = 0; i < 5; ++i) old.step();
+  write_checkpoint(folder.path() / "c.pliant", old);
+  Json content = Json::from_cbor(TemporaryFolder::read(folder.path() / "c.pliant").substr(24));
+  content["source"]["set"] = Json::array();  // as a program of those days has written it
+  std::string bytes;
+  Json::to_cbor(content, bytes);
+
+  Scene resumed = parse_checkpoint(pliant_tests::checkpoint_bytes(bytes, 3), "run.pliant");
+  for (int i = 5; i < 12; ++i) resumed.step();
+  write_checkpoint(folder.path() / "again.pliant", resumed);
+  Scene once_more = read_checkpoint(folder.path() / "again.pliant");
+  for (Scene* each : {&resumed, &once_more}) {
+    CHECK(each->simulation.contact() == ContactSettings{.friction = 0.4, .surfaces = false});
+    CHECK_FALSE(each->has_surfaces);
+    while (each->simulation.state().step < 20) each->step();
+  }
+  while (old.simulation.state().step < 20) old.step();
+  CHECK(resumed.simulation.state().positions == old.simulation.state().positions);
+  CHECK(once_more.simulation.state().positions == old.simulation.state().positions);
+  CHECK(old.simulation.state().positions.topRows(16).col(2).mean() < -0.1);  // it has fallen through the lower one
+  CHECK(parse_checkpoint(pliant_tests::checkpoint_bytes(bytes, 4), "run.pliant").simulation.contact().surfaces);
+  content["source"]["set"] = {Json::binary(
+      {'c', 'o', 'n', 't', 'a', 'c', 't', '.', 's', 'u', 'r', 'f', 'a', 'c', 'e', 's', '=', 't', 'r', 'u', 'e'})};
+  bytes.clear();
+  Json::to_cbor(content, bytes);
+  CHECK(parse_checkpoint(pliant_tests::checkpoint_bytes(bytes, 3), "run.pliant").simulation.contact().surfaces);
 }
 
 TEST_CASE("a mesh that was changed since is named") {

@@ -98,7 +98,7 @@ TEST_CASE("events of colliders do what the calls do") {
                s.add(CapsuleCollider{.from = {0, 0, -0.2}, .to = {1, 0, -0.2}});
              });
   check_same(R"({"step": 5, "contact": {"distance": 0.01}})", 5,
-             [](Simulation& s) { s.set_contact({.distance = 0.01}); });
+             [](Simulation& s) { s.set_contact({.distance = 0.01, .surfaces = false}); });
   check_same(R"({"step": 3, "move": "ball", "offset": [0, 0.1, 0.1]})", 3, [](Simulation& s) {
     s.set_target(id(s, "ball"), {{0.5, 0.6, -0.22}});
   });
@@ -181,7 +181,7 @@ TEST_CASE("reading a scene leaves its colliders where they begin") {
     {"step": 5, "remove": "ball"}, {"step": 6, "add": {"type": "box", "name": "ball"}})");
   CHECK(scene.simulation.colliders().size() == 2);
   CHECK(!scene.simulation.target(id(scene.simulation, "ball")));
-  CHECK(scene.simulation.contact() == ContactSettings{});
+  CHECK(scene.simulation.contact() == ContactSettings{.surfaces = false});
   CHECK(scene.collider_names == std::vector<std::string>{"ball", "plane", "step"});
 }
 

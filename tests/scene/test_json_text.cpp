@@ -31,7 +31,7 @@ std::string json_message(std::string_view text) {
 }
 
 std::string cbor_message(std::string_view content) {
-  const std::string bytes = pliant_tests::checkpoint_bytes(content, 3);
+  const std::string bytes = pliant_tests::checkpoint_bytes(content, 4);
   return message_of([&] { pliant::parse_checkpoint(bytes, "c.pliant"); });
 }
 

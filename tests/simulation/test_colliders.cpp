@@ -133,6 +133,17 @@ TEST_CASE("colliders: a heavy body that puts contact into the factor is taken up
   CHECK(refactorizations > 0);
 }
 
+TEST_CASE("contact: colliders alone are touched until it is set, surfaces from then on") {
+  Simulation simulation = drape({.threads = 1});
+  CHECK(simulation.contact() == ContactSettings{.surfaces = false});
+  simulation.set_contact({.friction = 0.5});
+  CHECK(simulation.contact() == ContactSettings{.friction = 0.5, .surfaces = true});
+  simulation.step();
+  CHECK(simulation.state().contact.let_go.is_known);  // what crosses has been looked for
+  simulation.set_contact({.surfaces = false});
+  CHECK(simulation.contact() == ContactSettings{.surfaces = false});
+}
+
 TEST_CASE("colliders: they come, change, move and go, and a transaction takes all of it back") {
   Simulation simulation = drape({.threads = 1});
   advance_by(simulation, 30);
@@ -150,7 +161,7 @@ TEST_CASE("colliders: they come, change, move and go, and a transaction takes al
   CHECK(simulation.colliders().size() == 4);
   CHECK(simulation.find_collider("floor").has_value());
   CHECK(simulation.options<SphereCollider>(ball)->radius == 0.2);
-  CHECK(simulation.contact() == ContactSettings{});
+  CHECK(simulation.contact() == ContactSettings{.surfaces = false});
   advance_by(simulation, 10);
   advance_by(untouched, 10);
   CHECK(same_state(simulation, untouched));
@@ -176,7 +187,7 @@ TEST_CASE("colliders: after an edit, what was felt in the last step stays, and a
   simulation.step();
   const Wrench felt = simulation.wrench(ball);
   CHECK(felt.force.norm() > 0.1);
-  simulation.set_contact({.friction = 0.1});
+  simulation.set_contact({.friction = 0.1, .surfaces = false});
   CHECK(simulation.evaluate().contact == 0);
   CHECK(simulation.wrench(ball).force == felt.force);
   CHECK(simulation.wrench(ball).torque == felt.torque);
@@ -241,9 +252,9 @@ TEST_CASE("colliders: hostile values end in an error of one line or in finite nu
   CHECK(stays_finite([](Simulation& s) { s.add(PlaneCollider{.velocity = {0, 0, 1e6}}); }));
   CHECK(stays_finite([](Simulation& s) { s.add(PlaneCollider{.angular_velocity = {1e6, 0, 0}}); }));
   CHECK(stays_finite([](Simulation& s) { s.add(PlaneCollider{.surface_velocity = {1e300, 0, 0}}); }));
-  CHECK(stays_finite([](Simulation& s) { s.set_contact({.friction = 1e9}); }));
-  CHECK(stays_finite([](Simulation& s) { s.set_contact({.distance = 10}); }));
-  CHECK(stays_finite([](Simulation& s) { s.set_contact({.distance = 1e-12}); }));
+  CHECK(stays_finite([](Simulation& s) { s.set_contact({.friction = 1e9, .surfaces = false}); }));
+  CHECK(stays_finite([](Simulation& s) { s.set_contact({.distance = 10, .surfaces = false}); }));
+  CHECK(stays_finite([](Simulation& s) { s.set_contact({.distance = 1e-12, .surfaces = false}); }));
 }
 
 TEST_CASE("colliders: energy projection is refused, from either side") {

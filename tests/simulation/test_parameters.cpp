@@ -57,6 +57,9 @@ std::optional<Vec3> set_to_another(Simulation& simulation, const Parameter& para
     case ParameterKind::real:
       others = {{0.97 * now, 0, 0}, {1.03 * now, 0, 0}, {0.5, 0, 0}};
       break;
+    case ParameterKind::flag:
+      others = {{1 - now, 0, 0}};
+      break;
     case ParameterKind::vector:
       others = {parameter.value + Vec3(0.1, -0.2, 0.3)};
       break;
@@ -113,7 +116,38 @@ TEST_CASE("every number, choice and vector of every type is a parameter") {
     CHECK(options_of(simulation, id) == expected.at(type));
     count += expected.at(type).size();
   }
-  CHECK(list_parameters(simulation).size() == count);
+  CHECK(options_of(simulation, ContactOwner{}) == Names{"distance", "friction", "surfaces"});
+  CHECK(list_parameters(simulation).size() == count + 3);
+}
+
+TEST_CASE("how each body touches is a parameter where anything is touched") {
+  Simulation simulation = make();
+  const auto count_of_bodies = [&] {
+    return std::ranges::count_if(list_parameters(simulation), [](const Parameter& each) {
+      return std::holds_alternative<BodyId>(each.handle.owner);
+    });
+  };
+  CHECK(count_of_bodies() == 0);
+  set_parameter(simulation, {ContactOwner{}, "surfaces"}, {1, 0, 0});
+  CHECK(simulation.contact() == ContactSettings{});
+  CHECK(count_of_bodies() == 3 * static_cast<std::ptrdiff_t>(simulation.bodies().size()));
+  const BodyId body{1};
+  CHECK(options_of(simulation, body) == Names{"distance", "friction", "self"});
+  CHECK(parameter(simulation, {body, "self"}).kind == ParameterKind::flag);
+  CHECK(parameter(simulation, {body, "friction"}).value[0] == simulation.contact().friction);
+  CHECK(parameter(simulation, {body, "friction"}).name == simulation.body(body).name);
+  CHECK(simulation.contact(body) == BodyContact{});
+  set_parameter(simulation, {body, "friction"}, {0.7, 0, 0});
+  set_parameter(simulation, {body, "self"}, {0, 0, 0});
+  set_parameter(simulation, {body, "distance"}, {0.004, 0, 0});
+  CHECK(simulation.contact(body) == BodyContact{.distance = 0.004, .friction = 0.7, .self = false});
+  CHECK(simulation.contact(BodyId{0}) == BodyContact{});
+  CHECK(contains(error_of([&] { set_parameter(simulation, {body, "self"}, {0.5, 0, 0}); }), "whole number"));
+  CHECK(contains(error_of([&] { set_parameter(simulation, {body, "friction"}, {-1, 0, 0}); }), "friction: -1 is out"));
+  set_parameter(simulation, {ContactOwner{}, "surfaces"}, {0, 0, 0});
+  CHECK(count_of_bodies() == 0);
+  simulation.add(PlaneCollider{.position = {0, 0, -9}});
+  CHECK(count_of_bodies() > 0);
 }
 
 TEST_CASE("every parameter takes another value, tells it, and the simulation goes on") {

@@ -23,7 +23,7 @@ struct PressedBlock {
     simulation.add(body, TetrahedronStrain{.stiffness = 1e5});
     simulation.add(Gravity{});
     simulation.add(PlaneCollider{.friction = 0.0});
-    simulation.set_contact({.distance = 0.02});
+    simulation.set_contact({.distance = 0.02, .surfaces = false});
     State state = simulation.state();
     state.velocities.col(2).setConstant(-0.5);
     state.contact.stiffening.assign(state.masses.size(), 50);

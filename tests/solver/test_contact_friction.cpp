@@ -182,7 +182,7 @@ TEST_CASE("friction: a stiff box in ten iterations slips off a turntable at ω²
     }
     const BodyId body = simulation.add_body(std::move(box), Mass::density(1000), {.velocities = velocities});
     simulation.add(body, TetrahedronStrain{.stiffness = 1e6});
-    simulation.set_contact({.distance = 0.02});
+    simulation.set_contact({.distance = 0.02, .surfaces = false});
     simulation.add(Gravity{});
     const ColliderId table = simulation.add(PlaneCollider{.angular_velocity = {0, 0, omega}, .friction = friction});
     const auto distance = [&] { return mean(simulation.state().positions).head<2>().norm(); };

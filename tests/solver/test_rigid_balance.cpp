@@ -183,7 +183,7 @@ TEST_CASE("rigid balance: a vertex, a spring and a row of springs, which need no
   for (const Index count : {1, 2, 7}) {
     CAPTURE(count);
     Simulation simulation(ten_iterations());
-    simulation.set_contact({.distance = r});
+    simulation.set_contact({.distance = r, .surfaces = false});
     const BodyId body = add_row(simulation, count, slope, r);
     simulation.add(Gravity{});
     simulation.add(PlaneCollider{.normal = slope.normal, .friction = 0.3});

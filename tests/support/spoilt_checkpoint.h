@@ -21,7 +21,7 @@ inline std::string refusal_of_contact(const nlohmann::json& content, const Conta
   std::string bytes;
   nlohmann::json::to_cbor(changed, bytes);
   try {
-    pliant::parse_checkpoint(checkpoint_bytes(bytes, 3), "run.pliant", {});
+    pliant::parse_checkpoint(checkpoint_bytes(bytes, 4), "run.pliant", {});
   } catch (const pliant::Error& error) {
     return error.what();
   }

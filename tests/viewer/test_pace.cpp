@@ -72,11 +72,12 @@ TEST_CASE("without a limit every step is due") {
 TEST_CASE("statistics cover the last second, and fade when nothing happens") {
   FrameStatistics statistics;
   CHECK(statistics.means(at(0)).rate == 0);
-  for (int i = 0; i <= 300; ++i) statistics.add({at(0.01 * i), 0.02, 0.001, 0.002, 0, 0.004});
+  for (int i = 0; i <= 300; ++i) statistics.add({at(0.01 * i), 0.02, 0.001, 0.002, 0, 0.0005, 0.004});
   const FrameStatistics::Means means = statistics.means(at(3));
   CHECK(means.rate == doctest::Approx(100));
   CHECK(means.speed == doctest::Approx(2));
   CHECK(means.local == doctest::Approx(0.001));
+  CHECK(means.contact == doctest::Approx(0.0005));
   CHECK(means.total == doctest::Approx(0.004));
   CHECK(statistics.means(at(103)).rate < 2);
 }

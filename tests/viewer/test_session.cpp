@@ -237,6 +237,22 @@ TEST_CASE("a restart that fails leaves the scene as it is") {
   session.step();
 }
 
+TEST_CASE("what was set of contact and of a body's own is set again after a restart, though the scene has none") {
+  Session session = make_session();
+  CHECK(find(session.sliders(), "contact.surfaces").value[0] == 0);
+  session.set("contact.surfaces", {1, 0, 0});
+  session.set("contact:sheet.friction", {0.8, 0, 0});
+  session.set("contact:sheet.self", {0, 0, 0});
+  const pliant::BodyContact expected{.friction = 0.8, .self = false};
+  CHECK(session.simulation().contact(pliant::BodyId{0}) == expected);
+  session.restart(true);
+  CHECK(session.simulation().contact().surfaces);
+  CHECK(session.simulation().contact(pliant::BodyId{0}) == expected);
+  session.restart(false);
+  CHECK_FALSE(session.simulation().contact().surfaces);
+  CHECK(session.simulation().contact(pliant::BodyId{0}) == pliant::BodyContact{});
+}
+
 TEST_CASE("parameters have the names, units and ranges of their types, and refuse what these refuse") {
   Session session = make_session();
   session.grab(pull_at_middle(session, 100));

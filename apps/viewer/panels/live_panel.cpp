@@ -9,10 +9,14 @@
 namespace pliant_viewer {
 namespace {
 
-/// "1.23 ms", with as many digits as are of use.
-std::string milliseconds(double seconds) {
+/// In milliseconds, "1.23", with as many digits as are of use.
+std::string number_of_milliseconds(double seconds) {
   const double ms = 1e3 * seconds;
-  return fmt::format("{:.{}f} ms", ms, ms < 1 ? 3 : ms < 10 ? 2 : ms < 100 ? 1 : 0);
+  return fmt::format("{:.{}f}", ms, ms < 1 ? 3 : ms < 10 ? 2 : ms < 100 ? 1 : 0);
+}
+
+std::string milliseconds(double seconds) {
+  return number_of_milliseconds(seconds) + " ms";
 }
 
 void row(const char* label, const std::string& value, const std::string& help = {}) {
@@ -55,10 +59,13 @@ void LiveSource::draw_pace() {
       "global: triangular solves\nfactor, after changes of stiffness, pins, time step: {:.3g}\nforces, prediction and "
       "others: {:.3g}",
       1e3 * statistics.factor, 1e3 * rest);
-  const std::string phases = statistics.total > 0 ? fmt::format("local {:.3g}, global {:.3g} ms",
-                                                                1e3 * statistics.local, 1e3 * statistics.global)
-                                                  : "-";
+  const std::string phases = statistics.total > 0
+                                 ? fmt::format("local {}, global {}", number_of_milliseconds(statistics.local),
+                                               milliseconds(statistics.global))
+                                 : "-";
   row("phases", phases, help);
+  row("contact", statistics.contact > 0 ? milliseconds(statistics.contact) + " of it" : "none",
+      "what contact takes in these phases; without `surfaces`, below, bodies meet colliders alone, which is faster");
   row_label("speed", "simulated seconds in a second, where the machine can; Ctrl + click: type a number");
   double speed = speed_;
   constexpr double slowest = 0.01, fastest = 10;

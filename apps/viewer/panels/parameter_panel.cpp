@@ -48,6 +48,14 @@ std::array<double, 2> range_of(const Parameter& parameter) {
   return {value / decades, value * decades};
 }
 
+using SliderPlace = std::span<const Slider>::iterator;
+
+/// Behind those that have the same owner as the first.
+SliderPlace find_end_of_owner(SliderPlace begin, SliderPlace end) {
+  const pliant::ParameterOwner& owner = begin->parameter.handle.owner;
+  return std::find_if(begin, end, [&](const Slider& other) { return other.parameter.handle.owner != owner; });
+}
+
 std::string help_of(const Parameter& parameter) {
   const bool is_typed = parameter.kind == ParameterKind::real || parameter.kind == ParameterKind::integer;
   return parameter.doc + (is_typed ? "\nCtrl + click: type a number" : "");
@@ -84,8 +92,11 @@ void ParameterPanel::draw(const Snapshot& snapshot, LiveScene& live) {
   draw_all("Solver", those_of(0), true);
   draw_all("Constraints", groups, groups.size() <= 4 * many_groups);
   draw_all("Forces", those_of(2), true);
+  if (section_header("Contact")) {
+    draw_owners(those_of(4), live);
+    draw_body_contacts(those_of(5), live);
+  }
   if (!snapshot.wrenches.empty() && section_header("Colliders")) draw_colliders(those_of(3), snapshot, live);
-  draw_all("Contact", those_of(4), true);
 }
 
 /// Of each collider what it feels, and its options, which fold.
@@ -108,11 +119,25 @@ void ParameterPanel::draw_colliders(std::span<const Slider> sliders, const Snaps
   }
 }
 
+/// Of each body how it touches, which folds.
+void ParameterPanel::draw_body_contacts(std::span<const Slider> sliders, LiveScene& live) {
+  for (auto begin = sliders.begin(); begin != sliders.end();) {
+    const auto end = find_end_of_owner(begin, sliders.end());
+    ImGui::PushID(begin->key.c_str());
+    if (ImGui::TreeNodeEx("##options", ImGuiTreeNodeFlags_NoTreePushOnOpen, "%s", begin->parameter.name.c_str())) {
+      for (const Slider& slider : std::span(begin, end)) {
+        draw_row(slider, label_of(slider.parameter.handle.option), help_of(slider.parameter), live);
+      }
+    }
+    ImGui::PopID();
+    begin = end;
+  }
+}
+
 void ParameterPanel::draw_owners(std::span<const Slider> sliders, LiveScene& live) {
   for (auto begin = sliders.begin(); begin != sliders.end();) {
     const pliant::ParameterOwner& owner = begin->parameter.handle.owner;
-    const auto end =
-        std::find_if(begin, sliders.end(), [&](const Slider& other) { return other.parameter.handle.owner != owner; });
+    const auto end = find_end_of_owner(begin, sliders.end());
     ImGui::PushID(begin->key.c_str());
     if (std::holds_alternative<pliant::GroupId>(owner)) {
       draw_group({begin, end}, live);
@@ -192,6 +217,12 @@ void ParameterPanel::draw_row(const Slider& slider, const std::string& label, co
       for (const std::string& choice : parameter.choices) items += label_of(choice) + '\0';
       has_changed = ImGui::Combo(id.c_str(), &chosen, items.c_str());
       value[0] = chosen;
+      break;
+    }
+    case ParameterKind::flag: {
+      bool flag = value[0] != 0;
+      has_changed = ImGui::Checkbox(id.c_str(), &flag);
+      value[0] = flag ? 1 : 0;
       break;
     }
     case ParameterKind::vector:

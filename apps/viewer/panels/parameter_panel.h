@@ -26,6 +26,7 @@ class ParameterPanel {
   void draw_group(std::span<const Slider> group, LiveScene& live);
   void draw_options(std::span<const Slider> options, LiveScene& live);
   void draw_colliders(std::span<const Slider> sliders, const Snapshot& snapshot, LiveScene& live);
+  void draw_body_contacts(std::span<const Slider> sliders, LiveScene& live);
   void draw_row(const Slider& slider, const std::string& label, const std::string& help, LiveScene& live);
   bool draw_real(const Slider& slider, double& value);
 

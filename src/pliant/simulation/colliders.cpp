@@ -37,8 +37,8 @@ void check_motion(const ColliderMotion& motion, std::string_view where) {
 void Colliders::check_projection(const SolverSettings& settings, bool has_colliders) {
   if (!has_colliders || !(settings.energy_projection > 0)) return;
   fail_input(
-      "energy_projection: it does not know the work of contact yet; set it to 0, or remove the colliders and "
-      "contact.surfaces");
+      "energy_projection: it does not know the work of contact yet; set it to 0, or remove the colliders and set "
+      "contact.surfaces to false");
 }
 
 ColliderId Colliders::add_collider(std::shared_ptr<const ColliderShape> shape, const Pose& pose,

@@ -56,8 +56,9 @@ class Colliders {
   void clear_target(ColliderId id);  ///< the next step takes it on with its velocities
   const std::optional<Pose>& target(ColliderId id) const;
 
+  /// What holds now: before the first set_contact() the defaults, with `surfaces` false.
   const ContactSettings& contact() const { return contact_; }
-  /// From the next step on.
+  /// From the next step on. Lets bodies touch each other and themselves, unless `surfaces` is false.
   void set_contact(const ContactSettings& settings);
 
   const std::vector<Body>& bodies() const { return bodies_; }
@@ -78,7 +79,7 @@ class Colliders {
   std::vector<Body> bodies_;
   std::vector<std::vector<Triangle>> surface_triangles_;  // of the bodies, where they touch each other
   std::map<ColliderId, ColliderRecord> colliders_;
-  ContactSettings contact_;
+  ContactSettings contact_{.surfaces = false};
   Index next_collider_ = 0;
   std::vector<Real> edge_distances_;  // contact distances of the first bodies, by their edges
   bool colliders_changed_ = true;

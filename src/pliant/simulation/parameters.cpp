@@ -36,6 +36,7 @@ struct ParameterLister {
   std::optional<Real> factor{};         // of all stiffnesses
   const Points* anchors = nullptr;      // among the options
   std::optional<Vec3> anchor{};         // of the first constraint
+  std::optional<Real> otherwise{};      // what a number is that need not be given
 
   Parameter& add(const OptionInfo& info, ParameterKind kind, const Vec3& value) const {
     return list.emplace_back(Parameter{{owner, std::string(info.name)},
@@ -59,6 +60,12 @@ struct ParameterLister {
     Range& range = add(info, ParameterKind::integer, {static_cast<Real>(number), 0, 0}).range;
     range.min = std::max<Real>(range.min, std::numeric_limits<Index>::min());
     range.max = std::min<Real>(range.max, std::numeric_limits<Index>::max());
+  }
+  void operator()(const OptionInfo& info, const std::optional<Real>& number) const {
+    if (number || otherwise) (*this)(info, number ? *number : *otherwise);
+  }
+  void operator()(const OptionInfo& info, const bool& flag) const {
+    add(info, ParameterKind::flag, {flag ? 1.0 : 0.0, 0, 0}).range = {0, 1};
   }
   void operator()(const OptionInfo& info, const Vec3& vector) const { add(info, ParameterKind::vector, vector); }
   void operator()(const OptionInfo& info, const Values& values) const {
@@ -94,6 +101,12 @@ struct ParameterSetter {
   }
   void operator()(const OptionInfo& info, Index& number) const {
     if (is_meant(info, &number)) number = static_cast<Index>(value[0]);
+  }
+  void operator()(const OptionInfo& info, std::optional<Real>& number) const {
+    if (is_meant(info, &number)) number = value[0];
+  }
+  void operator()(const OptionInfo& info, bool& flag) const {
+    if (is_meant(info, &flag)) flag = value[0] != 0;
   }
   void operator()(const OptionInfo& info, Vec3& vector) const {
     if (is_meant(info, &vector)) vector = value;
@@ -179,6 +192,12 @@ void list_contact(const Simulation& simulation, std::vector<Parameter>& list) {
   ContactSettings::visit(simulation.contact(), ParameterLister{ContactOwner{}, "contact", "contact", list});
 }
 
+void list_body(const Simulation& simulation, BodyId id, std::vector<Parameter>& list) {
+  ParameterLister lister{id, "contact", simulation.body(id).name, list};
+  lister.otherwise = simulation.contact().friction;
+  BodyContact::visit(simulation.contact(id), lister);
+}
+
 /// "triangle_strain: min_stretch: -1 is out of range; give a finite number from 0".
 void check_value(const Parameter& parameter, const Vec3& value) {
   const std::string place = (parameter.type.empty() ? "settings" : parameter.type) + ": " + parameter.handle.option;
@@ -187,7 +206,7 @@ void check_value(const Parameter& parameter, const Vec3& value) {
   for (int i = 0; i < count; ++i) {
     if (const auto error = range_error(info, value[i])) fail_input(place + ": " + *error);
   }
-  if (parameter.kind != ParameterKind::integer && parameter.kind != ParameterKind::choice) return;
+  if (parameter.kind == ParameterKind::real || parameter.kind == ParameterKind::vector) return;
   if (std::floor(value[0]) != value[0]) {
     fail_input(fmt::format("{}: {} is not a whole number; give one from {} to {}", place, value[0], parameter.range.min,
                            parameter.range.max));
@@ -237,6 +256,13 @@ void set_of_contact(Simulation& simulation, const Parameter& parameter, const Ve
   simulation.set_contact(settings);
 }
 
+void set_of_body(Simulation& simulation, BodyId id, const Parameter& parameter, const Vec3& value) {
+  BodyContact contact = simulation.contact(id);
+  const void* changed = nullptr;
+  BodyContact::visit(contact, ParameterSetter{parameter, value, changed});
+  simulation.set_contact(id, contact);
+}
+
 }  // namespace
 
 std::vector<Parameter> list_parameters(const Simulation& simulation) {
@@ -245,7 +271,9 @@ std::vector<Parameter> list_parameters(const Simulation& simulation) {
   for (const auto& [id, group] : simulation.groups()) list_group(simulation, id, list);
   for (const auto& [id, force] : simulation.forces()) list_force(simulation, id, list);
   for (const auto& [id, collider] : simulation.colliders()) list_collider(simulation, id, list);
-  if (simulation.contact().surfaces || !simulation.colliders().empty()) list_contact(simulation, list);
+  list_contact(simulation, list);
+  if (!simulation.contact().surfaces && simulation.colliders().empty()) return list;
+  for (Index i = 0; i < count_of(simulation.bodies()); ++i) list_body(simulation, BodyId{i}, list);
   return list;
 }
 
@@ -259,6 +287,8 @@ std::vector<Parameter> list_parameters(const Simulation& simulation, const Param
     list_collider(simulation, *collider, list);
   } else if (std::holds_alternative<ContactOwner>(owner)) {
     list_contact(simulation, list);
+  } else if (const auto* body = std::get_if<BodyId>(&owner)) {
+    list_body(simulation, *body, list);
   } else {
     list_settings(simulation, list);
   }
@@ -285,6 +315,8 @@ void set_parameter(Simulation& simulation, const ParameterHandle& handle, const 
     set_of_listed<BuiltinColliders>(simulation, *collider, meant, value);
   } else if (std::holds_alternative<ContactOwner>(handle.owner)) {
     set_of_contact(simulation, meant, value);
+  } else if (const auto* body = std::get_if<BodyId>(&handle.owner)) {
+    set_of_body(simulation, *body, meant, value);
   } else {
     set_of_settings(simulation, meant, value);
   }

@@ -9,6 +9,7 @@
 #include "pliant_io/files/crc32.h"
 #include "pliant_io/files/read_file.h"
 #include "pliant_io/scene/detail/json_values.h"
+#include "pliant_io/scene/detail/resolve_scene.h"
 #include "pliant_io/scene/detail/scene_files.h"
 
 namespace pliant {
@@ -343,11 +344,22 @@ State read_state(const Node& node, const State& fresh) {
   return state;
 }
 
+/// Where the scene's contact does not say whether surfaces touch, they did not in those days.
+void keep_old_contact(SceneSource& source) {
+  SceneFiles files;
+  const ResolvedScene resolved = resolve_scene(source, files);
+  const auto contact = Node(resolved.document).find("contact");
+  if (contact && contact->is_object() && !contact->has("surfaces")) {
+    source.overrides.set.emplace_back("contact.surfaces=false");
+  }
+}
+
 /// `folder` is where the checkpoint is; empty: not known.
 Scene restore_scene(std::string_view bytes, std::string_view name, const fs::path& folder,
                     const ResumeOptions& options) {
   const Origin origin{std::string(name)};
-  const Document document(parse_cbor(unseal(bytes, name), name), {&origin});
+  const Unsealed unsealed = unseal(bytes, name);
+  const Document document(parse_cbor(unsealed.content, name), {&origin});
   const Node root(document);
   SceneSource source = read_source(root.require("source"));
   if (options.steps) source.overrides.steps = options.steps;
@@ -356,7 +368,10 @@ Scene restore_scene(std::string_view bytes, std::string_view name, const fs::pat
   const RunMove move = read_move(root, folder);
   const bool has_moved = check_files(files, move);
   if (has_moved) move_folders(source, move);
-  Scene scene = root.require("source").locate([&] { return parse_scene(std::move(source)); });
+  Scene scene = root.require("source").locate([&] {
+    if (unsealed.has_old_contact) keep_old_contact(source);
+    return parse_scene(std::move(source));
+  });
   if (has_moved) check_files_read(files, scene);
 
   Simulation& simulation = scene.simulation;

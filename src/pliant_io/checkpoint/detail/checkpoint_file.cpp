@@ -15,7 +15,8 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "numbers are written as they are in memory");
 
 constexpr std::string_view magic = "PLIANTCP";
-constexpr std::uint32_t format_version = 3;
+constexpr std::uint32_t format_version = 4;
+constexpr std::uint32_t version_of_old_contact = 3;
 constexpr std::size_t version_place = 8;
 constexpr std::size_t checksum_place = 12;
 constexpr std::size_t size_place = 16;
@@ -50,7 +51,7 @@ std::string seal(std::string_view content) {
   return bytes.append(content);
 }
 
-std::string_view unseal(std::string_view bytes, std::string_view name) {
+Unsealed unseal(std::string_view bytes, std::string_view name) {
   const auto fail = [&](std::string_view what) { fail_input(fmt::format("{}: {}", name, what)); };
   if (!bytes.starts_with(magic.substr(0, bytes.size())) || bytes.empty()) {
     fail("is not a checkpoint; give one that `pliant run` wrote, or run the scene from its start");
@@ -68,7 +69,8 @@ std::string_view unseal(std::string_view bytes, std::string_view name) {
         "this checkpoint was written by Pliant 0.1.0, whose format this version no longer reads; resume it with Pliant "
         "0.1.0, or run the scene from its start");
   }
-  if (sound && found_version != format_version) {
+  const bool has_old_contact = found_version == version_of_old_contact;
+  if (sound && found_version != format_version && !has_old_contact) {
     fail(fmt::format(
         "this checkpoint has the format {}, and this program reads {}; resume it with the program that wrote it",
         found_version, format_version));
@@ -77,7 +79,7 @@ std::string_view unseal(std::string_view bytes, std::string_view name) {
     fail(fmt::format("this checkpoint is cut off: it has {} of {} bytes; {}", content.size(), size, remedy));
   }
   if (!sound) fail(fmt::format("this checkpoint is damaged, its checksum does not fit; {}", remedy));
-  return content;
+  return {content, has_old_contact};
 }
 
 }  // namespace pliant

@@ -2,7 +2,8 @@
 // The outside of a checkpoint: what makes a file that was cut, or of which a single byte changed, known as such.
 //
 //     bytes 0-7     "PLIANTCP"
-//     bytes 8-11    version of the format, 3; 1 is that of Pliant 0.1.0, 2 had no contact
+//     bytes 8-11    version of the format, 4; 1 is that of Pliant 0.1.0, 2 had no contact, 3 is still read:
+//                   surfaces touched only where its scene said so
 //     bytes 12-15   CRC-32 of everything behind, and of the version
 //     bytes 16-23   number of bytes behind
 //     bytes 24-     the content: CBOR (RFC 8949)
@@ -16,8 +17,13 @@ namespace pliant {
 /// The bytes of a file with that content.
 std::string seal(std::string_view content);
 
+struct Unsealed {
+  std::string_view content;
+  bool has_old_contact = false;  ///< of format 3: without "surfaces" the scene's contact is with colliders alone
+};
+
 /// The content of a file; `name` is what messages call it.
 /// @throws Error (input): not a checkpoint, of another version, cut or longer than it says, damaged.
-std::string_view unseal(std::string_view bytes, std::string_view name);
+Unsealed unseal(std::string_view bytes, std::string_view name);
 
 }  // namespace pliant

@@ -227,7 +227,7 @@ Timeline::Edit EventReader::read_contact(const Node& value) {
   node_.check_keys(keys("contact", {"body"}));
   if (const auto body = node_.find("body")) return read_body_contact(value, scene_.named_body(*body));
   const SomeSettings<ContactSettings> some(value);
-  scene_.has_later_surfaces |= some.over({}).surfaces;
+  scene_.has_later_surfaces |= some.over(scene_.simulation.contact()).surfaces;
   return [some](Simulation& simulation, Timeline&) { simulation.set_contact(some.over(simulation.contact())); };
 }
 
