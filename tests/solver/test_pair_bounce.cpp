@@ -127,7 +127,7 @@ TEST_CASE("bounce: BDF2 ends with at most a hundredth more" * doctest::skip(!run
         const PairOptions options = bouncing(time_step, iterations, Integrator::bdf2);
         const Bounce result = bounce(make, options);
         const bool is_stretched = iterations == 1 && time_step > 0.05 && make == bounce_sheet;
-        CHECK(result.gain <= (is_stretched ? gain_without_contact(make, options) : 0.01));
+        CHECK(result.gain <= (is_stretched ? 1.5 * gain_without_contact(make, options) : 0.01));
       }
     }
   }
