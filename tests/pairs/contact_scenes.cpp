@@ -8,14 +8,16 @@
 // Exits with 1 when anything crossed.
 #include <algorithm>
 #include <cstdio>
+#include <ctime>
 #include <exception>
+#include <fstream>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "pliant/core/stopwatch.h"
+#include "pliant/collision/crossings.h"
 #include "tests/pairs/masonry_scenes.h"
 #include "tests/pairs/pair_scene.h"
 
@@ -35,6 +37,7 @@ struct Arguments {
   std::vector<std::string> scenes;
   std::string integrator = "implicit_euler";
   std::string share = "1/1";
+  std::string folder;
   Index frames = 0;
   Index every = 0;
   Index piles = 1;
@@ -51,32 +54,48 @@ struct Figures {
   Real smallest_gap = std::numeric_limits<Real>::infinity();
   std::int64_t shortened = 0;
   Index pairs = 0;         // most of a step
+  Real lag = 0;            // largest of a step [m]
   Real momentum_lost = 0;  // sum over all steps [N s]
   Real energy = 0;         // kinetic, elastic and potential at the end, less that of the start [J]
   Real most_energy = 0;    // of a step
-  std::vector<double> seconds;
+  std::vector<double> seconds;  // of the processor
 };
 
 /// How its bodies stand after so many frames, and what the last of them has done.
-void print_standing(const Simulation& simulation, Index frames, Real energy, const StepReport& report) {
+void print_standing(const Simulation& simulation, Index frames, Real energy, double seconds,
+                    const StepReport& report) {
   const Standing now = standing(simulation);
   fmt::print(
       "  frame {:5} highest {:.5f} m sag {:.5f} m sideways {:.6f} m fastest {:.1e} m/s rms {:.1e} m/s energy {:+.2e} J "
-      "lost {:.1e} N s active {:4} shortened {:4} backtracks {:2} factors {} residual {:.1e} N\n",
+      "lag {:.1e} m {:5.0f} ms lost {:.1e} N s active {:4} shortened {:4} backtracks {:2} factors {} residual {:.1e} N\n",
       frames, now.highest, now.sag, now.sideways, now.fastest, rms_speed(simulation), energy,
-      report.contact.momentum_lost.norm(), report.contact.active, report.contact.shortened, report.backtracks,
+      report.contact.lag, 1e3 * seconds, report.contact.momentum_lost.norm(), report.contact.active, report.contact.shortened, report.backtracks,
       report.contact.refactorizations, report.residual);
   std::fflush(stdout);
 }
 
-Figures measure(PairScene& scene, Index frames, Index every) {
+/// Each body in a file of its own, body_frame.obj.
+void write_bodies(const Simulation& simulation, const std::string& folder, Index frame) {
+  for (std::size_t b = 0; b < simulation.bodies().size(); ++b) {
+    const Body& body = simulation.bodies()[b];
+    std::string text;
+    for (Index i = 0; i < body.mesh.vertex_count(); ++i) {
+      const Vec3 x = row(simulation.state().positions, body.first_vertex + i);
+      text += fmt::format("v {:.6f} {:.6f} {:.6f}\n", x.x(), x.y(), x.z());
+    }
+    for (const auto& [p, q, r] : surface_triangles(body.mesh)) text += fmt::format("f {} {} {}\n", p + 1, q + 1, r + 1);
+    std::ofstream(fmt::format("{}/{}_{:04}.obj", folder, b, frame)) << text;
+  }
+}
+
+Figures measure(PairScene& scene, Index frames, Index every, const std::string& folder) {
   Figures figures;
   const Real energy = total_energy(scene.simulation);
   for (Index i = 0; i < frames; ++i) {
-    const Stopwatch watch;
+    const std::clock_t begin = std::clock();
     const StepReport report = scene.step();
     const ContactReport& contact = report.contact;
-    figures.seconds.push_back(watch.seconds());
+    figures.seconds.push_back(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
     ++figures.frames;
     const std::int64_t crossings = count_crossings(scene.simulation);
     figures.crossings += crossings;
@@ -84,10 +103,12 @@ Figures measure(PairScene& scene, Index frames, Index every) {
     figures.smallest_gap = std::min(figures.smallest_gap, contact.smallest_gap);
     figures.shortened += contact.shortened;
     figures.pairs = std::max(figures.pairs, contact.pairs);
+    figures.lag = std::max(figures.lag, contact.lag);
     figures.energy = total_energy(scene.simulation) - energy;
     figures.most_energy = std::max(figures.most_energy, figures.energy);
     figures.momentum_lost += contact.momentum_lost.norm();
-    if (every > 0 && (i + 1) % every == 0) print_standing(scene.simulation, i + 1, figures.energy, report);
+    if (!folder.empty() && (i + 1) % std::max<Index>(1, every) == 0) write_bodies(scene.simulation, folder, i + 1);
+    if (every > 0 && (i + 1) % every == 0) print_standing(scene.simulation, i + 1, figures.energy, figures.seconds.back(), report);
   }
   return figures;
 }
@@ -100,18 +121,18 @@ double median(std::vector<double> values) {
 }
 
 /// Runs it and prints its line. Returns whether nothing crossed.
-bool run(const Run& each, Index frames, Index every) {
+bool run(const Run& each, Index frames, Index every, const std::string& folder) {
   const std::string title = each.what.empty() ? each.scene : each.scene + ", " + each.what;
   try {
     PairScene scene = make_pair_scene(each.scene, each.options);
     const bool begins_apart = count_crossings(scene.simulation) == 0;
-    const Figures figures = measure(scene, frames > 0 ? frames : scene.frames(), every);
+    const Figures figures = measure(scene, frames > 0 ? frames : scene.frames(), every, folder);
     fmt::print(
         "{:36} {:6} vertices {:5} frames {:6} crossings in {:4} gap {:8.2e} m shortened {:8} pairs {:7} "
-        "{:8.2f} ms rms {:.1e} m/s lost {:.1e} N s energy {:+.1e} J, at most {:+.1e} J{}\n",
+        "{:8.2f} ms, at most {:6.0f} lag {:.1e} m rms {:.1e} m/s lost {:.1e} N s energy {:+.1e} J, at most {:+.1e} J{}\n",
         title, scene.simulation.state().vertex_count(), figures.frames, figures.crossings, figures.frames_crossed,
         figures.smallest_gap, figures.shortened, figures.pairs, 1e3 * median(figures.seconds),
-        rms_speed(scene.simulation), figures.momentum_lost, figures.energy, figures.most_energy,
+        1e3 * *std::max_element(figures.seconds.begin(), figures.seconds.end()), figures.lag, rms_speed(scene.simulation), figures.momentum_lost, figures.energy, figures.most_energy,
         begins_apart ? "" : " BEGINS CROSSED");
     std::fflush(stdout);
     return begins_apart && figures.crossings == 0;
@@ -182,6 +203,8 @@ void read(int argc, char** argv, Arguments& to, CLI::App& app) {
   app.add_option("--frames", to.frames, "steps; 0: what the scene takes")->check(CLI::Range(0, 100'000'000));
   app.add_option("--every", to.every, "print how bodies stand each so many steps; 0: not")
       ->check(CLI::Range(0, 100'000'000));
+  app.add_option("--turn", to.options.turn, "in which a figure turns once about itself [s]")->check(CLI::PositiveNumber);
+  app.add_option("--write", to.folder, "a folder for the bodies as OBJ files, of the steps of --every");
   app.add_option("--seed", to.options.seed, "of what is drawn by chance");
   app.add_option("--piles", to.piles, "so many piles, each of another seed")->check(CLI::Range(1, 1'000'000));
   app.add_option("--share", to.share, "i/n: the i-th of n parts of the runs");
@@ -214,7 +237,7 @@ int run_program(const Arguments& arguments) {
     if (arguments.is_list) {
       fmt::print("{}{}{}\n", each.scene, each.what.empty() ? "" : ", ", each.what);
     } else {
-      is_clean &= run(each, arguments.frames, arguments.every);
+      is_clean &= run(each, arguments.frames, arguments.every, arguments.folder);
     }
   }
   return is_clean ? 0 : 1;

@@ -18,6 +18,7 @@ struct PairOptions {
   pliant::Real speed = 0;           ///< what falls begins downward with it [m/s]
   pliant::Real drag = 0;            ///< [N/m]: a vertex of the last body is dragged about; 0: none is
   std::uint64_t seed = 1;           ///< of the scenes that are drawn by chance
+  pliant::Real turn = 1.2;          ///< in which a figure turns once about itself [s]
 };
 
 struct PairScene {
@@ -39,7 +40,7 @@ std::span<const PairSceneEntry> pair_scenes();
 /// Throws Error(input) on a name that there is not.
 PairScene make_pair_scene(std::string_view name, const PairOptions& options);
 
-/// Crossings of all surfaces and ropes of a simulation, by the exact checker.
+/// Crossings of all surfaces and ropes of a simulation, by the exact checker, but those of what is pinned with itself.
 std::int64_t count_crossings(const pliant::Simulation& simulation);
 /// Those of which a vertex of the edge and one of the triangle have not been let go.
 std::int64_t count_unknown_crossings(const pliant::Simulation& simulation);

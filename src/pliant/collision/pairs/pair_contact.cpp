@@ -27,6 +27,7 @@ void PairContact::set_surface(Surface surface, const Positions& rest, SurfaceFri
   radii_ = std::move(radii);
   list_.set_surface(*surface_, rest, radii_);
   tangles_.set_surface(*surface_);
+  common_.set_surface(*surface_);
 }
 
 void PairContact::clear() {
@@ -80,14 +81,25 @@ void PairContact::begin_substep(const ContactStep& step, const ContactState& sta
   pinned_.clear();
   std::ranges::copy_if(surface_->vertices, std::back_inserter(pinned_), [&](Index v) { return is_pinned(v); });
   targets_ = q;
+  go_along(q, threads);
   has_pushed_ahead_ = false;
   push_ahead(q, threads);
   whole_ = q;
-  is_shortened_ = shorten(begin_, q, threads);
+  is_shortened_ = shorten(start_, q, threads);
+}
+
+/// Takes what a pinned body takes along to where the first way begins.
+void PairContact::go_along(const Positions& q, ThreadPool& threads) {
+  start_ = begin_;
+  const CommonMotions::Input input{begin_, q, pinned_, step_->is_pinned, radii_};
+  if (!common_.may_help(input)) return;
+  list_.update(begin_, threads);
+  if (common_.find(input, list_.near(), start_)) list_.take_along(start_);
 }
 
 void PairContact::begin_at(const Positions& q, std::span<const char> has_load, ThreadPool& threads) {
   has_let_go_ = false;
+  list_.list_anew();
   list(q, threads);
   for (NearPair& each : near_) {
     each.push(q, begin_);
@@ -101,11 +113,11 @@ void PairContact::begin_at(const Positions& q, std::span<const char> has_load, T
 void PairContact::push_ahead(Positions& q, ThreadPool& threads) {
   constexpr int sweeps = 3;
   Real longest = 0;
-  for (const Index v : pinned_) longest = std::max(longest, (targets_.row(v) - begin_.row(v)).norm());
+  for (const Index v : pinned_) longest = std::max(longest, (targets_.row(v) - start_.row(v)).norm());
   if (!(longest > 0)) return;
   list_.forget_before();
-  list_.begin_way(begin_, q);
-  const PairList::OnTheWay& found = list_.on_the_way(begin_, q, threads);
+  list_.begin_way(start_, q);
+  const PairList::OnTheWay& found = list_.on_the_way(start_, q, threads);
   bool has_pushed = true;
   for (int i = 0; i < sweeps && has_pushed; ++i) {
     has_pushed_ahead_ |= i > 0;
@@ -127,8 +139,8 @@ void PairContact::push_ahead(Positions& q, ThreadPool& threads) {
 /// Pushes one side of a pair along the normal, where it would be met by the other one, whose way is at most that long.
 /// Returns whether it has.
 bool PairContact::push_ahead(const Pair& pair, std::span<const Index> side, Real longest, Positions& q) {
-  const Gap gap = measure(begin_, pair);
-  const auto way = [&](Index v) { return Vec3(row(q, v) - row(begin_, v)); };
+  const Gap gap = measure(start_, pair);
+  const auto way = [&](Index v) { return Vec3(row(q, v) - row(start_, v)); };
   Vec3 relative = Vec3::Zero();
   for (std::size_t j = 0; j < 4; ++j) relative += gap.weights[j] * way(pair.vertices[j]);
   const Real closing = -gap.normal.dot(relative);
@@ -140,7 +152,7 @@ bool PairContact::push_ahead(const Pair& pair, std::span<const Index> side, Real
   Pair there = pair;
   for (Index j = 0; j < 4; ++j) {
     const Index v = pair.vertices[at(j)];
-    met_.row(j) = (row(begin_, v) + share * way(v)).transpose();
+    met_.row(j) = (row(start_, v) + share * way(v)).transpose();
     there.vertices[at(j)] = j;
   }
   if (measure(met_, there).distance > radius) return false;
@@ -165,17 +177,17 @@ bool PairContact::shorten_components(std::span<const Index> component_of_vertex,
     for (const Index v : surface_->vertices) {
       if (is_pinned(v) || (row(q, v).array() == row(wish_, v).array()).all()) continue;
       const auto component = at(component_of_vertex[at(v)]);
-      const Vec3 way = row(wish_, v) - row(begin_, v);
-      const Real gone = std::max<Real>(0, way.dot(row(q, v) - row(begin_, v)) / way.squaredNorm());
+      const Vec3 way = row(wish_, v) - row(start_, v);
+      const Real gone = std::max<Real>(0, way.dot(row(q, v) - row(start_, v)) / way.squaredNorm());
       shares_[component] = std::min(shares_[component], trial == 0 ? gone : 0);
     }
     if (shares_ == shares_before_) return true;
     for (Index v = 0; v < count; ++v) {
       const Real share = is_pinned(v) ? 1 : shares_[at(component_of_vertex[at(v)])];
       q.row(v) = whole_.row(v);
-      if (share < 1) q.row(v) = begin_.row(v) + share * (whole_.row(v) - begin_.row(v));
+      if (share < 1) q.row(v) = start_.row(v) + share * (whole_.row(v) - start_.row(v));
     }
-    is_shortened = shorten(begin_, q, threads);
+    is_shortened = shorten(start_, q, threads);
   }
   return true;
 }

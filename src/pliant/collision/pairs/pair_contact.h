@@ -15,6 +15,7 @@
 // All vertices are in the order of the solver; pairs are numbered in that of the simulation.
 #include "pliant/collision/contact/body_contact.h"
 #include "pliant/collision/contact/contact.h"
+#include "pliant/collision/pairs/common_motion.h"
 #include "pliant/collision/pairs/held_up_vertices.h"
 #include "pliant/collision/pairs/near_pair.h"
 #include "pliant/collision/pairs/pair_weights.h"
@@ -87,6 +88,7 @@ class PairContact {
   Index number_of(Index vertex) const { return step_->vertices.empty() ? vertex : step_->vertices[at(vertex)]; }
   void begin_exceptions(const ContactState& state, ThreadPool& threads);
   void begin_to_touch(ThreadPool& threads);
+  void go_along(const Positions& q, ThreadPool& threads);
   void push_ahead(Positions& q, ThreadPool& threads);
   bool push_ahead(const Pair& pair, std::span<const Index> side, Real longest, Positions& q);
   bool shorten(const Positions& from, Positions& q, ThreadPool& threads);
@@ -107,6 +109,8 @@ class PairContact {
 
   std::optional<ContactStep> step_;
   Positions begin_;                 // qₙ, of which forces are still asked when the state has gone on
+  Positions start_;                 // where the first way begins: there, or where pinned bodies take things along
+  CommonMotions common_;
   std::vector<Real> stiffening_;    // κ, in the solver's order
   std::vector<PairMemory> memory_;  // of the step before
   std::vector<Index> pinned_;       // vertices of the surface

@@ -25,6 +25,10 @@ class PairList {
   /// A substep begins. What is let go is not listed. Both must stay; changed_exceptions() is to be told of changes.
   void begin(std::span<const char> is_pinned, const LetGo& let_go, const ReducedDistances& reduced);
   void changed_exceptions() { is_listed_ = is_of_before_ = false; }
+  /// Near pairs are at q now, as far apart as they were.
+  void take_along(const Positions& q) { reference_ = q; }
+  /// At the next update, whatever is listed.
+  void list_anew() { is_listed_ = false; }
   /// The first way is asked for by a search.
   void forget_before() { is_of_before_ = false; }
 
