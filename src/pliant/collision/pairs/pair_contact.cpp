@@ -13,6 +13,9 @@ namespace {
 constexpr Real least_gap_apart = 1e-6;
 /// Of r: how far ahead of a pinned surface what it would run into begins.
 constexpr Real kept_ahead = 0.5;
+/// Of r: how far pinned vertices go at once as a substep begins, unless they would need more parts.
+constexpr Real longest_part = 6;
+constexpr Real most_parts = 16;
 
 }  // namespace
 
@@ -82,10 +85,28 @@ void PairContact::begin_substep(const ContactStep& step, const ContactState& sta
   std::ranges::copy_if(surface_->vertices, std::back_inserter(pinned_), [&](Index v) { return is_pinned(v); });
   targets_ = q;
   go_along(q, threads);
-  has_pushed_ahead_ = false;
-  push_ahead(q, threads);
-  whole_ = q;
-  is_shortened_ = shorten(start_, q, threads);
+  begin_ways(q, threads);
+}
+
+/// Pinned vertices that have far to go get there in parts, lest they be stopped by what each part pushes ahead.
+void PairContact::begin_ways(Positions& q, ThreadPool& threads) {
+  Real longest = 0, share = 0;
+  for (const Index v : pinned_) {
+    const Real way = (targets_.row(v) - start_.row(v)).norm();
+    longest = std::max(longest, way);
+    share = std::max(share, way / (longest_part * radii_[at(v)]));
+  }
+  const auto parts = static_cast<Index>(std::clamp<Real>(std::ceil(share), 1, most_parts));
+  has_pushed_ahead_ = parts > 1;
+  is_shortened_ = false;
+  aims_ = q;
+  for (Index left = parts; left > 0; --left) {
+    if (parts > 1) q = left > 1 ? Positions(start_ + (aims_ - start_) / left) : aims_;
+    if (longest > 0) push_ahead(2 * longest, q, threads);
+    whole_ = q;
+    is_shortened_ |= shorten(start_, q, threads);
+    if (left > 1) start_ = q;
+  }
 }
 
 /// Takes what a pinned body takes along to where the first way begins.
@@ -109,12 +130,9 @@ void PairContact::begin_at(const Positions& q, std::span<const char> has_load, T
 }
 
 /// What pinned surfaces would run into begins ahead of them, so that they need not wait until the iterations have moved
-/// it there. Between pinned surfaces that close there may be no room; nothing is pushed farther than twice their way.
-void PairContact::push_ahead(Positions& q, ThreadPool& threads) {
+/// it there. Between pinned surfaces that close there may be no room; nothing is pushed farther in all than that.
+void PairContact::push_ahead(Real farthest, Positions& q, ThreadPool& threads) {
   constexpr int sweeps = 3;
-  Real longest = 0;
-  for (const Index v : pinned_) longest = std::max(longest, (targets_.row(v) - start_.row(v)).norm());
-  if (!(longest > 0)) return;
   list_.forget_before();
   list_.begin_way(start_, q);
   const PairList::OnTheWay& found = list_.on_the_way(start_, q, threads);
@@ -128,17 +146,16 @@ void PairContact::push_ahead(Positions& q, ThreadPool& threads) {
       const std::span second = std::span(pair.vertices).subspan(begin_of_second);
       const auto pinned = [&](Index v) { return is_pinned(v); };
       if (std::ranges::all_of(second, pinned) && std::ranges::none_of(first, pinned)) {
-        has_pushed |= push_ahead(pair, first, longest, q);
+        has_pushed |= push_ahead(pair, first, farthest, q);
       } else if (std::ranges::all_of(first, pinned) && std::ranges::none_of(second, pinned)) {
-        has_pushed |= push_ahead(pair, second, longest, q);
+        has_pushed |= push_ahead(pair, second, farthest, q);
       }
     }
   }
 }
 
-/// Pushes one side of a pair along the normal, where it would be met by the other one, whose way is at most that long.
-/// Returns whether it has.
-bool PairContact::push_ahead(const Pair& pair, std::span<const Index> side, Real longest, Positions& q) {
+/// Pushes one side of a pair along the normal, where it would be met by the other one. Returns whether it has.
+bool PairContact::push_ahead(const Pair& pair, std::span<const Index> side, Real farthest, Positions& q) {
   const Gap gap = measure(start_, pair);
   const auto way = [&](Index v) { return Vec3(row(q, v) - row(start_, v)); };
   Vec3 relative = Vec3::Zero();
@@ -157,10 +174,12 @@ bool PairContact::push_ahead(const Pair& pair, std::span<const Index> side, Real
   }
   if (measure(met_, there).distance > radius) return false;
   const Vec3 push = (side.data() == pair.vertices.data() ? too_far : -too_far) * gap.normal;
-  const auto is_too_far = [&](Index v) { return (row(q, v) + push - row(targets_, v)).norm() > 2 * longest; };
+  const auto is_too_far = [&](Index v) { return (row(aims_, v) + push - row(targets_, v)).norm() > farthest; };
   if (std::ranges::any_of(side, is_too_far)) return false;
   for (std::size_t j = 0; j < side.size(); ++j) {
-    if (j == 0 || side[j] != side[j - 1]) q.row(side[j]) += push.transpose();
+    if (j > 0 && side[j] == side[j - 1]) continue;
+    q.row(side[j]) += push.transpose();
+    aims_.row(side[j]) += push.transpose();
   }
   return true;
 }
@@ -310,10 +329,10 @@ bool PairContact::shorten(const Positions& from, Positions& q, ThreadPool& threa
   return is_shortened;
 }
 
-/// What slides along a plane may come to where nothing was searched for. Where vertices do so again and again they are
-/// held back on their straight ways.
+/// What slides along a plane may come to where nothing was searched for. Then that is searched too; what slides farther
+/// the next time stays within it.
 bool PairContact::shorten_way(const Positions& from, Positions& q, ThreadPool& threads) {
-  constexpr int most_searches = 11;
+  constexpr int free_searches = 2;
   list_.begin_way(from, q);
   if (list_.on_the_way(from, q, threads).pairs.empty()) return false;
   wish_ = q;
@@ -321,16 +340,15 @@ bool PairContact::shorten_way(const Positions& from, Positions& q, ThreadPool& t
     const PairList::OnTheWay& found = i == 0 ? list_.last_on_the_way() : list_.on_the_way(from, wish_, threads);
     q = wish_;
     if (found.pairs.empty()) return false;
-    const bool slides = i + 1 < most_searches;
     const PlanesInput input{.begin = from,
                             .surface = *surface_,
                             .pairs = found.pairs,
                             .distances = found.distances,
                             .radii = radii_,
-                            .slides = slides};
+                            .within = i < free_searches ? nullptr : list_.boxes()};
     const Shortened done = planes_.shorten(input, q, threads);
     if (done.vertices == 0) return false;
-    if (!list_.covers(from, wish_, q) && slides) continue;
+    if (!list_.covers(from, wish_, q)) continue;
     report_.shortened += done.vertices;
     return true;
   }

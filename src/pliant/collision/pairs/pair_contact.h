@@ -89,8 +89,9 @@ class PairContact {
   void begin_exceptions(const ContactState& state, ThreadPool& threads);
   void begin_to_touch(ThreadPool& threads);
   void go_along(const Positions& q, ThreadPool& threads);
-  void push_ahead(Positions& q, ThreadPool& threads);
-  bool push_ahead(const Pair& pair, std::span<const Index> side, Real longest, Positions& q);
+  void begin_ways(Positions& q, ThreadPool& threads);
+  void push_ahead(Real farthest, Positions& q, ThreadPool& threads);
+  bool push_ahead(const Pair& pair, std::span<const Index> side, Real farthest, Positions& q);
   bool shorten(const Positions& from, Positions& q, ThreadPool& threads);
   bool shorten_way(const Positions& from, Positions& q, ThreadPool& threads);
   void list(const Positions& q, ThreadPool& threads);
@@ -109,7 +110,8 @@ class PairContact {
 
   std::optional<ContactStep> step_;
   Positions begin_;                 // qₙ, of which forces are still asked when the state has gone on
-  Positions start_;                 // where the first way begins: there, or where pinned bodies take things along
+  Positions start_;                 // where the last part of the first way begins
+  Positions aims_;                  // where it is to lead, with what was pushed ahead
   CommonMotions common_;
   std::vector<Real> stiffening_;    // κ, in the solver's order
   std::vector<PairMemory> memory_;  // of the step before
