@@ -87,7 +87,7 @@ struct Figures {
 };
 
 /// How its bodies stand after so many frames, and what the last of them has done.
-void print_standing(const Simulation& simulation, Index frames, Real energy, const StepReport& report) {
+void print_standing(const Simulation& simulation, Index frames, Real energy, double seconds, const StepReport& report) {
   const Standing now = standing(simulation);
   fmt::print(
       "  frame {:5} highest {:.5f} m sag {:.5f} m sideways {:.6f} m fastest {:.1e} m/s rms {:.1e} m/s energy {:+.2e} J "
@@ -273,6 +273,8 @@ void read(int argc, char** argv, Arguments& to, CLI::App& app) {
   app.add_option("--frames", to.frames, "steps; 0: what the scene takes")->check(CLI::Range(0, 100'000'000));
   app.add_option("--every", to.every, "print how bodies stand each so many steps; 0: not")
       ->check(CLI::Range(0, 100'000'000));
+  app.add_option("--turn", to.options.turn, "in which a figure turns once about itself [s]")
+      ->check(CLI::PositiveNumber);
   app.add_option("--slow", to.slow, "print steps that take more processor time than that [s]; 0: none")
       ->check(CLI::NonNegativeNumber);
   app.add_option("--seed", to.options.seed, "of what is drawn by chance");

@@ -12,6 +12,7 @@
 #include "tests/pairs/body_scenes.h"
 #include "tests/pairs/bounce_scenes.h"
 #include "tests/pairs/cloth_scenes.h"
+#include "tests/pairs/figure_scenes.h"
 #include "tests/pairs/masonry_scenes.h"
 
 namespace pliant_tests {
@@ -49,7 +50,12 @@ std::span<const PairSceneEntry> pair_scenes() {
       PairSceneEntry{"bounce_sheet", "a sheet falls on one whose border is pinned, 1 s", bounce_sheet},
       PairSceneEntry{"bounce_ball", "a ball falls on a sheet whose border is pinned, 1 s", bounce_ball},
       PairSceneEntry{"tower", "20 boxes on each other, 5 s; with --friction 0.6 they stand", tower_of_20},
-      PairSceneEntry{"arch", "11 wedges, 5 s; they stand with --friction 0.6 and fall with 0.2", arch_of_11}};
+      PairSceneEntry{"arch", "11 wedges, 5 s; they stand with --friction 0.6 and fall with 0.2", arch_of_11},
+      PairSceneEntry{"shirt", "a figure in a shirt walks and whirls, 10 s", shirt},
+      PairSceneEntry{"tshirt", "the same in the shirt of the shared meshes, where they are, 10 s", tshirt},
+      PairSceneEntry{"ball_and_curtain", "a ball is driven into a curtain at 5 m/s, or at the speed, 1 s",
+                     ball_and_curtain},
+      PairSceneEntry{"sleeve", "a sleeve on an arm that turns round, 3 s", sleeve}};
   return entries;
 }
 

@@ -18,6 +18,7 @@ struct PairOptions {
   pliant::Real speed = 0;           ///< what falls begins downward with it [m/s]
   pliant::Real drag = 0;            ///< [N/m]: a vertex of the last body is dragged about; 0: none is
   std::uint64_t seed = 1;           ///< of the scenes that are drawn by chance
+  pliant::Real turn = 1.2;          ///< in which a figure turns once about itself [s]
 };
 
 struct PairScene {

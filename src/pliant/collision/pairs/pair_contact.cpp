@@ -15,6 +15,9 @@ namespace {
 constexpr Real least_gap_apart = 1e-6;
 /// Of r: how far ahead of a pinned surface what it would run into begins.
 constexpr Real kept_ahead = 0.5;
+/// Of r: how far pinned vertices go at once as a substep begins, unless they would need more parts.
+constexpr Real longest_part = 6;
+constexpr Real most_parts = 16;
 
 }  // namespace
 
@@ -29,6 +32,7 @@ void PairContact::set_surface(Surface surface, const Positions& rest, SurfaceFri
   radii_ = std::move(radii);
   list_.set_surface(*surface_, rest, radii_);
   tangles_.set_surface(*surface_);
+  common_.set_surface(*surface_);
 }
 
 void PairContact::clear() {
@@ -70,14 +74,43 @@ void PairContact::begin_substep(const ContactStep& step, const ContactState& sta
   pinned_.clear();
   std::ranges::copy_if(surface_->vertices, std::back_inserter(pinned_), [&](Index v) { return is_pinned(v); });
   targets_ = q;
-  has_pushed_ahead_ = false;
-  push_ahead(q, threads);
-  whole_ = q;
-  is_shortened_ = shorten(begin_, q, threads);
+  go_along(q, threads);
+  begin_ways(q, threads);
+}
+
+/// Pinned vertices that have far to go get there in parts, lest they be stopped by what each part pushes ahead.
+void PairContact::begin_ways(Positions& q, ThreadPool& threads) {
+  Real longest = 0, share = 0;
+  for (const Index v : pinned_) {
+    const Real way = (targets_.row(v) - start_.row(v)).norm();
+    longest = std::max(longest, way);
+    share = std::max(share, way / (longest_part * radii_[at(v)]));
+  }
+  const auto parts = static_cast<Index>(std::clamp<Real>(std::ceil(share), 1, most_parts));
+  has_pushed_ahead_ = parts > 1;
+  is_shortened_ = false;
+  aims_ = q;
+  for (Index left = parts; left > 0; --left) {
+    if (parts > 1) q = left > 1 ? Positions(start_ + (aims_ - start_) / left) : aims_;
+    if (longest > 0) push_ahead(2 * longest, q, threads);
+    whole_ = q;
+    is_shortened_ |= shorten(start_, q, threads);
+    if (left > 1) start_ = q;
+  }
+}
+
+/// Takes what a pinned body takes along to where the first way begins.
+void PairContact::go_along(const Positions& q, ThreadPool& threads) {
+  start_ = begin_;
+  const CommonMotions::Input input{begin_, q, pinned_, step_->is_pinned, radii_};
+  if (!common_.may_help(input)) return;
+  list_.update(begin_, threads);
+  if (common_.find(input, list_.near(), start_)) list_.take_along(start_);
 }
 
 void PairContact::begin_at(const Positions& q, std::span<const char> has_load, ThreadPool& threads) {
   has_let_go_ = false;
+  list_.list_anew();
   list(q, threads);
   for (NearPair& each : near_) {
     each.push(q, begin_);
@@ -87,15 +120,12 @@ void PairContact::begin_at(const Positions& q, std::span<const char> has_load, T
 }
 
 /// What pinned surfaces would run into begins ahead of them, so that they need not wait until the iterations have moved
-/// it there. Between pinned surfaces that close there may be no room; nothing is pushed farther than twice their way.
-void PairContact::push_ahead(Positions& q, ThreadPool& threads) {
+/// it there. Between pinned surfaces that close there may be no room; nothing is pushed farther in all than that.
+void PairContact::push_ahead(Real farthest, Positions& q, ThreadPool& threads) {
   constexpr int sweeps = 3;
-  Real longest = 0;
-  for (const Index v : pinned_) longest = std::max(longest, (targets_.row(v) - begin_.row(v)).norm());
-  if (!(longest > 0)) return;
   list_.forget_before();
-  list_.begin_way(begin_, q);
-  const PairList::OnTheWay& found = list_.on_the_way(begin_, q, threads);
+  list_.begin_way(start_, q);
+  const PairList::OnTheWay& found = list_.on_the_way(start_, q, threads);
   bool has_pushed = true;
   for (int i = 0; i < sweeps && has_pushed; ++i) {
     has_pushed_ahead_ |= i > 0;
@@ -106,19 +136,18 @@ void PairContact::push_ahead(Positions& q, ThreadPool& threads) {
       const std::span second = std::span(pair.vertices).subspan(begin_of_second);
       const auto pinned = [&](Index v) { return is_pinned(v); };
       if (std::ranges::all_of(second, pinned) && std::ranges::none_of(first, pinned)) {
-        has_pushed |= push_ahead(pair, first, longest, q);
+        has_pushed |= push_ahead(pair, first, farthest, q);
       } else if (std::ranges::all_of(first, pinned) && std::ranges::none_of(second, pinned)) {
-        has_pushed |= push_ahead(pair, second, longest, q);
+        has_pushed |= push_ahead(pair, second, farthest, q);
       }
     }
   }
 }
 
-/// Pushes one side of a pair along the normal, where it would be met by the other one, whose way is at most that long.
-/// Returns whether it has.
-bool PairContact::push_ahead(const Pair& pair, std::span<const Index> side, Real longest, Positions& q) {
-  const Gap gap = measure(begin_, pair);
-  const auto way = [&](Index v) { return Vec3(row(q, v) - row(begin_, v)); };
+/// Pushes one side of a pair along the normal, where it would be met by the other one. Returns whether it has.
+bool PairContact::push_ahead(const Pair& pair, std::span<const Index> side, Real farthest, Positions& q) {
+  const Gap gap = measure(start_, pair);
+  const auto way = [&](Index v) { return Vec3(row(q, v) - row(start_, v)); };
   Vec3 relative = Vec3::Zero();
   for (std::size_t j = 0; j < 4; ++j) relative += gap.weights[j] * way(pair.vertices[j]);
   const Real closing = -gap.normal.dot(relative);
@@ -130,15 +159,17 @@ bool PairContact::push_ahead(const Pair& pair, std::span<const Index> side, Real
   Pair there = pair;
   for (Index j = 0; j < 4; ++j) {
     const Index v = pair.vertices[at(j)];
-    met_.row(j) = (row(begin_, v) + share * way(v)).transpose();
+    met_.row(j) = (row(start_, v) + share * way(v)).transpose();
     there.vertices[at(j)] = j;
   }
   if (measure(met_, there).distance > radius) return false;
   const Vec3 push = (side.data() == pair.vertices.data() ? too_far : -too_far) * gap.normal;
-  const auto is_too_far = [&](Index v) { return (row(q, v) + push - row(targets_, v)).norm() > 2 * longest; };
+  const auto is_too_far = [&](Index v) { return (row(aims_, v) + push - row(targets_, v)).norm() > farthest; };
   if (std::ranges::any_of(side, is_too_far)) return false;
   for (std::size_t j = 0; j < side.size(); ++j) {
-    if (j == 0 || side[j] != side[j - 1]) q.row(side[j]) += push.transpose();
+    if (j > 0 && side[j] == side[j - 1]) continue;
+    q.row(side[j]) += push.transpose();
+    aims_.row(side[j]) += push.transpose();
   }
   return true;
 }
@@ -155,17 +186,17 @@ bool PairContact::shorten_components(std::span<const Index> component_of_vertex,
     for (const Index v : surface_->vertices) {
       if (is_pinned(v) || (row(q, v).array() == row(wish_, v).array()).all()) continue;
       const auto component = at(component_of_vertex[at(v)]);
-      const Vec3 way = row(wish_, v) - row(begin_, v);
-      const Real gone = std::max<Real>(0, way.dot(row(q, v) - row(begin_, v)) / way.squaredNorm());
+      const Vec3 way = row(wish_, v) - row(start_, v);
+      const Real gone = std::max<Real>(0, way.dot(row(q, v) - row(start_, v)) / way.squaredNorm());
       shares_[component] = std::min(shares_[component], trial == 0 ? gone : 0);
     }
     if (shares_ == shares_before_) return true;
     for (Index v = 0; v < count; ++v) {
       const Real share = is_pinned(v) ? 1 : shares_[at(component_of_vertex[at(v)])];
       q.row(v) = whole_.row(v);
-      if (share < 1) q.row(v) = begin_.row(v) + share * (whole_.row(v) - begin_.row(v));
+      if (share < 1) q.row(v) = start_.row(v) + share * (whole_.row(v) - start_.row(v));
     }
-    is_shortened = shorten(begin_, q, threads);
+    is_shortened = shorten(start_, q, threads);
   }
   return true;
 }
@@ -288,10 +319,10 @@ bool PairContact::shorten(const Positions& from, Positions& q, ThreadPool& threa
   return is_shortened;
 }
 
-/// What slides along a plane may come to where nothing was searched for. Where vertices do so again and again they are
-/// held back on their straight ways.
+/// What slides along a plane may come to where nothing was searched for. Then that is searched too; what slides farther
+/// the next time stays within it.
 bool PairContact::shorten_way(const Positions& from, Positions& q, ThreadPool& threads) {
-  constexpr int most_searches = 11;
+  constexpr int free_searches = 2;
   list_.begin_way(from, q);
   if (list_.on_the_way(from, q, threads).pairs.empty()) return false;
   wish_ = q;
@@ -299,16 +330,15 @@ bool PairContact::shorten_way(const Positions& from, Positions& q, ThreadPool& t
     const PairList::OnTheWay& found = i == 0 ? list_.last_on_the_way() : list_.on_the_way(from, wish_, threads);
     q = wish_;
     if (found.pairs.empty()) return false;
-    const bool slides = i + 1 < most_searches;
     const PlanesInput input{.begin = from,
                             .surface = *surface_,
                             .pairs = found.pairs,
                             .distances = found.distances,
                             .radii = radii_,
-                            .slides = slides};
+                            .within = i < free_searches ? nullptr : list_.boxes()};
     const Shortened done = planes_.shorten(input, q, threads);
     if (done.vertices == 0) return false;
-    if (!list_.covers(from, wish_, q) && slides) continue;
+    if (!list_.covers(from, wish_, q)) continue;
     report_.shortened += done.vertices;
     for (const Index v : surface_->vertices) {
       if ((row(q, v).array() != row(wish_, v).array()).any()) was_shortened_[at(v)] = 1;

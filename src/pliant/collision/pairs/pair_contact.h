@@ -15,6 +15,7 @@
 // All vertices are in the order of the solver; pairs are numbered in that of the simulation.
 #include "pliant/collision/contact/body_contact.h"
 #include "pliant/collision/contact/contact.h"
+#include "pliant/collision/pairs/common_motion.h"
 #include "pliant/collision/pairs/held_up_vertices.h"
 #include "pliant/collision/pairs/near_pair.h"
 #include "pliant/collision/pairs/pair_weights.h"
@@ -93,8 +94,10 @@ class PairContact {
   Index number_of(Index vertex) const { return step_->vertices.empty() ? vertex : step_->vertices[at(vertex)]; }
   void begin_exceptions(const ContactState& state, ThreadPool& threads);
   void begin_to_touch(ThreadPool& threads);
-  void push_ahead(Positions& q, ThreadPool& threads);
-  bool push_ahead(const Pair& pair, std::span<const Index> side, Real longest, Positions& q);
+  void go_along(const Positions& q, ThreadPool& threads);
+  void begin_ways(Positions& q, ThreadPool& threads);
+  void push_ahead(Real farthest, Positions& q, ThreadPool& threads);
+  bool push_ahead(const Pair& pair, std::span<const Index> side, Real farthest, Positions& q);
   bool shorten(const Positions& from, Positions& q, ThreadPool& threads);
   bool shorten_way(const Positions& from, Positions& q, ThreadPool& threads);
   void list(const Positions& q, ThreadPool& threads);
@@ -113,6 +116,9 @@ class PairContact {
 
   std::optional<ContactStep> step_;
   Positions begin_;                 // qₙ, of which forces are still asked when the state has gone on
+  Positions start_;                 // where the last part of the first way begins
+  Positions aims_;                  // where it is to lead, with what was pushed ahead
+  CommonMotions common_;
   std::vector<Real> stiffening_;    // κ, in the solver's order
   std::vector<PairMemory> memory_;  // of the step before
   std::vector<Index> pinned_;       // vertices of the surface

@@ -237,9 +237,9 @@ void PairList::take_way(const Positions& from, const Positions& to, bool is_rela
 
 /// In a frame that goes as all do, things meet where they meet in space.
 void PairList::set_boxes(const Positions& from, const Positions& to) {
-  high_ = to.rowwise() - common_.transpose();
-  low_ = from.cwiseMin(high_);
-  high_ = high_.cwiseMax(from);
+  boxes_.high = to.rowwise() - common_.transpose();
+  boxes_.low = from.cwiseMin(boxes_.high);
+  boxes_.high = boxes_.high.cwiseMax(from);
 }
 
 bool PairList::covers(const Positions& from, const Positions& to, const Positions& q) {
@@ -250,11 +250,11 @@ bool PairList::covers(const Positions& from, const Positions& to, const Position
   }
   const auto is_inside = [&](Index v) {
     const Real pad = pads_[at(v)] / 2;
-    return (low_.row(v) - q.row(v)).maxCoeff() <= pad && (q.row(v) - high_.row(v)).maxCoeff() <= pad;
+    return (boxes_.low.row(v) - q.row(v)).maxCoeff() <= pad && (q.row(v) - boxes_.high.row(v)).maxCoeff() <= pad;
   };
   if (is_short_ || std::ranges::all_of(surface_->vertices, is_inside)) return true;
-  low_ = low_.cwiseMin(q);
-  high_ = high_.cwiseMax(q);
+  boxes_.low = boxes_.low.cwiseMin(q);
+  boxes_.high = boxes_.high.cwiseMax(q);
   return false;
 }
 
@@ -274,7 +274,7 @@ const PairList::OnTheWay& PairList::on_the_way(const Positions& from, const Posi
     is_short_ = false;
     set_boxes(from, to);
   }
-  const std::span<const Pair> pairs = search_->find(low_, high_, pads_, threads);
+  const std::span<const Pair> pairs = search_->find(boxes_.low, boxes_.high, pads_, threads);
   collect_on_the_way(pairs.size(), threads, [&](std::size_t i, OnTheWay& found) {
     add_on_the_way(pairs[i], box_distance(from, pairs[i]), found);
   });

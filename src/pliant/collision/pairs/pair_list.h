@@ -8,6 +8,7 @@
 #include "pliant/collision/pairs/let_go.h"
 #include "pliant/collision/pairs/pair_search.h"
 #include "pliant/collision/pairs/reduced_distances.h"
+#include "pliant/collision/pairs/way_boxes.h"
 
 namespace pliant {
 
@@ -25,6 +26,10 @@ class PairList {
   /// A substep begins. What is let go is not listed. Both must stay; changed_exceptions() is to be told of changes.
   void begin(std::span<const char> is_pinned, const LetGo& let_go, const ReducedDistances& reduced);
   void changed_exceptions() { is_listed_ = is_of_before_ = false; }
+  /// Near pairs are at q now, as far apart as they were.
+  void take_along(const Positions& q) { reference_ = q; }
+  /// At the next update, whatever is listed.
+  void list_anew() { is_listed_ = false; }
   /// The first way is asked for by a search.
   void forget_before() { is_of_before_ = false; }
 
@@ -56,6 +61,8 @@ class PairList {
   /// Whether these are all if some of the vertices are held back, and the way ends at q, no farther from where it
   /// began; the next search is for that, too.
   bool covers(const Positions& from, const Positions& to, const Positions& q);
+  /// Where it is searched; null where all that may meet on a short way are known.
+  const WayBoxes* boxes() const { return is_short_ || is_relative_ ? nullptr : &boxes_; }
 
  private:
   struct OwnRadius {
@@ -103,7 +110,7 @@ class PairList {
   std::vector<Real> gone_;  // since then, apart from what all have gone [m]
   Real farthest_gone_ = 0;
 
-  Positions low_, high_;        // the corners of boxes around ways
+  WayBoxes boxes_;              // around ways
   Vec3 common_ = Vec3::Zero();  // to all of them [m]
   std::vector<Real> ways_;      // lengths [m]
   Real longest_way_ = 0;

@@ -342,7 +342,7 @@ Vec3 Planes::bounded_way(Index vertex) const {
     for (Index i = first_bound_[at(vertex)]; i >= 0; i = bounds_[at(i)].next) visit(bounds_[at(i)]);
   };
   Vec3 way = row(wishes_, vertex);
-  for (int sweep = 0; input_->slides && sweep < sweeps; ++sweep) {
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
     for_each_bound([&](const Bound& bound) {
       const Real moved = bound.normal.dot(way);
       if (moved < -bound.room) way += (-bound.room - moved) * bound.normal;
@@ -354,6 +354,7 @@ Vec3 Planes::bounded_way(Index vertex) const {
     const Real moved = bound.normal.dot(way);
     if (bound.room >= 0 && moved < -bound.room) share = std::min(share, bound.room / -moved);
   });
+  if (input_->within != nullptr) share = std::min(share, input_->within->share_within(input_->begin, vertex, way));
   for_each_bound([&](const Bound& bound) {
     if (bound.room < 0 && share * bound.normal.dot(way) < -bound.room / 2) share = 0;
   });

@@ -27,6 +27,7 @@
 // Sources: A. Chen et al., Offset Geometric Contact, 2025 (bounds of motion); division planes as of the solvers of
 // the physics engine Newton, 2026, that truncate at a plane for every pair.
 #include "pliant/collision/pairs/gap.h"
+#include "pliant/collision/pairs/way_boxes.h"
 #include "pliant/core/thread_pool.h"
 
 namespace pliant {
@@ -45,7 +46,7 @@ struct PlanesInput {
   std::span<const Real> distances{};  ///< of each pair, or less than that, at q [m]; empty: not known
   std::span<const Real> radii;        ///< r of each vertex [m]
   std::span<const HalfSpace> half_spaces{};
-  bool slides = true;  ///< else each vertex stays on its straight way
+  const WayBoxes* within = nullptr;  ///< which no way leaves; null: none
 };
 
 /// What was done to the ways.
