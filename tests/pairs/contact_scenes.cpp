@@ -87,7 +87,7 @@ struct Figures {
 };
 
 /// How its bodies stand after so many frames, and what the last of them has done.
-void print_standing(const Simulation& simulation, Index frames, Real energy, double seconds, const StepReport& report) {
+void print_standing(const Simulation& simulation, Index frames, Real energy, const StepReport& report) {
   const Standing now = standing(simulation);
   fmt::print(
       "  frame {:5} highest {:.5f} m sag {:.5f} m sideways {:.6f} m fastest {:.1e} m/s rms {:.1e} m/s energy {:+.2e} J "
