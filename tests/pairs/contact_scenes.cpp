@@ -53,24 +53,24 @@ struct Figures {
   Index frames_crossed = 0;
   Real smallest_gap = std::numeric_limits<Real>::infinity();
   std::int64_t shortened = 0;
-  Index pairs = 0;         // most of a step
-  Real lag = 0;            // largest of a step [m]
-  Real momentum_lost = 0;  // sum over all steps [N s]
-  Real energy = 0;         // kinetic, elastic and potential at the end, less that of the start [J]
-  Real most_energy = 0;    // of a step
+  Index pairs = 0;              // most of a step
+  Real lag = 0;                 // largest of a step [m]
+  Real momentum_lost = 0;       // sum over all steps [N s]
+  Real energy = 0;              // kinetic, elastic and potential at the end, less that of the start [J]
+  Real most_energy = 0;         // of a step
   std::vector<double> seconds;  // of the processor
 };
 
 /// How its bodies stand after so many frames, and what the last of them has done.
-void print_standing(const Simulation& simulation, Index frames, Real energy, double seconds,
-                    const StepReport& report) {
+void print_standing(const Simulation& simulation, Index frames, Real energy, double seconds, const StepReport& report) {
   const Standing now = standing(simulation);
   fmt::print(
       "  frame {:5} highest {:.5f} m sag {:.5f} m sideways {:.6f} m fastest {:.1e} m/s rms {:.1e} m/s energy {:+.2e} J "
-      "lag {:.1e} m {:5.0f} ms lost {:.1e} N s active {:4} shortened {:4} backtracks {:2} factors {} residual {:.1e} N\n",
-      frames, now.highest, now.sag, now.sideways, now.fastest, rms_speed(simulation), energy,
-      report.contact.lag, 1e3 * seconds, report.contact.momentum_lost.norm(), report.contact.active, report.contact.shortened, report.backtracks,
-      report.contact.refactorizations, report.residual);
+      "lag {:.1e} m {:5.0f} ms lost {:.1e} N s active {:4} shortened {:4} backtracks {:2} factors {} residual {:.1e} "
+      "N\n",
+      frames, now.highest, now.sag, now.sideways, now.fastest, rms_speed(simulation), energy, report.contact.lag,
+      1e3 * seconds, report.contact.momentum_lost.norm(), report.contact.active, report.contact.shortened,
+      report.backtracks, report.contact.refactorizations, report.residual);
   std::fflush(stdout);
 }
 
@@ -108,7 +108,8 @@ Figures measure(PairScene& scene, Index frames, Index every, const std::string& 
     figures.most_energy = std::max(figures.most_energy, figures.energy);
     figures.momentum_lost += contact.momentum_lost.norm();
     if (!folder.empty() && (i + 1) % std::max<Index>(1, every) == 0) write_bodies(scene.simulation, folder, i + 1);
-    if (every > 0 && (i + 1) % every == 0) print_standing(scene.simulation, i + 1, figures.energy, figures.seconds.back(), report);
+    if (every > 0 && (i + 1) % every == 0)
+      print_standing(scene.simulation, i + 1, figures.energy, figures.seconds.back(), report);
   }
   return figures;
 }
@@ -129,10 +130,12 @@ bool run(const Run& each, Index frames, Index every, const std::string& folder) 
     const Figures figures = measure(scene, frames > 0 ? frames : scene.frames(), every, folder);
     fmt::print(
         "{:36} {:6} vertices {:5} frames {:6} crossings in {:4} gap {:8.2e} m shortened {:8} pairs {:7} "
-        "{:8.2f} ms, at most {:6.0f} lag {:.1e} m rms {:.1e} m/s lost {:.1e} N s energy {:+.1e} J, at most {:+.1e} J{}\n",
+        "{:8.2f} ms, at most {:6.0f} lag {:.1e} m rms {:.1e} m/s lost {:.1e} N s energy {:+.1e} J, at most {:+.1e} "
+        "J{}\n",
         title, scene.simulation.state().vertex_count(), figures.frames, figures.crossings, figures.frames_crossed,
         figures.smallest_gap, figures.shortened, figures.pairs, 1e3 * median(figures.seconds),
-        1e3 * *std::max_element(figures.seconds.begin(), figures.seconds.end()), figures.lag, rms_speed(scene.simulation), figures.momentum_lost, figures.energy, figures.most_energy,
+        1e3 * *std::max_element(figures.seconds.begin(), figures.seconds.end()), figures.lag,
+        rms_speed(scene.simulation), figures.momentum_lost, figures.energy, figures.most_energy,
         begins_apart ? "" : " BEGINS CROSSED");
     std::fflush(stdout);
     return begins_apart && figures.crossings == 0;
@@ -203,7 +206,8 @@ void read(int argc, char** argv, Arguments& to, CLI::App& app) {
   app.add_option("--frames", to.frames, "steps; 0: what the scene takes")->check(CLI::Range(0, 100'000'000));
   app.add_option("--every", to.every, "print how bodies stand each so many steps; 0: not")
       ->check(CLI::Range(0, 100'000'000));
-  app.add_option("--turn", to.options.turn, "in which a figure turns once about itself [s]")->check(CLI::PositiveNumber);
+  app.add_option("--turn", to.options.turn, "in which a figure turns once about itself [s]")
+      ->check(CLI::PositiveNumber);
   app.add_option("--write", to.folder, "a folder for the bodies as OBJ files, of the steps of --every");
   app.add_option("--seed", to.options.seed, "of what is drawn by chance");
   app.add_option("--piles", to.piles, "so many piles, each of another seed")->check(CLI::Range(1, 1'000'000));
