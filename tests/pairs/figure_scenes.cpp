@@ -99,8 +99,8 @@ Figure figure_mesh(Real edge) {
     const Real wide = std::max(limb.radius, limb.end_radius);
     const auto segments = std::max<Index>(8, static_cast<Index>(std::lround(2 * pi * wide / edge)));
     const Vec3 way = limb.to - limb.from;
-    Mesh mesh = capsule(
-        {.segments = segments, .radius = limb.radius, .height = way.norm(), .top_radius = limb.end_radius});
+    Mesh mesh =
+        capsule({.segments = segments, .radius = limb.radius, .height = way.norm(), .top_radius = limb.end_radius});
     const Mat3 rotation = Quaternion::FromTwoVectors(Vec3::UnitZ(), way).toRotationMatrix();
     for (Index i = 0; i < mesh.vertex_count(); ++i) {
       Vec3 x = rotation * row(mesh.vertices, i);
@@ -119,12 +119,12 @@ std::array<Motion, part_count> figure_motions(Real time, Real turn) {
   const Real first = 3.2;  // when it begins to whirl
   const Real whirl = 2 * turn;
   const Real second = first + whirl + 0.25 + 1.6;
-  const Real walks = risen(time, 0.5, 1) - risen(time, 2.6, 3.1) + risen(time, first + whirl + 0.3, first + whirl + 0.6) -
-                     risen(time, second - 0.4, second - 0.1);
+  const Real walks = risen(time, 0.5, 1) - risen(time, 2.6, 3.1) +
+                     risen(time, first + whirl + 0.3, first + whirl + 0.6) - risen(time, second - 0.4, second - 0.1);
   const Real way = 0.8 * (gone(time, 0.5, 2.3) - gone(time, second - 1.5, 1.2));
   const Real pace = 2 * pi * (time - 0.5);  // a double step a second
-  const Real angle = 2 * pi / turn * (gone(time, first, whirl) - gone(time, second, whirl)) +
-                     0.08 * walks * std::sin(pace);
+  const Real angle =
+      2 * pi / turn * (gone(time, first, whirl) - gone(time, second, whirl)) + 0.08 * walks * std::sin(pace);
   std::array<Motion, part_count> motions;
   const Mat3 yaw = turned(Vec3::UnitZ(), angle);
   const Vec3 place(0, -way, 0.012 * walks * (1 - std::cos(2 * pace)));
@@ -153,7 +153,8 @@ struct Outline {
 void add_parts(std::vector<Real>& places, Real to, Real edge) {
   const Real from = places.back();
   const auto count = std::max<Index>(1, static_cast<Index>(std::lround((to - from) / edge)));
-  for (Index i = 1; i <= count; ++i) places.push_back(from + (to - from) * static_cast<Real>(i) / static_cast<Real>(count));
+  for (Index i = 1; i <= count; ++i)
+    places.push_back(from + (to - from) * static_cast<Real>(i) / static_cast<Real>(count));
 }
 
 Real distance_to_segment(Real x, Real z, const std::array<Real, 4>& segment) {

@@ -155,7 +155,7 @@ TEST_CASE("animated bodies: a ball goes through the plane of a curtain, which sw
 }
 
 TEST_CASE("animated bodies: one that is held up reports its lag, and makes up for it") {
-  Rig rig = ball_and_curtain(8);
+  Rig rig = ball_and_curtain(54);  // its whole way in one step
   Real largest = 0;
   for (Index i = 0; i < steps_of(0.6); ++i) {
     const Real lag = rig.step().contact.lag;
@@ -165,13 +165,13 @@ TEST_CASE("animated bodies: one that is held up reports its lag, and makes up fo
   }
   if (!runs_whole_scenes) return;
   CHECK(largest > 0.001);
-  CHECK(largest < 0.3);
+  CHECK(largest < 0.5);
   CHECK(largest_lag(rig) == 0);
 }
 
 TEST_CASE("animated bodies: what one would run into within a step is taken along from its start") {
   for (const Integrator integrator : {Integrator::implicit_euler, Integrator::bdf2}) {
-    Rig rig = ball_and_curtain(3.5, {.integrator = integrator, .threads = 1});  // 0.06 m a step, of a curtain at rest
+    Rig rig = ball_and_curtain(8, {.integrator = integrator, .threads = 1});  // 0.13 m a step, of a curtain at rest
     for (Index i = 0; i < steps_of(0.4); ++i) {
       CHECK(rig.step().contact.lag == 0);
       REQUIRE(crossings_of_cloth(rig) == 0);

@@ -39,8 +39,8 @@ struct Trial {
   Index frames;
   Real speed;
 };
-constexpr std::array trials{Trial{"stack", 30, 2}, Trial{"pile", 30, 3}, Trial{"twist", 60, 0}, Trial{"rope", 25, 2},
-                            Trial{"fold", 40, 3}};
+constexpr std::array trials{Trial{"stack", 30, 2}, Trial{"pile", 30, 3}, Trial{"twist", 60, 0},
+                            Trial{"rope", 25, 2},  Trial{"fold", 40, 3}, Trial{"sleeve", 40, 0}};
 
 /// A sheet that hangs by its upper border, and is pulled at in the middle of the lower one.
 PairScene pulled_sheet(const PairOptions& options) {

@@ -3,12 +3,12 @@
 //
 // What is held apart by planes that stand still is held back where it goes along their normals, though nothing comes
 // nearer to anything. But only that there is some way to the next iterate on which nothing crosses counts, not which.
-// So where a pinned body moves, the first way of a substep begins not at qₙ but where a rigid motion has taken that body
-// and the bodies near it: a rigid image of what does not cross does not cross. What is left of the ways is short.
+// So where a pinned body moves, the first way of a substep begins not at qₙ but where a rigid motion has taken that
+// body and the bodies near it: a rigid image of what does not cross does not cross. What is left of the ways is short.
 //
-// Bodies that are nearer to each other than twice r go together. The motion is the one nearest to the ways of the pinned
-// vertices in the sum of lengths, so that the trunk of a figure counts and its limbs hardly do. Nothing is moved with a
-// body whose pins rest, such as a floor, or near one; nor where boxes around the ways meet those of what stays.
+// Bodies that are nearer to each other than twice r go together. The motion is the one nearest to the ways of the
+// pinned vertices in the sum of lengths, so that the trunk of a figure counts and its limbs hardly do. Nothing is moved
+// with a body whose pins rest, such as a floor, or near one; nor where boxes around the ways meet those of what stays.
 #include "pliant/collision/pairs/pair_list.h"
 
 namespace pliant {
@@ -62,10 +62,10 @@ class CommonMotions {
 
   const Surface* surface_ = nullptr;
   std::vector<Part> parts_;
-  std::vector<Index> root_;         // of each part; itself where it is one
-  std::vector<char> is_blocked_;    // of roots
-  std::vector<Cluster> clusters_;   // with a leader, by their first part
-  std::vector<Index> cluster_of_;   // of each part, −1 for what stays
+  std::vector<Index> root_;        // of each part; itself where it is one
+  std::vector<char> is_blocked_;   // of roots
+  std::vector<Cluster> clusters_;  // with a leader, by their first part
+  std::vector<Index> cluster_of_;  // of each part, −1 for what stays
 };
 
 }  // namespace pliant

@@ -96,10 +96,13 @@ class PairContact {
   void begin_to_touch(ThreadPool& threads);
   void go_along(const Positions& q, ThreadPool& threads);
   void begin_ways(Positions& q, ThreadPool& threads);
-  void push_ahead(Real farthest, Positions& q, ThreadPool& threads);
+  void look_ahead(const Positions& q, ThreadPool& threads);
+  Index parts_of_ways(const Positions& q, ThreadPool& threads);
+  void push_ahead(Real farthest, Positions& q);
   bool push_ahead(const Pair& pair, std::span<const Index> side, Real farthest, Positions& q);
   bool shorten(const Positions& from, Positions& q, ThreadPool& threads);
   bool shorten_way(const Positions& from, Positions& q, ThreadPool& threads);
+  bool shorten_halves(const Positions& from, Positions& q, ThreadPool& threads);
   void list(const Positions& q, ThreadPool& threads);
   void collect();
   Index stiffest_vertex(const Pair& pair) const;
@@ -109,15 +112,16 @@ class PairContact {
   void let_go_of_stuck();
 
   static constexpr std::size_t pairs_of_chunk = 256;
+  static constexpr Real least_gap_apart = 1e-6;  // of r: what is nearer lies in one place
 
   std::optional<Surface> surface_;
   SurfaceFrictions frictions_;
   std::vector<Real> radii_;
 
   std::optional<ContactStep> step_;
-  Positions begin_;                 // qₙ, of which forces are still asked when the state has gone on
-  Positions start_;                 // where the last part of the first way begins
-  Positions aims_;                  // where it is to lead, with what was pushed ahead
+  Positions begin_;  // qₙ, of which forces are still asked when the state has gone on
+  Positions start_;  // where the last part of the first way begins
+  Positions aims_;   // where it is to lead, with what was pushed ahead
   CommonMotions common_;
   std::vector<Real> stiffening_;    // κ, in the solver's order
   std::vector<PairMemory> memory_;  // of the step before
@@ -132,6 +136,7 @@ class PairContact {
   Tangles tangles_;
   ReducedDistances reduced_;
   HeldUpVertices held_up_;
+  int halvings_ = 0;         // of the present way
   bool has_let_go_ = false;  // more than what is listed
   Positions met_;            // scratch: the corners of a pair
   PairList list_;

@@ -274,10 +274,12 @@ const PairList::OnTheWay& PairList::on_the_way(const Positions& from, const Posi
     is_short_ = false;
     set_boxes(from, to);
   }
-  const std::span<const Pair> pairs = search_->find(boxes_.low, boxes_.high, pads_, threads);
+  const bool is_all = search_->try_find(boxes_.low, boxes_.high, pads_, threads);
+  const std::span<const Pair> pairs = search_->pairs();
   collect_on_the_way(pairs.size(), threads, [&](std::size_t i, OnTheWay& found) {
     add_on_the_way(pairs[i], box_distance(from, pairs[i]), found);
   });
+  on_the_way_.is_all = is_all;
   return on_the_way_;
 }
 
@@ -301,6 +303,7 @@ void PairList::collect_on_the_way(std::size_t count, ThreadPool& threads, Add&& 
   });
   on_the_way_.pairs.clear();
   on_the_way_.distances.clear();
+  on_the_way_.is_all = true;
   for (std::size_t i = 0; i * pairs_of_chunk < count; ++i) {
     const OnTheWay& found = way_chunks_[i];
     on_the_way_.pairs.insert(on_the_way_.pairs.end(), found.pairs.begin(), found.pairs.end());

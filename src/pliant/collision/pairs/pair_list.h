@@ -52,10 +52,11 @@ class PairList {
   struct OnTheWay {
     std::vector<Pair> pairs;
     std::vector<Real> distances;
+    bool is_all = true;  ///< else there are too many, and none is here
   };
   /// Vertices are to go from here to there. What is common to all ways brings nothing together.
   void begin_way(const Positions& from, const Positions& to);
-  /// Those that may meet on it. Throws as update() does.
+  /// Those that may meet on it.
   const OnTheWay& on_the_way(const Positions& from, const Positions& to, ThreadPool& threads);
   const OnTheWay& last_on_the_way() const { return on_the_way_; }
   /// Whether these are all if some of the vertices are held back, and the way ends at q, no farther from where it

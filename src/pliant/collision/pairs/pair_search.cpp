@@ -115,6 +115,12 @@ OwnedTree PairSearch::owned(std::size_t place) const {
 
 std::span<const Pair> PairSearch::find(const Positions& begin, const Positions& end, std::span<const Real> pads,
                                        ThreadPool& pool, const FarPairs* far) {
+  if (!try_find(begin, end, pads, pool, far)) fail(end);
+  return pairs_;
+}
+
+bool PairSearch::try_find(const Positions& begin, const Positions& end, std::span<const Real> pads, ThreadPool& pool,
+                          const FarPairs* far) {
   set_boxes(begin, end, pads, pool);
   std::array<bool, places> is_fit{};
   for (std::size_t place = 0; place < places; ++place) is_fit[place] = items_[place].tree.refit(boxes_, pool);
@@ -132,7 +138,8 @@ std::span<const Pair> PairSearch::find(const Positions& begin, const Positions& 
     const auto& [kind, a, b] = kinds[k];
     if (!meeting_[k].find(*surface_, owned(a), owned(b), most_ - offsets[k], pool)) {
       pairs_.clear();
-      fail(kinds[k], end);
+      crowded_ = k;
+      return false;
     }
     if (far != nullptr) meeting_[k].drop_far(kind, *far, pool);
     offsets[k + 1] = offsets[k] + meeting_[k].count();
@@ -151,7 +158,7 @@ std::span<const Pair> PairSearch::find(const Positions& begin, const Positions& 
       }
     });
   }
-  return pairs_;
+  return true;
 }
 
 Pair PairSearch::pair_of(PairKind kind, Index first, Index second) const {
@@ -171,7 +178,8 @@ Pair PairSearch::pair_of(PairKind kind, Index first, Index second) const {
   return {kind, surface.owned_by_edge[at(second)], {first, edge}, {vertex, a, b, b}};
 }
 
-void PairSearch::fail(const Kind& kind, const Positions& end) const {
+void PairSearch::fail(const Positions& end) const {
+  const Kind& kind = kinds[crowded_];
   const Index item = MeetingItems::crowded_item(*surface_, owned(kind.a), owned(kind.b), most_);
   const Index vertex = kind.kind == PairKind::edge_edge ? surface_->edges[at(item)][0] : surface_->vertices[at(item)];
   const auto place = std::ranges::find(surface_->vertices, vertex) - surface_->vertices.begin();

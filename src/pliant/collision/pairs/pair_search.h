@@ -35,6 +35,9 @@ class PairSearch {
   /// Throws Error(input) where there are more than `most`, naming the vertex where most of them are.
   std::span<const Pair> find(const Positions& begin, const Positions& end, std::span<const Real> pads, ThreadPool& pool,
                              const FarPairs* far = nullptr);
+  /// The same, but false where there are too many.
+  bool try_find(const Positions& begin, const Positions& end, std::span<const Real> pads, ThreadPool& pool,
+                const FarPairs* far = nullptr);
   std::span<const Pair> pairs() const { return pairs_; }
 
   /// How often trees were put in order, for benchmarks.
@@ -61,7 +64,7 @@ class PairSearch {
   void update_owners(Items& items);
   collision::OwnedTree owned(std::size_t place) const;
   Pair pair_of(PairKind kind, Index first, Index second) const;
-  [[noreturn]] void fail(const Kind& kind, const Positions& end) const;
+  [[noreturn]] void fail(const Positions& end) const;
 
   const Surface* surface_;
   std::int64_t most_;
@@ -69,6 +72,7 @@ class PairSearch {
   std::vector<collision::FloatBox> boxes_;  // of Surface::vertices
   std::array<collision::MeetingItems, 3> meeting_;
   std::vector<Pair> pairs_;
+  std::size_t crowded_ = 0;  // of the kinds, the one of which there were too many
 };
 
 }  // namespace pliant

@@ -14,7 +14,8 @@ struct WayBoxes {
   Real share_within(const Positions& begin, Index vertex, const Vec3& way) const {
     Real share = 1;
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      const Real room = way[axis] > 0 ? high(vertex, axis) - begin(vertex, axis) : begin(vertex, axis) - low(vertex, axis);
+      const Real room =
+          way[axis] > 0 ? high(vertex, axis) - begin(vertex, axis) : begin(vertex, axis) - low(vertex, axis);
       const Real length = std::abs(way[axis]);
       if (length > room) share = std::min(share, std::max<Real>(0, room) / length);
     }
