@@ -13,9 +13,8 @@ bool is_before(const RigidCoupling& a, const RigidCoupling& b) {
 
 void RigidCouplings::finish() {
   std::ranges::sort(all_, is_before);
-  const auto rest =
-      std::ranges::unique(all_, [](const RigidCoupling& a, const RigidCoupling& b) { return a.is_of_same(b); });
-  all_.erase(rest.begin(), rest.end());
+  const auto is_same = [](const RigidCoupling& a, const RigidCoupling& b) { return a.is_of_same(b); };
+  all_.erase(std::unique(all_.begin(), all_.end(), is_same), all_.end());
   last_ = 0;
 }
 
