@@ -115,7 +115,8 @@ TEST_CASE("where single precision does not do, that is said once") {
   CHECK(contains(simulation.warnings().front(), "precision: "));
 }
 
-// Where bodies meet colliders the loads of friction are those of earlier iterates, so there is no one fixed point.
+// Where bodies meet colliders or each other, the loads of friction and the weights of pairs are those of earlier
+// iterates, so there is no one fixed point.
 TEST_CASE(
     "in every built-in scene without colliders a step in single precision comes to the same fixed point as in double") {
   for (const BuiltinScene& builtin : builtin_scenes()) {
@@ -127,6 +128,7 @@ TEST_CASE(
     Simulation& simulation = scene.simulation;
     CHECK(simulation.precision() == Precision::mixed);
     const State start = simulation.state();
+    if (!start.contact.pairs.empty()) continue;
     const auto converge = [&](Precision precision) {
       SolverSettings settings = simulation.settings();
       settings.iterations = 300;

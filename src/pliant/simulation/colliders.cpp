@@ -1,6 +1,7 @@
 // Colliders that come, move and go.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
