@@ -172,11 +172,13 @@ TEST_CASE("animated bodies: one that is held up reports its lag, and makes up fo
 TEST_CASE("animated bodies: what one would run into within a step is taken along from its start") {
   for (const Integrator integrator : {Integrator::implicit_euler, Integrator::bdf2}) {
     Rig rig = ball_and_curtain(8, {.integrator = integrator, .threads = 1});  // 0.13 m a step, of a curtain at rest
+    Real farthest = 0;
     for (Index i = 0; i < steps_of(0.4); ++i) {
       CHECK(rig.step().contact.lag == 0);
+      farthest = std::max(farthest, rig.places(rig.cloth).col(1).maxCoeff());
       REQUIRE(crossings_of_cloth(rig) == 0);
     }
-    if (runs_whole_scenes) CHECK(rig.places(rig.cloth).col(1).maxCoeff() > 0.5);
+    if (runs_whole_scenes) CHECK(farthest > 0.7);
   }
 }
 
