@@ -271,7 +271,7 @@ TEST_CASE("contact that no run can have left is refused by name") {
   file.check_contact("what the factor has of contact is out of range",
                      [&](Json& contact) { contact["in_factor"] = bytes_of(std::vector<Real>(file.vertex_count, -1)); });
   file.check_contact("numbers belong here", [](Json& contact) { contact["energies"] = bytes_of({1}); });
-  file.check_contact("an energy of contact is not finite", [&](Json& contact) {
+  file.check_contact("energies: a number is not finite", [&](Json& contact) {
     contact["energies"] = bytes_of(std::vector<Real>(file.vertex_count, std::numeric_limits<Real>::infinity()));
   });
   file.check_contact("light_steps", [](Json& contact) { contact["light_steps"] = -1; });

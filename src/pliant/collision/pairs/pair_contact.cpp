@@ -145,6 +145,7 @@ bool PairContact::shorten(const Positions& from, Positions& q, ThreadPool& threa
 /// the next time stays within it.
 bool PairContact::shorten_way(const Positions& from, Positions& q, ThreadPool& threads) {
   constexpr int free_searches = 2;
+  constexpr int most_searches = 6;  // of numbers that are not finite none is covered
   list_.begin_way(from, q);
   const PairList::OnTheWay& found = list_.on_the_way(from, q, threads);
   if (found.is_all && found.pairs.empty()) return false;
@@ -162,7 +163,7 @@ bool PairContact::shorten_way(const Positions& from, Positions& q, ThreadPool& t
                             .within = i < free_searches ? nullptr : list_.boxes()};
     const Shortened done = planes_.shorten(input, q, threads);
     if (done.vertices == 0) return false;
-    if (!list_.covers(from, wish_, q)) continue;
+    if (!list_.covers(from, wish_, q) && i + 1 < most_searches) continue;
     report_.shortened += done.vertices;
     for (const Index v : surface_->vertices) {
       if ((row(q, v).array() != row(wish_, v).array()).any()) was_shortened_[at(v)] = 1;
