@@ -46,7 +46,8 @@ struct SlopeScene {
   pliant::Real exact_way(pliant::Index steps) const;
 };
 SlopeScene slope2(const PairOptions& options, pliant::Real degrees);
-/// The same of a frame of ropes on two pinned ropes along the slope: edges touch edges, at four places, and nothing else.
+/// The same of a frame of ropes on two pinned ropes along the slope: edges touch edges, at four places, and nothing
+/// else.
 SlopeScene rails(const PairOptions& options, pliant::Real degrees);
 /// The same of a solid whose lower edges lie across the ridges of two pinned roofs.
 SlopeScene ridges(const PairOptions& options, pliant::Real degrees);

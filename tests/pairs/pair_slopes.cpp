@@ -66,8 +66,8 @@ void run(const Arguments& arguments, Index side, Real angle) {
     const StepReport report = slope.scene.step();
     shortened += report.contact.shortened;
     if (arguments.every > 0 && (i + 1) % arguments.every == 0) {
-      fmt::print("  {:4} {:.6f} m, exact {:.6f} m, shortened {}, backtracks {}, residual {:.1e} N\n", i + 1, slope.way(),
-                 slope.exact_way(i + 1), report.contact.shortened, report.backtracks, report.residual);
+      fmt::print("  {:4} {:.6f} m, exact {:.6f} m, shortened {}, backtracks {}, residual {:.1e} N\n", i + 1,
+                 slope.way(), slope.exact_way(i + 1), report.contact.shortened, report.backtracks, report.residual);
     }
   }
   Real exact = slope.exact_way(frames);
