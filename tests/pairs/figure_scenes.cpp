@@ -229,7 +229,7 @@ Mesh shirt_mesh(Real edge) {
     for (std::size_t j = 0; j + 1 < z.size(); ++j) {
       const bool is_sleeve = std::abs(x[i] + x[i + 1]) / 2 > O::side;
       if (is_sleeve && z[j + 1] < O::armpit + 1e-9) continue;
-      for (const std::size_t side : {0, 1}) {
+      for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
         const Index a = vertex(i, j, side), b = vertex(i + 1, j, side), c = vertex(i + 1, j + 1, side),
                     d = vertex(i, j + 1, side);
         const bool is_even = (i + j) % 2 == 0;
