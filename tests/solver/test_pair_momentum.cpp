@@ -147,11 +147,8 @@ TEST_CASE("pair momentum: bodies that are too many to be solved for at once keep
   const Vec3 begin = momentum(scene.simulation);
   const Real scale = half_mass(scene.simulation);
   Index most_active = 0;
-  Real lost = 0;
   for (int i = 0; i < (runs_whole_scenes ? 30 : 2); ++i) {
-    const ContactReport contact = scene.step().contact;
-    most_active = std::max(most_active, contact.active);
-    lost += contact.momentum_lost.norm() / scale;
+    most_active = std::max(most_active, scene.step().contact.active);
   }
   CHECK((momentum(scene.simulation) - begin).norm() / scale < 1e-5);
   if (runs_whole_scenes) CHECK(most_active > count);
