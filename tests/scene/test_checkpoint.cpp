@@ -403,8 +403,9 @@ TEST_CASE("a checkpoint of the format 3, in which surfaces touched on request al
   CHECK(once_more.simulation.state().positions == old.simulation.state().positions);
   CHECK(old.simulation.state().positions.topRows(16).col(2).mean() < -0.1);  // it has fallen through the lower one
   CHECK(parse_checkpoint(pliant_tests::checkpoint_bytes(bytes, 4), "run.pliant").simulation.contact().surfaces);
-  content["source"]["set"] = {Json::binary(
-      {'c', 'o', 'n', 't', 'a', 'c', 't', '.', 's', 'u', 'r', 'f', 'a', 'c', 'e', 's', '=', 't', 'r', 'u', 'e'})};
+  content["source"]["set"] = Json::array();
+  content["source"]["set"].push_back(Json::binary(
+      {'c', 'o', 'n', 't', 'a', 'c', 't', '.', 's', 'u', 'r', 'f', 'a', 'c', 'e', 's', '=', 't', 'r', 'u', 'e'}));
   bytes.clear();
   Json::to_cbor(content, bytes);
   CHECK(parse_checkpoint(pliant_tests::checkpoint_bytes(bytes, 3), "run.pliant").simulation.contact().surfaces);

@@ -6,6 +6,7 @@
 
 #include "../mesh/meshes.h"
 #include "everything.h"
+#include "pliant/collision/colliders/builtin.h"
 #include "pliant/core/error.h"
 #include "pliant/simulation/parameters.h"
 #include "pliant/simulation/transaction.h"
