@@ -10,8 +10,8 @@ struct ContactSettings {
   Real distance = 0;
   /// μ ≥ 0 of Coulomb's law, where neither side has its own.
   Real friction = 0.3;
-  /// Whether bodies touch each other and themselves. A step takes up to three times as long with it; false: they meet
-  /// colliders alone.
+  /// Whether bodies touch each other and themselves. A step takes up to several times as long with it; false: they
+  /// meet colliders alone.
   bool surfaces = true;
 
   friend bool operator==(const ContactSettings&, const ContactSettings&) = default;
