@@ -314,6 +314,11 @@ std::map<std::string, std::string> lines_of(const std::string& log) {
 
 bool do_runs(const Arguments& arguments) {
   const auto done = lines_of(arguments.log);
+  std::ofstream log;
+  if (!arguments.log.empty()) {
+    log.open(arguments.log, std::ios::app);
+    if (!log) fail_input("cannot write " + arguments.log + "; choose a file in a folder that exists");
+  }
   bool is_clean = true;
   for (const Run& each : share_of(runs_of(arguments), arguments.share)) {
     if (const auto found = done.find(each.title()); found != done.end()) {
@@ -325,7 +330,7 @@ bool do_runs(const Arguments& arguments) {
     const std::string line = (outcome.is_clean ? "" : "NOT CLEAN: ") + outcome.line;
     fmt::print("{}\n", line);
     std::fflush(stdout);
-    if (!arguments.log.empty()) std::ofstream(arguments.log, std::ios::app) << each.title() << '\t' << line << '\n';
+    if (log.is_open()) log << each.title() << '\t' << line << std::endl;
   }
   return is_clean;
 }
