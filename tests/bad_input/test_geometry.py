@@ -130,6 +130,7 @@ MATERIALS = {
     "nothing": [],
     "springs": [{"type": "edge_spring"}],
     "strain": [{"type": "edge_strain", "measure": "cloth"}, {"type": "triangle_strain"}, {"type": "tetrahedron_strain"}],
+    "area and volume": [{"type": "triangle_area"}, {"type": "tetrahedron_volume"}, {"type": "edge_spring", "reduction": "identity"}],
     "bending": [{"type": "edge_spring"}, {"type": "bending"}, {"type": "hinge"}],
     "signed bending": [{"type": "bending", "orientation": "signed"}, {"type": "hinge", "orientation": "signed"}],
     "rope": [{"type": "edge_strain", "min_stretch": 0, "max_stretch": 2}],
@@ -140,11 +141,11 @@ WIND = [{"type": "wind"}, {"type": "wind", "model": "thesis", "gust_strength": 1
 
 def is_possible(shape, constraint):
     kind = constraint["type"]
-    if kind == "triangle_strain":
+    if kind in ("triangle_strain", "triangle_area"):
         return "triangles" in shape
     if kind in ("hinge", "bending"):
         return len(shape.get("triangles", [])) > 1
-    if kind == "tetrahedron_strain":
+    if kind in ("tetrahedron_strain", "tetrahedron_volume"):
         return "tetrahedra" in shape
     if constraint.get("measure") == "cloth":
         return "triangles" in shape

@@ -15,9 +15,10 @@ WHOLE = [0, -1, 2**31 - 1, 2**31, -2**31, 2**32, 10**9, 10**18, 2**63 - 1, -2**6
 LOW = [value for value in WHOLE if value < 10**6 or value > 2**31]  # others are done, and take their time
 
 # What the tables of the page do not say: keys that must be there, and what to try them on.
-NEEDED = {"test_force": {"vertex": 1, "force": [0, 0, 1]}, "line": {"direction": [0, 0, 1]}, "drag": {"stencils": [[0, 1]], "weights": [[0.5, 0.5]]},
+NEEDED = {"test_force": {"vertex": 1, "force": [0, 0, 1]}, "line": {"direction": [0, 0, 1]},
+          "plane": {"normal": [0, 0, 1]}, "half_space": {"normal": [0, 0, 1]}, "drag": {"stencils": [[0, 1]], "weights": [[0.5, 0.5]]},
           "bending": {}, "mouse_spring": {"vertex": 1, "anchor": [0, 0, 1]}}
-SOLIDS = ("tetrahedron_strain", "volume")
+SOLIDS = ("tetrahedron_strain", "tetrahedron_volume", "volume")
 
 GRID = {"shape": "grid", "columns": 4, "rows": 4}
 BALL = {"shape": "sphere", "subdivisions": 0}
@@ -74,7 +75,7 @@ def fits(constraint):
 
 
 def constraint_scene(name, options, **more):
-    held = [] if name in ("position", "line") else [{"type": "position", "on": [0]}]
+    held = [] if name in ("position", "line", "plane", "half_space") else [{"type": "position", "on": [0]}]
     return scene_of(fits(name), *held, {"type": name} | NEEDED.get(name, {}) | options, **more)
 
 
@@ -91,9 +92,11 @@ class Numbers(HostileTest):
                      for name, text in sections("Constraints") for key, default in numeric_options(text)
                      for value in [*REALS, [1, -1], [], [0.5] * 999]))
 
-    def test_stretch_limits(self):
-        self.attack(case(constraint_scene(name, {"min_stretch": low, "max_stretch": high}), name, low, high)
-                    for name in ("edge_strain", "triangle_strain", "tetrahedron_strain")
+    def test_limits(self):
+        self.attack(case(constraint_scene(name, {f"min_{what}": low, f"max_{what}": high}), name, low, high)
+                    for name, what in (("edge_strain", "stretch"), ("triangle_strain", "stretch"),
+                                       ("tetrahedron_strain", "stretch"), ("triangle_area", "area"),
+                                       ("tetrahedron_volume", "volume"))
                     for low in [0, 1e-300, 1, 1e300] for high in [0, 1e-300, 0.5, 1e300])
 
     def test_stiffnesses_masses_and_time_steps_of_all_sizes(self):

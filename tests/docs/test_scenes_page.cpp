@@ -85,10 +85,10 @@ std::string default_text(const Option& option) {
   }
 }
 
-/// The tables of options stand under their type's heading.
+/// The tables of options stand under their type's heading, in the chapter of their kind.
 template <class Options>
-void check_rows(std::string_view heading = "") {
-  const std::size_t begin = heading.empty() ? 0 : page().find(heading);
+void check_rows(std::string_view heading = "", std::string_view chapter = "") {
+  const std::size_t begin = heading.empty() ? 0 : page().find(heading, page().find(chapter));
   CHECK_MESSAGE(begin != std::string::npos, heading);
   if (begin == std::string::npos) return;
   const std::string section = page().substr(begin, page().find("\n#", begin + 1) - begin);
@@ -106,10 +106,10 @@ void check_shape() {
   check_rows<Shape>("\n#### `" + std::string(Shape::shape) + "`\n");
 }
 
-/// Types of constraints or of forces.
+/// Types of constraints, of forces or of colliders.
 template <class... Type>
-void check_types(std::tuple<Type...>*) {
-  (check_rows<Type>("\n### `" + std::string(Type::info.name) + "`\n"), ...);
+void check_types(std::string_view chapter, std::tuple<Type...>*) {
+  (check_rows<Type>("\n### `" + std::string(Type::info.name) + "`\n", chapter), ...);
 }
 
 TEST_CASE("the example is a sound scene") {
@@ -145,9 +145,9 @@ TEST_CASE("the tables list every option") {
   check_rows<RampOptions>();
   check_rows<SteadyAnimation>("\n### Animation\n");
   check_rows<FrameAnimation>("\n### Animation\n");
-  check_types(static_cast<BuiltinConstraints*>(nullptr));
-  check_types(static_cast<BuiltinForces*>(nullptr));
-  check_types(static_cast<BuiltinColliders*>(nullptr));
+  check_types("\n## Constraints\n", static_cast<BuiltinConstraints*>(nullptr));
+  check_types("\n## Forces\n", static_cast<BuiltinForces*>(nullptr));
+  check_types("\n## Colliders\n", static_cast<BuiltinColliders*>(nullptr));
   check_rows<ContactSettings>("\n### `contact`\n");
   check_rows<BodyContact>("\n### `contact` of a body\n");
 }

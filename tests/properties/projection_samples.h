@@ -3,8 +3,6 @@
 // the set, and how far a point is from it. One specialization for each type of BuiltinProjections.
 #include <algorithm>
 
-#include <Eigen/SVD>
-
 #include "../core/random.h"
 #include "pliant/constraints/builtin.h"
 
@@ -65,6 +63,32 @@ struct Samples<pliant::LineProjection> {
   }
 };
 
+struct PlaneSamples {
+  static Fields fields(Random& random) { return Samples<pliant::LineProjection>::fields(random); }
+  static void turn(Fields& fields, const pliant::Mat3& R) { Samples<pliant::LineProjection>::turn(fields, R); }
+  static Real height(const Fields& f, const Eigen::RowVector3d& p) {
+    return (p - Eigen::RowVector3d(f[0], f[1], f[2])).dot(Eigen::RowVector3d(f[3], f[4], f[5]));
+  }
+  static Eigen::RowVector3d at_height(Random& random, const Fields& f, Real height_of_member) {
+    const Eigen::RowVector3d p = random.vector(4).transpose();
+    return p + (height_of_member - height(f, p)) * Eigen::RowVector3d(f[3], f[4], f[5]);
+  }
+};
+
+template <>
+struct Samples<pliant::PlaneProjection> : PlaneSamples {
+  static Eigen::RowVector3d member(Random& random, const Fields& f) { return at_height(random, f, 0); }
+  static Real distance(const Fields& f, const Eigen::RowVector3d& p) { return std::abs(height(f, p)); }
+};
+
+template <>
+struct Samples<pliant::HalfSpaceProjection> : PlaneSamples {
+  static Eigen::RowVector3d member(Random& random, const Fields& f) {
+    return at_height(random, f, random.index(2) == 0 ? 0 : random.uniform(0, 3));
+  }
+  static Real distance(const Fields& f, const Eigen::RowVector3d& p) { return std::max(Real(0), -height(f, p)); }
+};
+
 /// Vectors of a length between two limits.
 struct ShellSamples {
   static void turn(Fields&, const pliant::Mat3&) {}
@@ -81,6 +105,21 @@ struct Samples<pliant::EdgeSpringProjection> : ShellSamples {
   static Fields fields(Random& random) { return {random.uniform(0.2, 2)}; }
   static Eigen::RowVector3d member(Random& random, const Fields& f) { return member_of(random, f[0], f[0]); }
   static Real distance(const Fields& f, const Eigen::RowVector3d& p) { return distance_from(f[0], f[0], p); }
+};
+
+/// Both ends of an edge of given length.
+template <>
+struct Samples<pliant::EdgeEndsProjection> {
+  using Ends = Rows<pliant::EdgeEndsProjection>;
+  static void turn(Fields&, const pliant::Mat3&) {}
+  static Fields fields(Random& random) { return {random.uniform(0.2, 2)}; }
+  static Ends member(Random& random, const Fields& f) {
+    Ends ends;
+    ends.row(0) = random.vector(2).transpose();
+    ends.row(1) = ends.row(0) + f[0] * random.unit_vector().transpose();
+    return ends;
+  }
+  static Real distance(const Fields& f, const Ends& p) { return std::abs((p.row(1) - p.row(0)).norm() - f[0]); }
 };
 
 /// Limits of the stretch: equal, apart, and (for types that allow it) from zero up.
@@ -148,35 +187,5 @@ template <>
 struct Samples<pliant::SignedFanCurvature> : HalfSphereSamples {};
 template <>
 struct Samples<pliant::SignedHingeCurvature> : HalfSphereSamples {};
-
-/// Matrices whose stretches lie between two limits; row a of z is column a of F.
-template <int columns>
-struct StretchSamples {
-  using Transposed = Eigen::Matrix<Real, columns, 3, Eigen::RowMajor>;
-  static Fields fields(Random& random) { return limits(random, columns == 3 ? 0.1 : 0); }
-  static void turn(Fields&, const pliant::Mat3&) {}
-  static Transposed member(Random& random, const Fields& f) {
-    Eigen::Matrix<Real, columns, 1> sigma;
-    for (Real& stretch : sigma) stretch = random.uniform(f[0], f[1]);
-    const pliant::Mat3 V = random.rotation();
-    Eigen::Matrix<Real, columns, columns> turned = V.topLeftCorner<columns, columns>();
-    if constexpr (columns == 2) turned = Eigen::Rotation2D<Real>(random.uniform(0, 7)).toRotationMatrix();
-    return turned * sigma.asDiagonal() * random.rotation().template leftCols<columns>().transpose();
-  }
-  static Real distance(const Fields& f, const Transposed& p) {
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd{Eigen::MatrixXd(p)};
-    const Real below = f[0] - svd.singularValues().minCoeff();
-    const Real above = svd.singularValues().maxCoeff() - f[1];
-    if constexpr (columns == 3) {
-      if (!(p.determinant() > 0)) return 1;
-    }
-    return std::max({below, above, Real(0)});
-  }
-};
-
-template <>
-struct Samples<pliant::TriangleStrainProjection> : StretchSamples<2> {};
-template <>
-struct Samples<pliant::TetrahedronStrainProjection> : StretchSamples<3> {};
 
 }  // namespace pliant_tests

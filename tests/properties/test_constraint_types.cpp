@@ -44,10 +44,18 @@ std::vector<Line> variants(const Mesh&) {
   return {{.direction = Vec3(1, 2, -3)}};
 }
 template <>
+std::vector<OnPlane> variants(const Mesh&) {
+  return {{.normal = Vec3(1, 2, -3)}};
+}
+template <>
+std::vector<InHalfSpace> variants(const Mesh&) {
+  return {{.normal = Vec3(1, 2, -3)}, {.on = {0, 3}, .normal = Vec3(0, 0, 2)}};
+}
+template <>
 std::vector<EdgeSpring> variants(const Mesh& mesh) {
   std::vector<Real> each(unique_edges(mesh).size(), 2);
   each[0] = 1e3;
-  return {{}, {.stiffness = each}};
+  return {{}, {.stiffness = each}, {.reduction = EdgeReduction::identity}};
 }
 template <>
 std::vector<EdgeStrain> variants(const Mesh&) {
@@ -56,6 +64,14 @@ std::vector<EdgeStrain> variants(const Mesh&) {
 template <>
 std::vector<TriangleStrain> variants(const Mesh&) {
   return {{}, {.min_stretch = 0.9, .max_stretch = 1.1}};
+}
+template <>
+std::vector<TriangleArea> variants(const Mesh&) {
+  return {{}, {.min_area = 0.9, .max_area = 1.1}, {.min_area = 0}};
+}
+template <>
+std::vector<TetrahedronVolume> variants(const Mesh&) {
+  return {{}, {.min_volume = 0.9, .max_volume = 1.1}};
 }
 template <>
 std::vector<TetrahedronStrain> variants(const Mesh&) {
@@ -80,7 +96,8 @@ std::vector<Drag> variants(const Mesh& mesh) {
 
 template <class Constraint>
 constexpr bool is_anchored =
-    std::is_same_v<Constraint, Position> || std::is_same_v<Constraint, Line> || std::is_same_v<Constraint, Drag>;
+    std::is_same_v<Constraint, Position> || std::is_same_v<Constraint, Line> || std::is_same_v<Constraint, OnPlane> ||
+    std::is_same_v<Constraint, InHalfSpace> || std::is_same_v<Constraint, Drag>;
 
 /// True when the frozen normals of `signed` stand in space, so that torque is not balanced within a step.
 template <class Constraint>

@@ -1,8 +1,8 @@
 // The kernels of the local step against the projections that they stand for, for every instruction set at hand.
 #include <doctest/doctest.h>
 
+#include "element_samples.h"
 #include "pliant/constraints/kernels/local_kernels.h"
-#include "projection_samples.h"
 
 namespace test_kernels {
 

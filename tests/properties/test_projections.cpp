@@ -1,8 +1,8 @@
 // What holds for every projection, written once over the list of them.
 #include <doctest/doctest.h>
 
+#include "element_samples.h"
 #include "pliant/core/svd.h"
-#include "projection_samples.h"
 
 namespace test_projections {
 

@@ -54,8 +54,9 @@ def lines(found):
     }
 
 
-def springs(found, name, scale):
+def springs(found, name, scale, **more):
     return {
+        **more,
         "type": "edge_spring",
         "name": name,
         "stencils": [c["v"] for _, c in found],
@@ -74,13 +75,13 @@ def bending(found):
     }
 
 
-def strain(found, kind):
+def limited(found, kind, what):
     return {
         "type": kind,
         "stencils": [c["v"] for _, c in found],
         "stiffness": column(found, "w"),
-        "min_stretch": column(found, "min"),
-        "max_stretch": column(found, "max"),
+        f"min_{what}": column(found, "min"),
+        f"max_{what}": column(found, "max"),
     }
 
 
@@ -91,8 +92,11 @@ BUILDERS = {
     "edge": lambda found: springs(found, "edges", 0.5),
     "spring": lambda found: springs(found, "springs", 1.0),
     "bend": bending,
-    "tet": lambda found: strain(found, "tetrahedron_strain"),
-    "tri": lambda found: strain(found, "triangle_strain"),
+    "edge_id": lambda found: springs(found, "ends", 0.5, reduction="identity"),
+    "tet": lambda found: limited(found, "tetrahedron_strain", "stretch"),
+    "tetvol": lambda found: limited(found, "tetrahedron_volume", "volume"),
+    "tri": lambda found: limited(found, "triangle_strain", "stretch"),
+    "triarea": lambda found: limited(found, "triangle_area", "area"),
 }
 
 

@@ -25,6 +25,10 @@ inline void add_everything_cloth(pliant::Simulation& simulation, pliant::Index s
                              .weights = {{0.2, 0.3, 0.5}, {1}},
                              .stiffness = 20,
                              .targets = Vec3(0.5, 0.4, 0.1)});
+  simulation.add(cloth, TriangleArea{.stiffness = 20, .min_area = 0.97});
+  simulation.add(cloth, EdgeSpring{.on = {1, 2, 3}, .stiffness = 30, .reduction = EdgeReduction::identity});
+  simulation.add(cloth, OnPlane{.on = {size}, .stiffness = 50, .normal = Vec3(1, 0, 2)});
+  simulation.add(cloth, InHalfSpace{.on = {size + 2}, .stiffness = 50, .normal = Vec3(0, 1, 1)});
   simulation.add(cloth, pliant::Wind{.velocity = {0, 3, 1}, .drag = 0.5, .gust_strength = 0.5});
   simulation.add(cloth, pliant::Wind{.velocity = {0, 0.2, 0}, .model = WindModel::thesis, .area = WindArea::rest});
   simulation.add(cloth, TestForce{.vertices = {size + 1}, .force = Vec3(0, 0.5, 0), .frames = {2, 6}});
@@ -35,6 +39,7 @@ inline void add_everything_solids(pliant::Simulation& simulation, pliant::Index 
   using namespace pliant;
   const BodyId block = simulation.add_body(bar({.cells = {size, 3, 3}}), Mass::density(500), {.name = "bar"});
   simulation.add(block, TetrahedronStrain{.stiffness = 2e4, .min_stretch = 0.9, .max_stretch = 1.1});
+  simulation.add(block, TetrahedronVolume{.stiffness = 5e4, .max_volume = 1.02});
   simulation.add(block, EdgeStrain{.stiffness = 10, .min_stretch = 0.5});
   simulation.add(block, Position{.on = {0}});
   const BodyId ring =

@@ -85,12 +85,16 @@ void check_same_steps(Simulation& a, Simulation& b, int count) {
 TEST_CASE("every number, choice and vector of every type is a parameter") {
   const std::map<std::string, Names> expected = {
       {"line", {"stiffness", "direction"}},
-      {"edge_spring", {"stiffness"}},
+      {"plane", {"stiffness", "normal"}},
+      {"half_space", {"stiffness", "normal"}},
+      {"edge_spring", {"stiffness", "reduction"}},
       {"edge_strain", {"measure", "stiffness", "min_stretch", "max_stretch"}},
       {"bending", {"stiffness", "orientation"}},
       {"hinge", {"stiffness", "orientation"}},
       {"triangle_strain", {"stiffness", "min_stretch", "max_stretch"}},
+      {"triangle_area", {"stiffness", "min_area", "max_area"}},
       {"tetrahedron_strain", {"stiffness", "min_stretch", "max_stretch"}},
+      {"tetrahedron_volume", {"stiffness", "min_volume", "max_volume"}},
       {"drag", {"stiffness", "targets"}},
       {"wind", {"velocity", "model", "area", "drag", "gust_strength", "gust_period"}},
       {"test_force", {"force"}},
@@ -284,7 +288,7 @@ TEST_CASE("stiffnesses of each constraint keep their ratios; their factor is the
   CHECK(parameter(simulation, {springs, "stiffness"}).unit.empty());
   set_parameter(simulation, {springs, "stiffness"}, {10, 0, 0});
   CHECK(simulation.options<EdgeSpring>(springs)->stiffness.list() == std::vector<Real>{10, 20, 30});
-  CHECK(options_of(simulation, springs) == Names{"stiffness"});  // no rest length was given
+  CHECK(options_of(simulation, springs) == Names{"stiffness", "reduction"});  // no rest length was given
 }
 
 TEST_CASE("released vertices stay released when an option changes, and come back with a transaction") {

@@ -129,6 +129,9 @@ TEST_CASE("rest data that is refused") {
   CHECK(contains(refusal_of(TriangleStrain{.max_stretch = infinite}), "triangle_strain: max_stretch"));
   CHECK(contains(refusal_of(Line{.direction = Vec3(0, 0, 0)}), "zero vector"));
   CHECK(contains(refusal_of(Line{}), "direction is missing"));
+  CHECK(contains(refusal_of(OnPlane{}), "plane: normal is missing"));
+  CHECK(contains(refusal_of(InHalfSpace{.normal = Vec3(0, 0, 0)}), "zero vector"));
+  CHECK(contains(refusal_of(TriangleArea{.min_area = 2}), "triangle_area: min_area 2 is above max_area 1"));
   CHECK(contains(refusal_of(Line{.direction = Vec3(0, not_a_number, 0)}), "line: direction"));
   CHECK(contains(refusal_of(Position{.targets = std::vector<Vec3>{{0, 0, 0}}}), "targets has 1 entries for 9"));
   CHECK(contains(refusal_of(Bending{.stencils = {{4, 0, 1}}}), "cotangents"));

@@ -129,16 +129,17 @@ StiffnessSplit::StiffnessSplit(std::string_view type, const BodyView& body, cons
   check_given("stiffness", values_);
 }
 
-StretchLimits::StretchLimits(std::string_view type, const BodyView& body, const Values& min, const Values& max,
-                             const Stencils& stencils)
-    : min_(of_stencils(type, body, "min_stretch", min, stencils)),
-      max_(of_stencils(type, body, "max_stretch", max, stencils)) {
-  check_given("min_stretch", min_);
-  check_given("max_stretch", max_);
+Limits::Limits(std::string_view type, const BodyView& body, std::string_view of, const Values& min, const Values& max,
+               const Stencils& stencils) {
+  const std::string name_of_min = fmt::format("min_{}", of), name_of_max = fmt::format("max_{}", of);
+  min_ = of_stencils(type, body, name_of_min, min, stencils);
+  max_ = of_stencils(type, body, name_of_max, max, stencils);
+  check_given(name_of_min, min_);
+  check_given(name_of_max, max_);
   for (Index i = 0; i < stencils.size(); ++i) {
     if (min_[i] <= max_[i]) continue;
-    fail_input(fmt::format("{}: min_stretch {} is above max_stretch {} at constraint {}; swap them", type, min_[i],
-                           max_[i], i));
+    fail_input(fmt::format("{}: {} {} is above {} {} at constraint {}; swap them", type, name_of_min, min_[i],
+                           name_of_max, max_[i], i));
   }
 }
 

@@ -44,12 +44,13 @@ class StiffnessSplit {
   Values values_;
 };
 
-/// The smallest and the largest stretch of each constraint.
-class StretchLimits {
+/// The smallest and the largest stretch, area or volume of each constraint.
+class Limits {
  public:
-  /// Throws as of_stencils, when there is none, and unless 0 ≤ min ≤ max for each constraint.
-  StretchLimits(std::string_view type, const BodyView& body, const Values& min, const Values& max,
-                const Stencils& stencils);
+  /// `of` is "stretch" where the options are min_stretch and max_stretch. Throws as of_stencils, when there is none,
+  /// and unless min ≤ max for each constraint.
+  Limits(std::string_view type, const BodyView& body, std::string_view of, const Values& min, const Values& max,
+         const Stencils& stencils);
   std::array<Real, 2> operator[](Index i) const { return {min_[i], max_[i]}; }
 
  private:

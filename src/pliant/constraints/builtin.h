@@ -10,8 +10,11 @@
 #include "pliant/constraints/edge_strain.h"
 #include "pliant/constraints/hinge.h"
 #include "pliant/constraints/line.h"
+#include "pliant/constraints/plane.h"
 #include "pliant/constraints/position.h"
 #include "pliant/constraints/tetrahedron_strain.h"
+#include "pliant/constraints/tetrahedron_volume.h"
+#include "pliant/constraints/triangle_area.h"
 #include "pliant/constraints/triangle_strain.h"
 
 namespace pliant {
@@ -23,26 +26,35 @@ namespace pliant {
 using BuiltinConstraints = std::tuple<
     Position,
     Line,
+    OnPlane,
+    InHalfSpace,
     EdgeSpring,
     EdgeStrain,
     Bending,
     HingeBending,
     TriangleStrain,
+    TriangleArea,
     TetrahedronStrain,
+    TetrahedronVolume,
     Drag>;
 
 /// What projects.
 using BuiltinProjections = std::tuple<
     PositionProjection,
     LineProjection,
+    PlaneProjection,
+    HalfSpaceProjection,
     EdgeSpringProjection,
+    EdgeEndsProjection,
     EdgeStrainProjection,
     FlatCurvature,
     AbsoluteCurvature,
     SignedFanCurvature,
     SignedHingeCurvature,
     TriangleStrainProjection,
+    TriangleAreaProjection,
     TetrahedronStrainProjection,
+    TetrahedronVolumeProjection,
     DragProjection>;
 
 // clang-format on

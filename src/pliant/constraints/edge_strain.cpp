@@ -35,7 +35,7 @@ ConstraintSet build(const BodyView& body, const EdgeStrain& options) {
   constexpr std::string_view type = EdgeStrain::info.name;
   const Stencils chosen = choose_stencils(
       type, body, options.on, options.stencils, [&] { return mesh_edges(body); }, 2);
-  const StretchLimits limits(type, body, options.min_stretch, options.max_stretch, chosen);
+  const Limits limits(type, body, "stretch", options.min_stretch, options.max_stretch, chosen);
   const std::vector<Real> rest_length = rest_lengths(type, body, chosen, options.rest_length);
   const std::vector<Real> measure = options.measure == FibreMeasure::rope ? rest_length : adjacent_areas(body, chosen);
 

@@ -12,6 +12,7 @@ namespace pliant {
 using Real = double;         ///< State and sums are double precision everywhere.
 using Index = std::int32_t;  ///< Index of a vertex, an element or a constraint; -1 never occurs in valid data.
 
+using Vec2 = Eigen::Matrix<Real, 2, 1>;
 using Vec3 = Eigen::Matrix<Real, 3, 1>;
 using Mat3 = Eigen::Matrix<Real, 3, 3>;
 
