@@ -82,7 +82,9 @@ std::vector<ProjectionsResult> measure_projections(std::optional<int> repeats) {
   kernels.push_back(make_kernel("edge_spring", sheet(), EdgeSpring{}));
   kernels.push_back(make_kernel("edge_strain", sheet(), EdgeStrain{}));
   kernels.push_back(make_kernel("triangle_strain", sheet(), TriangleStrain{}));
+  kernels.push_back(make_kernel("triangle_area", sheet(), TriangleArea{}));
   kernels.push_back(make_kernel("tetrahedron_strain", block(), TetrahedronStrain{}));
+  kernels.push_back(make_kernel("tetrahedron_volume", block(), TetrahedronVolume{}));
   kernels.push_back(make_kernel("bending, flat at rest", sheet(), Bending{}));
   kernels.push_back(make_kernel("bending, curved at rest", wavy_sheet(), Bending{}));
   kernels.push_back(make_kernel("hinge, flat at rest", sheet(), HingeBending{}));

@@ -46,6 +46,7 @@ struct TetrahedronVolumeProjection {
   static constexpr int fields = 2;  // min, max
   static constexpr bool translation_invariant = true;
   static constexpr bool rotation_invariant = true;
+  static constexpr auto kernel = &LocalKernels::tetrahedron_volume;
   static void project(const Real* field, const Real* z, Real* p);
 };
 

@@ -45,6 +45,7 @@ struct TriangleAreaProjection {
   static constexpr int fields = 2;  // min, max
   static constexpr bool translation_invariant = true;
   static constexpr bool rotation_invariant = true;
+  static constexpr auto kernel = &LocalKernels::triangle_area;
   static void project(const Real* field, const Real* z, Real* p);
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 // The kernels of local_kernels.h, for any number of lanes; compiled as lanes.h says.
 #include "pliant/constraints/kernels/length_kernels.h"
+#include "pliant/constraints/kernels/product_kernels.h"
 #include "pliant/constraints/kernels/strain_kernels.h"
 
 namespace pliant {
@@ -10,8 +11,10 @@ template <int width>
 constexpr LocalKernels kernels_of(const char* instruction_set) {
   using Lengths = LengthKernels<width>;
   using Strains = StrainKernels<width>;
+  using Products = ProductKernels<width>;
   return {Lengths::edge_spring,           Lengths::edge_strain,
           Strains::triangle_strain,       Strains::tetrahedron_strain,
+          Products::triangle_area,        Products::tetrahedron_volume,
           Lengths::template curvature<0>, Lengths::template curvature<4>,
           Lengths::template curvature<8>, instruction_set};
 }

@@ -43,6 +43,8 @@ struct LocalKernels {
   Kernel* edge_strain;
   Kernel* triangle_strain;     ///< with one stretch allowed; others are left
   Kernel* tetrahedron_strain;  ///< the same
+  Kernel* triangle_area;       ///< far from its limits, inverted or nearly flat elements are left
+  Kernel* tetrahedron_volume;  ///< the same
   Kernel* flat_curvature;
   Kernel* absolute_curvature;
   Kernel* signed_curvature;

@@ -39,14 +39,18 @@ struct StrainKernels : Block<width> {
     const double* limits = block.fields + 2 * i * width;
     const Number stretch = Math::load(limits, 2, 0);
     is_left |= stretch != Math::load(limits, 2, 1);
+    for (std::size_t a = 0; a < size; ++a) p[a] = Math::multiply_add(stretch, p[a], -z[a]);
+    settle<vertices>(block, i, p, is_left, sums);
+  }
+
+  /// Writes the forces of d = p − z.
+  template <std::size_t vertices, std::size_t size>
+  static void settle(const LocalBlock& block, std::size_t i, Number (&d)[size], Mask is_left, Sums& sums) {
     Number squares = {};
-    for (std::size_t a = 0; a < size; ++a) {
-      p[a] = Math::multiply_add(stretch, p[a], -z[a]);
-      squares = Math::multiply_add(p[a], p[a], squares);
-    }
+    for (std::size_t a = 0; a < size; ++a) squares = Math::multiply_add(d[a], d[a], squares);
     const Number w = Math::select(squares <= All::rounding * All::rounding, Number{}, All::weight(block, i * width));
-    for (Number& number : p) number *= w;
-    scatter<vertices, size / 3>(block, i * width, p);
+    for (Number& number : d) number *= w;
+    scatter<vertices, size / 3>(block, i * width, d);
     sums.add(i, is_left, w / 2 * squares);
   }
 
