@@ -65,6 +65,7 @@ std::string VtkInput::next_word() {
 }
 
 std::string VtkInput::rest_of_line() {
+  word_line_ = line_;
   std::string text;
   while (!is_at_end() && !is_line_end(peek())) {
     if (peek() == '\0') fail("a NUL byte; this is not a file of VTK, save it anew");

@@ -104,7 +104,7 @@ std::uint64_t VtuDecoder::take_count(VtuStream& stream) const {
 
 void VtuDecoder::spend(std::uint64_t bytes) {
   if (bytes > budget_) {
-    throw Failure{fmt::format("{} bytes, more than a file of this size holds; save it without compression", bytes)};
+    throw Failure{fmt::format("{} bytes, more than a file of this size holds; save it anew", bytes)};
   }
   budget_ -= bytes;
 }
