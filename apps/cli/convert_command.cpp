@@ -78,9 +78,8 @@ bool is_sequence(const fs::path& out) {
 bool may_replace(const fs::path& out, const fs::path& file) {
   std::error_code ignored;
   const auto format = pliant::animation_format(out);
-  if (format && format->folder != nullptr && fs::equivalent(file.parent_path(), format->folder(out), ignored)) {
-    return true;
-  }
+  const fs::path place = fs::absolute(file, ignored).parent_path();
+  if (format && format->folder != nullptr && fs::equivalent(place, format->folder(out), ignored)) return true;
   if (!is_sequence(out)) return fs::equivalent(file, out, ignored);
   const auto folder_of = [](const fs::path& path) { return path.has_parent_path() ? path.parent_path() : "."; };
   if (!fs::equivalent(folder_of(file), folder_of(out), ignored)) return false;

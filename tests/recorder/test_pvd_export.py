@@ -1,12 +1,13 @@
 """What `pliant convert` writes for ParaView, read by a reader of the tests' own: every position to the bit, and the
 values of vertices as they follow from the frames and the scene."""
 import shutil
+import subprocess
 import unittest
 
 import numpy
 
 import vtu_reader
-from export_case import ExportCase
+from export_case import PLIANT, ExportCase
 
 
 def springs(edges, count, stretches):
@@ -123,6 +124,8 @@ class PvdExport(ExportCase):
         (folder / "mine.txt").unlink()
         self.assertIn("would replace the input",
                       self.pliant("convert", "twice_frames/frame_00000.vtu", "twice.pvd", expect=2).stderr)
+        done = subprocess.run([PLIANT, "convert", "frame_00000.vtu", "../twice.pvd"], cwd=folder, capture_output=True, text=True)
+        self.assertIn("would replace the input", done.stderr)
         self.assertIn("files hold all frames", self.pliant("convert", "run", "a.pvd", "--tolerance", 0.1, expect=2).stderr)
         self.pliant("convert", "run", "none/a.pvd", expect=4)
         self.assertEqual([path.name for path in self.folder.iterdir() if ".tmp" in path.name], [])
