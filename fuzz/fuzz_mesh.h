@@ -85,8 +85,9 @@ inline void check_diagnosis(const pliant::Mesh& mesh) {
   require(has_refused == is_refused, "diagnose and check_mesh do not agree");
 }
 
-/// The format that a mesh of a format is written in; TetGen's files are only read.
+/// The format that a mesh of a format is written in; TetGen's and VTK's legacy files are only read.
 inline pliant::MeshFormat output_format(const pliant::MeshFormat& format) {
+  if (format.name == "vtk") return pliant::require_mesh_format("x.vtu");
   return format.write == nullptr ? pliant::require_mesh_format("x.msh") : format;
 }
 

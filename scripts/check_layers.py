@@ -48,6 +48,7 @@ THIRD_PARTY = {
     "nlohmann/": ["src/pliant_io", "apps", "tests"],
     "CLI/": ["apps", "tests/pairs"],
     "zlib": ["src/pliant_io/files"],
+    "pugixml": ["src/pliant_io/mesh"],
     "cholmod": ["src/pliant/solver/global/factorization", "apps/bench"],
     "epoxy/": ["apps/render"],
     "GLFW/": ["apps/viewer", "tests"],

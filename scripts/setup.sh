@@ -7,7 +7,7 @@ set -euo pipefail
 
 packages=(
   g++ cmake ninja-build
-  libeigen3-dev libfmt-dev zlib1g-dev nlohmann-json3-dev libcli11-dev doctest-dev
+  libeigen3-dev libfmt-dev zlib1g-dev libpugixml-dev nlohmann-json3-dev libcli11-dev doctest-dev
   libsuitesparse-dev libopenblas-serial-dev
   pkg-config libepoxy-dev libegl-dev libglfw3-dev libgl1 libgl1-mesa-dri libimgui-dev libstb-dev fonts-inter ffmpeg
   python3 python3-numpy python3-jsonschema assimp-utils xvfb xauth xdotool

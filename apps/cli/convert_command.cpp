@@ -20,6 +20,7 @@
 #include "pliant_io/mesh/point_cache_format.h"
 #include "pliant_io/recorder/run_files.h"
 #include "render/run_replay.h"
+#include "render/run_values.h"
 #include "terminal.h"
 
 namespace pliant_cli {
@@ -76,6 +77,9 @@ bool is_sequence(const fs::path& out) {
 /// Whether the output is that file, or may be in one of its frames.
 bool may_replace(const fs::path& out, const fs::path& file) {
   std::error_code ignored;
+  const auto format = pliant::animation_format(out);
+  const fs::path place = fs::absolute(file, ignored).parent_path();
+  if (format && format->folder != nullptr && fs::equivalent(place, format->folder(out), ignored)) return true;
   if (!is_sequence(out)) return fs::equivalent(file, out, ignored);
   const auto folder_of = [](const fs::path& path) { return path.has_parent_path() ? path.parent_path() : "."; };
   if (!fs::equivalent(folder_of(file), folder_of(out), ignored)) return false;
@@ -194,12 +198,34 @@ std::optional<pliant::SurfaceColors> colors_of_run(const fs::path& folder) {
   }
 }
 
-/// Whether the output holds colliders beside bodies, and the input is of a scene that may have some.
-bool has_nodes(const ConvertOptions& options) {
+/// Whether the output holds that beside bodies.
+bool holds(const ConvertOptions& options, pliant::AnimationFormat::Beside beside) {
   const auto format = pliant::animation_format(options.out);
+  return format && format->beside == beside;
+}
+
+/// Whether the output holds colliders, and the input is of a scene that may have some.
+bool has_nodes(const ConvertOptions& options) {
   std::error_code ignored;
-  return format && format->needs == pliant::AnimationFormat::Needs::faces && !options.body &&
+  return holds(options, pliant::AnimationFormat::Beside::colliders) && !options.body &&
          fs::is_directory(options.in, ignored);
+}
+
+/// The scene of a run, where it is known; its tetrahedra go to the bodies of the run.
+std::optional<pliant::Scene> scene_of_run(const fs::path& folder, Animation& animation) {
+  const fs::path checkpoint = folder / pliant::checkpoint_name;
+  std::error_code ignored;
+  if (!fs::exists(checkpoint, ignored)) return {};
+  try {
+    pliant::Scene scene = pliant::parse_scene(pliant::read_checkpoint(checkpoint).source);
+    pliant_render::take_tetrahedra(animation, scene.simulation);
+    return scene;
+  } catch (const pliant::Error& error) {
+    if (error.kind() != pliant::ErrorKind::input) throw;
+    print_to_stderr("warning: the scene is not known, so neither tetrahedra nor energies are written: " +
+                    pliant::printable_place(error.what(), message_limit) + "\n");
+    return {};
+  }
 }
 
 /// A scene without any is not made again, which may take long.
@@ -262,9 +288,16 @@ void convert(const ConvertOptions& options) {
   refuse_to_replace(options);
   Animation animation = read_animation(options);
   if (has_nodes(options)) animation.colliders = colliders_of_run(options.in, animation.cache);
+  std::optional<pliant::Scene> scene;
+  if (holds(options, pliant::AnimationFormat::Beside::values)) scene = scene_of_run(options.in, animation);
   select(animation, options);
   if (!is_mesh) {
-    const pliant::ExportOptions exported = complete_options(options);
+    pliant::ExportOptions exported = complete_options(options);
+    std::optional<pliant_render::RunValues> values;
+    if (holds(options, pliant::AnimationFormat::Beside::values) && !animation.bodies.empty()) {
+      values.emplace(animation, std::move(scene));
+      exported.values = [&values](std::size_t frame) { return values->at(frame); };
+    }
     const pliant::ExportReport report = pliant::export_animation(options.out, animation, exported);
     print_animation(options.out, animation, report);
     warn_of_tolerance(exported, report);
@@ -283,6 +316,7 @@ constexpr const char* convert_footer = R"(A name OUT with #### gets one mesh fil
 Examples:
   pliant convert out/flag flag.glb                       an animation for browsers and game engines
   pliant convert out/flag flag.usda                      for Blender, Houdini, Maya
+  pliant convert out/flag flag.pvd                       for ParaView, with velocity, stretch and energy
   pliant convert out/flag flag.pc2 --fps 24              a point cache for the mesh in out/flag/mesh.obj
   pliant convert out/flag frames/flag_####.ply           one file a frame
   pliant convert out/flag flag.obj --time 2.5            a single moment

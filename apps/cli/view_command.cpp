@@ -116,9 +116,9 @@ void add_view_command(CLI::App& program, int& exit_code) {
   add_simulated_import_options(*command, arguments->import);
   add_setting_options(*command, *arguments);
   command->footer(
-      "A file that ends in .obj, .ply, .off, .stl, .msh, .mesh, .node or .ele is a mesh, simulated as cloth, a skin "
-      "or\n"
-      "a solid; a folder is a run, played as it was recorded. The key H shows what mouse and keys do.\n"
+      "A file that ends in .obj, .ply, .off, .stl, .msh, .mesh, .vtu, .vtk, .node or .ele is a mesh, simulated as "
+      "cloth, a\n"
+      "skin or a solid; a folder is a run, played as it was recorded. The key H shows what mouse and keys do.\n"
       "Examples:\n"
       "  pliant view curtain_wind\n"
       "  pliant view shirt.obj --up y\n"

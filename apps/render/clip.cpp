@@ -27,14 +27,6 @@ void check_size(std::int64_t frames, Index vertices) {
                   vertices, frames / 1'000'000 * vertices * bytes / 1000));
 }
 
-std::vector<Vec3f> to_floats(const pliant::Positions& x) {
-  std::vector<Vec3f> result(static_cast<std::size_t>(x.rows()));
-  for (std::size_t i = 0; i < result.size(); ++i) {
-    result[i] = x.row(static_cast<Eigen::Index>(i)).transpose().cast<float>();
-  }
-  return result;
-}
-
 void sort_and_trim(std::vector<std::uint32_t>& list) {
   std::ranges::sort(list);
   list.erase(std::unique(list.begin(), list.end()), list.end());
@@ -229,11 +221,7 @@ RunFrames::RunFrames(pliant::Animation animation, RunAnnotations annotations)
                                                                      : annotations_.entries[entries.front()].held);
   pliant::Positions x;
   animation_.cache.sample(animation_.times.front(), x);
-  for (std::size_t e = 0; e < render_mesh_.rest_lengths.size(); ++e) {
-    const auto a = static_cast<Index>(render_mesh_.springs[2 * e]),
-               b = static_cast<Index>(render_mesh_.springs[2 * e + 1]);
-    render_mesh_.rest_lengths[e] = static_cast<float>((x.row(a) - x.row(b)).norm());
-  }
+  rest_at(render_mesh_, x);
 }
 
 ClipFrame RunFrames::frame(std::size_t i, ColorBy color) const {

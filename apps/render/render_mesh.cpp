@@ -56,6 +56,22 @@ RenderMesh make_render_mesh(const std::vector<pliant::Body>& bodies, std::span<c
   return render_mesh;
 }
 
+void rest_at(RenderMesh& render_mesh, const pliant::Positions& positions) {
+  for (std::size_t e = 0; e < render_mesh.rest_lengths.size(); ++e) {
+    const auto a = static_cast<Index>(render_mesh.springs[2 * e]),
+               b = static_cast<Index>(render_mesh.springs[2 * e + 1]);
+    render_mesh.rest_lengths[e] = static_cast<float>((positions.row(a) - positions.row(b)).norm());
+  }
+}
+
+std::vector<Vec3f> to_floats(const pliant::Positions& x) {
+  std::vector<Vec3f> result(static_cast<std::size_t>(x.rows()));
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    result[i] = x.row(static_cast<Eigen::Index>(i)).transpose().cast<float>();
+  }
+  return result;
+}
+
 Bounds bounds_of(std::span<const Vec3f> positions) {
   Bounds bounds;
   for (const Vec3f& p : positions) bounds.add(p);

@@ -25,6 +25,11 @@ struct RenderMesh {
 /// Free bodies have tones in turn. held: vertices of bodies that are held as a whole, as in FrameContent.
 RenderMesh make_render_mesh(const std::vector<pliant::Body>& bodies, std::span<const std::uint32_t> held = {});
 
+/// Takes the lengths that springs have at these positions as their rest lengths, as a recorded run's.
+void rest_at(RenderMesh& render_mesh, const pliant::Positions& positions);
+/// In single precision.
+std::vector<Vec3f> to_floats(const pliant::Positions& x);
+
 /// What changes from frame to frame.
 struct FrameContent {
   std::vector<Vec3f> positions;        ///< one per vertex [m]

@@ -1,4 +1,5 @@
 """The mesh formats that are attacked: of each a small sound file. A new format is an entry of FORMATS."""
+import base64
 import dataclasses
 import functools
 import json
@@ -65,6 +66,61 @@ def stl_binary():
     return data
 
 
+def vtk_ascii():
+    return lines("# vtk DataFile Version 3.0", "two triangles", "ASCII", "DATASET POLYDATA", "POINTS 4 float", *VERTICES,
+                 "POLYGONS 2 8", *((3, *face) for face in TRIANGLES))
+
+
+def vtk_binary():
+    rows = [b"# vtk DataFile Version 3.0", b"two triangles", b"BINARY", b"DATASET UNSTRUCTURED_GRID", b"POINTS 4 float",
+            b"".join(struct.pack(">3f", *vertex) for vertex in VERTICES), b"CELLS 2 8",
+            b"".join(struct.pack(">4i", 3, *face) for face in TRIANGLES), b"CELL_TYPES 2", struct.pack(">2i", 5, 5)]
+    return b"\n".join(rows) + b"\n"
+
+
+def vtu(array, attributes="", tail=b""):
+    """`array` makes the attributes behind the name of an array and its text, of a format of struct and numbers."""
+    def element(kind, form, more, *numbers):
+        how, text = array(form, numbers)
+        return f'<DataArray type="{kind}" {more} {how}>'.encode() + text + b"</DataArray>"
+    rows = [b'<?xml version="1.0"?>', f'<VTKFile type="UnstructuredGrid" {attributes}>'.encode(), b"<UnstructuredGrid>",
+            b'<Piece NumberOfPoints="4" NumberOfCells="2">', b"<Points>",
+            element("Float32", "f", 'NumberOfComponents="3"', *(x for vertex in VERTICES for x in vertex)), b"</Points>",
+            b"<Cells>", element("Int32", "i", 'Name="connectivity"', *(i for face in TRIANGLES for i in face)),
+            element("Int32", "i", 'Name="offsets"', 3, 6), element("UInt8", "B", 'Name="types"', 5, 5), b"</Cells>",
+            b"</Piece>", b"</UnstructuredGrid>", *([tail] if tail else []), b"</VTKFile>"]
+    return b"\n".join(rows) + b"\n"
+
+
+def vtu_ascii():
+    return vtu(lambda _, numbers: ('format="ascii"', " ".join(map(str, numbers)).encode()))
+
+
+def counted(form, numbers):
+    data = struct.pack(f"<{len(numbers)}{form}", *numbers)
+    return struct.pack("<I", len(data)) + data
+
+
+def vtu_compressed():
+    def array(form, numbers):
+        data = struct.pack(f"<{len(numbers)}{form}", *numbers)
+        packed = zlib.compress(data)
+        return 'format="binary"', base64.b64encode(struct.pack("<4I", 1, len(data), 0, len(packed))) + base64.b64encode(packed)
+    return vtu(array, 'compressor="vtkZLibDataCompressor"')
+
+
+def vtu_raw():
+    data = bytearray()
+    def array(form, numbers):
+        offset = len(data)
+        data.extend(counted(form, numbers))
+        return f'format="appended" offset="{offset}"', b""
+    vtu(array)
+    tail = b'<AppendedData encoding="raw">_' + bytes(data) + b"</AppendedData>"
+    data.clear()
+    return vtu(array, tail=tail)
+
+
 FORMATS = {
     "obj": Format("obj", obj()),
     "ply": Format("ply", ply_ascii()),
@@ -73,6 +129,11 @@ FORMATS = {
     "off": Format("off", off()),
     "stl": Format("stl", stl_ascii()),
     "stl, binary": Format("stl", stl_binary(), is_text=False),
+    "vtk": Format("vtk", vtk_ascii()),
+    "vtk, binary": Format("vtk", vtk_binary(), is_text=False),
+    "vtu": Format("vtu", vtu_ascii()),
+    "vtu, compressed": Format("vtu", vtu_compressed()),
+    "vtu, appended": Format("vtu", vtu_raw(), is_text=False),
 }
 
 

@@ -27,7 +27,7 @@ TEST_CASE("a format is found by its extension, in capitals too, and another is n
   }
   for (const PointCacheFormat& format : point_cache_formats()) CHECK(animation_format("a." + std::string(format.name)));
   CHECK(point_cache_extensions() == ".pc2, .mdd, .npy");
-  CHECK(animation_extensions() == "gltf, glb, usda, pc2, mdd, npy");
+  CHECK(animation_extensions() == "gltf, glb, usda, pvd, pc2, mdd, npy");
 }
 
 }  // namespace test_extension

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Files made to exhaust memory or time: `pliant info` ends with code 0 or 2, one line of error, in less than ten times
 the file's size and a constant. The sizes are a few MB, so that the constant does not hide what grows."""
+import base64
 import itertools
 import os
 import struct
@@ -8,6 +9,7 @@ import subprocess
 import sys
 import tempfile
 import time
+import zlib
 
 PLIANT = os.environ["PLIANT"]
 SIZE = 4_000_000
@@ -107,12 +109,93 @@ def other_files():
     yield "elements.ele", b"2000000000 4 0\n0 0 1 2 3\n"
 
 
+def vtu(points, cells, arrays, attributes="", tail=b""):
+    """`arrays` are (type, attributes, text): of the points, then of the cells."""
+    elements = [b'<DataArray type="%s" %s>%s</DataArray>\n' % array for array in arrays]
+    return (b'<VTKFile type="UnstructuredGrid" %s>\n<UnstructuredGrid>\n' % attributes.encode()
+            + b'<Piece NumberOfPoints="%d" NumberOfCells="%d">\n' % (points, cells)
+            + b"<Points>" + elements[0] + b"</Points><Cells>" + b"".join(elements[1:4]) + b"</Cells><PointData>"
+            + b"".join(elements[4:]) + b"</PointData></Piece></UnstructuredGrid>" + tail + b"</VTKFile>\n")
+
+
+NAMES = [b'NumberOfComponents="3"', b'Name="connectivity"', b'Name="offsets"', b'Name="types"']
+
+
+def ascii_vtu(points, cells, *texts):
+    kinds = [b"Float32", b"Int64", b"Int64", b"UInt8"]
+    return vtu(points, cells, [(kind, name + b' format="ascii"', text) for kind, name, text in zip(kinds, NAMES, texts)])
+
+
+def raw_vtu(points, cells, *arrays):
+    """`arrays` are bytes of numbers of one byte each, behind each other."""
+    data, elements = b"", []
+    for i, array in enumerate(arrays):
+        name = NAMES[i] if i < 4 else b'Name="map%d"' % i
+        elements.append((b"UInt8", name + b' format="appended" offset="%d"' % len(data), b""))
+        data += struct.pack("<I", len(array)) + array
+    return vtu(points, cells, elements, tail=b'<AppendedData encoding="raw">_' + data + b"</AppendedData>")
+
+
+def packed_vtu(zeros):
+    """Points that are compressed zeros."""
+    block = 1 << 20
+    blocks = [zlib.compress(bytes(block))] * (zeros // block)
+    text = base64.b64encode(struct.pack(f"<{3 + len(blocks)}I", len(blocks), block, 0, *map(len, blocks)))
+    text += base64.b64encode(b"".join(blocks))
+    none = (b"Int64", b'Name="none" format="ascii"', b"")
+    return vtu(zeros // 12, 0, [(b"Float32", NAMES[0] + b' format="binary"', text), none, none, none],
+               'compressor="vtkZLibDataCompressor"')
+
+
+def vtk_files():
+    four = b"0 0 0 1 0 0 0 1 0 0 0 1 "
+    yield "points.vtu", ascii_vtu(SIZE // 6, 0, b"0 0 0 " * (SIZE // 6), b"", b"", b"")
+    count = SIZE // 16
+    yield "faces.vtu", ascii_vtu(4, count, four, b"0 1 2 " * count, b"".join(b"%d " % (3 * i + 3) for i in range(count)),
+                                 b"5 " * count)
+    yield "one_strip.vtu", ascii_vtu(4, 1, four, b"0 1 2 " * (SIZE // 6), b"%d" % (SIZE // 6 * 3), b"6")
+    yield "byte_points.vtu", raw_vtu(SIZE // 3, 0, bytes(SIZE // 3 * 3), b"", b"", b"")
+    yield "byte_maps.vtu", raw_vtu(SIZE // 8, 0, bytes(SIZE // 8 * 3), b"", b"", b"", *[bytes(SIZE // 8)] * 5)
+    yield "byte_corners.vtu", raw_vtu(4, 1, bytes(12), bytes(range(4)) * (SIZE // 4), b"\3", b"\5")
+    yield "promised.vtu", ascii_vtu(2_000_000_000, 2_000_000_000, b"0", b"0", b"0", b"0")
+    yield "tags.vtu", repeated(b"<VTKFile>", b"<a/>", b"</VTKFile>")
+    yield "attributes.vtu", repeated(b"<VTKFile ", b"a='' ", b"></VTKFile>")
+    yield "deep.vtu", repeated(b"", b"<a>")
+    yield "text.vtu", repeated(b"<VTKFile>", b"a", b"</VTKFile>")
+    count = SIZE // 8
+    data = struct.pack("<I", 3 * count) + bytes(3 * count) + struct.pack("<I", count) + bytes(count)
+    at = b' format="appended" offset="%d"'
+    shared = [(b"UInt8", NAMES[0] + at % 0, b"")] + [(b"UInt8", b'Name="none"' + at % 0, b"")] * 3
+    shared += [(b"UInt8", b'Name="%s"' % name + at % (3 * count + 4), b"") for name in names(SIZE // 200)]
+    yield "shared.vtu", vtu(count, 0, shared, tail=b'<AppendedData encoding="raw">_' + data + b"</AppendedData>")
+    yield "bomb.vtu", packed_vtu(1 << 31)
+    head = b"# vtk DataFile Version 3.0\n\n%s\nDATASET %s\n"
+    grid, surface = head % (b"ASCII", b"UNSTRUCTURED_GRID"), head % (b"BINARY", b"POLYDATA")
+    yield "points.vtk", grid + b"POINTS %d float\n" % (SIZE // 6) + b"0 0 0\n" * (SIZE // 6)
+    points = b"POINTS 4 float\n0 0 0 1 0 0 0 1 0 0 0 1\n"
+    count = SIZE // 10
+    yield "cells.vtk", (grid + points + b"CELLS %d %d\n" % (count, 4 * count) + b"3 0 1 2\n" * count
+                        + b"CELL_TYPES %d\n" % count + b"5\n" * count)
+    binary = surface + b"POINTS 4 char\n" + bytes([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1]) + b"\n"
+    row = struct.pack(">4i", 3, 0, 1, 2)
+    count = SIZE // 16
+    yield "polygons.vtk", binary + b"POLYGONS %d %d\n" % (count, 4 * count) + row * count
+    count = SIZE // 3
+    yield "strip.vtk", (binary + b"TRIANGLE_STRIPS 2 %d\nOFFSETS int\n" % count + struct.pack(">2i", 0, count)
+                        + b"\nCONNECTIVITY char\n" + b"\0\1\2" * (count // 3) + b"\0\1\2"[:count % 3])
+    yield "promised.vtk", surface + b"POINTS 2000000000 float\n" + bytes(999)
+    yield "field.vtk", surface + b"FIELD f 1\na 1000000000 1000000000 double\n" + bytes(999)
+    yield "one_word.vtk", repeated(grid, b"a")
+    yield "title.vtk", repeated(b"# vtk DataFile Version 3.0\n", b"a")
+
+
 def all_files():
     for name, content in obj_files():
         yield name + ".obj", content
     for name, content in ply_files():
         yield name + ".ply", content
     yield from other_files()
+    yield from vtk_files()
 
 
 def measure(path):

@@ -48,9 +48,10 @@ class Convert(ExportCase):
     def test_names_that_say_nothing(self):
         for arguments in [["run", "a.fbx"], ["run", "a"], ["patch.obj", "b.png"]]:
             with self.subTest(arguments=arguments):
-                self.assertIn("meshes: obj, ply, off, stl, msh, mesh; animations: gltf, glb, usda, pc2, mdd, npy",
+                self.assertIn("meshes: obj, ply, off, stl, msh, mesh, vtu; animations: gltf, glb, usda, pvd, pc2, mdd, npy",
                               self.error(*arguments))
-        self.assertIn("a point cache (.pc2, .mdd, .npy) nor a mesh (.obj, .ply, .off, .stl, .msh, .mesh, .node, .ele)",
+        self.assertIn("a point cache (.pc2, .mdd, .npy) nor a mesh (.obj, .ply, .off, .stl, .msh, .mesh, .vtu, .vtk, "
+                      ".node, .ele)",
                       self.error("scene.json", "a.glb"))
         self.assertIn("no such file", self.error("none.obj", "a.glb"))
         self.assertIn("no run.json", self.error(self.folder, "a.glb"))

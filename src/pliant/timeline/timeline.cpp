@@ -241,6 +241,12 @@ void Timeline::move_colliders(Simulation& simulation) {
   collider_motions_.end_what_arrived();
 }
 
+void Timeline::move_all(Simulation& simulation) {
+  prepare(simulation);
+  go_on(simulation);
+  end_what_arrived();
+}
+
 Index Timeline::skip_due(const Simulation& simulation) {
   const std::vector<Index> due = due_events(clock(simulation));
   for (const Index event : due) take_from_waiting(event);

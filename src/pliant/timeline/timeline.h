@@ -99,12 +99,15 @@ class Timeline {
 
   /// Lets the events act that are due before that step at that time [s], and no others, without a step: what pins and
   /// forces a recorded run had then is found again by calling this for all of its steps in turn, from 0 on, whatever
-  /// step and time the simulation is at. Motions that begin are not followed, but for those of colliders, see
-  /// move_colliders. When this throws, simulation and timeline are as before.
+  /// step and time the simulation is at. Motions that begin are not followed, see
+  /// move_colliders and move_all. When this throws, simulation and timeline are as before.
   void act_due(Simulation& simulation, std::int64_t step, Real time);
   /// Sets where the next step takes the colliders that are on their way, without a step. With act_due before it, at the
   /// step and the time that the simulation is at, colliders of a recorded run are found again.
   void move_colliders(Simulation& simulation);
+
+  /// The same of all that is on its way: targets of groups and stiffnesses as well as colliders.
+  void move_all(Simulation& simulation);
 
   /// Takes away the events that are due at the next step, for whoever changed the simulation by hand so that one of
   /// them can no longer act. Returns how many there were. A checkpoint does not know of it.

@@ -13,12 +13,16 @@ namespace {
 
 using Needs = AnimationFormat::Needs;
 using Thins = AnimationFormat::Thins;
+using Beside = AnimationFormat::Beside;
 
 constexpr AnimationFormat animation_format_list[] = {
-    {"gltf", Needs::faces, Thins::always, write_gltf},  //
-    {"glb", Needs::faces, Thins::always, write_glb},    //
-    {"usda", Needs::faces, Thins::when_asked, write_usda}, {"pc2", Needs::points, Thins::never, write_pc2},
-    {"mdd", Needs::points, Thins::never, write_mdd},       {"npy", Needs::points, Thins::never, write_npy},
+    {"gltf", Needs::faces, Thins::always, Beside::colliders, write_gltf},      //
+    {"glb", Needs::faces, Thins::always, Beside::colliders, write_glb},        //
+    {"usda", Needs::faces, Thins::when_asked, Beside::colliders, write_usda},  //
+    {"pvd", Needs::faces, Thins::never, Beside::values, write_pvd, pvd_folder},
+    {"pc2", Needs::points, Thins::never, Beside::nothing, write_pc2},
+    {"mdd", Needs::points, Thins::never, Beside::nothing, write_mdd},
+    {"npy", Needs::points, Thins::never, Beside::nothing, write_npy},
 };
 
 }  // namespace

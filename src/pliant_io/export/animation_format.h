@@ -21,14 +21,20 @@ struct AnimationFormat {
   /// with `default_gltf_tolerance` and at most `max_keyframes`.
   enum class Thins { never, when_asked, always } thins;
 
+  /// What it holds beside the bodies: rigid surfaces of their own, or numbers of vertices.
+  enum class Beside { nothing, colliders, values } beside;
+
   /// Writes these frames, given by their indices, whole or not at all. @throws Error (output), and Error (input) for
   /// what the format cannot hold.
   void (*write)(const std::filesystem::path& path, const Animation& animation, const std::vector<std::size_t>& frames,
                 const ExportOptions& options);
+
+  /// Of a format of several files, the folder of all but the first, which is replaced as a whole; else null.
+  std::filesystem::path (*folder)(const std::filesystem::path& path) = nullptr;
 };
 
 /// All of them, in the order in which messages name them: glTF as text or binary, triangles with morph targets; USD as
-/// text; point caches; NumPy's array.
+/// text; ParaView's collection of frames; point caches; NumPy's array.
 std::span<const AnimationFormat> animation_formats();
 
 /// The format that the extension stands for, in capitals or not; none when it stands for no known one.

@@ -33,6 +33,13 @@ struct SurfaceColors {
   std::array<Real, 3> back{};
 };
 
+/// Numbers of all vertices.
+struct VertexValues {
+  std::string name;
+  Index components = 1;
+  std::vector<float> numbers;  ///< those of a vertex beside each other
+};
+
 struct ExportOptions {
   /// How far linear interpolation between keyframes may be off, in sizes of the body (keyframes.h). 0 keeps all frames
   /// that are not exactly between others. Default: default_gltf_tolerance for glTF, all frames for USD; the other
@@ -45,13 +52,16 @@ struct ExportOptions {
   /// Of glTF, for all bodies; where the two sides differ, each has triangles of its own. Default: a muted color for
   /// each body.
   std::optional<SurfaceColors> colors = {};
+  /// Of pvd: what vertices have beside positions in a frame, given by its index. Called for one frame after the other.
+  /// Default: nothing.
+  std::function<std::vector<VertexValues>(std::size_t frame)> values = {};
   /// Called before a file with fewer frames than the animation is written; when it throws, none is. Default: not
   /// called.
   std::function<void(const ExportReport&)> before_thinning = {};
 };
 
 /// Writes all bodies and all frames, whole or not at all (atomic_file.h), in the format of the extension. The first
-/// frame is at 0 s.
+/// frame is at 0 s, of pvd at its own time.
 /// @throws Error (input): an extension that is not known, options out of range or not for this format, what the format
 ///   cannot hold.
 /// @throws Error (output): the file cannot be written.

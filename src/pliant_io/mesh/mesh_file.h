@@ -42,7 +42,7 @@ struct ImportOptions {
 /// elements without extent, which check_mesh in geometry.h refuses and diagnose in diagnosis.h lists.
 /// @throws Error (input), one line with the place in the file and the remedy: an extension that is not known, a file
 ///   that cannot be read, a malformed or truncated one, options out of range. Reading takes less than ten times the
-///   memory of the file, whatever it claims to hold.
+///   memory of the file, whatever it claims to hold; of a compressed one, of 64 times its size and 16 MiB.
 Mesh read_mesh(const std::filesystem::path& path, const ImportOptions& options = {});
 
 /// Scales and turns positions (m × 3) of a file as read_mesh does. `name` is what messages call it.

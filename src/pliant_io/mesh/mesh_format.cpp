@@ -15,6 +15,7 @@
 #include "pliant_io/mesh/ply.h"
 #include "pliant_io/mesh/stl.h"
 #include "pliant_io/mesh/tetgen.h"
+#include "pliant_io/mesh/vtk.h"
 
 namespace pliant {
 
@@ -31,6 +32,8 @@ constexpr MeshFormat formats[] = {
     {"stl", {"stl"}, read_stl, write_stl},
     {"gmsh", {"msh"}, read_gmsh, write_gmsh},
     {"medit", {"mesh"}, read_medit, write_medit},
+    {"vtu", {"vtu"}, read_vtu, write_vtu},
+    {"vtk", {"vtk"}, read_vtk},
     {"tetgen", {"node", "ele"}, read_tetgen, nullptr, read_tetgen_pair},
 };
 

@@ -19,6 +19,12 @@ AnimationWriter write_glb;
 /// USD as text: an Xform for each body with a Mesh of its polygons and BasisCurves of its edges.
 AnimationWriter write_usda;
 
+/// A collection for ParaView: every frame with the body of each vertex and `ExportOptions::values`, at the animation's
+/// own times, as a .vtu file in pvd_folder().
+AnimationWriter write_pvd;
+/// `flag_frames` beside `flag.pvd`. It is replaced as a whole.
+std::filesystem::path pvd_folder(const std::filesystem::path& path);
+
 // The others hold all points as one.
 AnimationWriter write_pc2;
 AnimationWriter write_npy;

@@ -154,15 +154,30 @@ void TextLexer::take_line_end() {
   ++line_;
 }
 
-Real TextLexer::number_or_nan(std::string_view word) const {
+std::string parse_number(std::string_view word, Real& value) {
   const std::string_view digits = without_plus(word);
-  Real value = 0;
   const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error == std::errc::invalid_argument || stop != digits.data() + digits.size()) {
-    fail(fmt::format("{} is not a number; write it like -1.25 or 1e-3", quoted(word)));
+    return fmt::format("{} is not a number; write it like -1.25 or 1e-3", TextLexer::quoted(word));
   }
-  if (error == std::errc()) return value;
-  return is_too_small(digits) ? 0 : std::numeric_limits<Real>::infinity();
+  if (error != std::errc()) value = is_too_small(digits) ? 0 : std::numeric_limits<Real>::infinity();
+  return {};
+}
+
+std::string parse_integer(std::string_view word, std::int64_t& value) {
+  const std::string_view digits = without_plus(word);
+  const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (error == std::errc::invalid_argument || stop != digits.data() + digits.size()) {
+    return fmt::format("{} is not an index; write a whole number", TextLexer::quoted(word));
+  }
+  if (error == std::errc()) return {};
+  return fmt::format("index {} is out of range; no mesh has so many vertices", TextLexer::quoted(word));
+}
+
+Real TextLexer::number_or_nan(std::string_view word) const {
+  Real value = 0;
+  if (const std::string message = parse_number(word, value); !message.empty()) fail(message);
+  return value;
 }
 
 Real TextLexer::number(std::string_view word) const {
@@ -172,13 +187,8 @@ Real TextLexer::number(std::string_view word) const {
 }
 
 std::int64_t TextLexer::integer(std::string_view word) const {
-  const std::string_view digits = without_plus(word);
   std::int64_t value = 0;
-  const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error == std::errc::invalid_argument || stop != digits.data() + digits.size()) {
-    fail(fmt::format("{} is not an index; write a whole number", quoted(word)));
-  }
-  if (error != std::errc()) fail(fmt::format("index {} is out of range; no mesh has so many vertices", quoted(word)));
+  if (const std::string message = parse_integer(word, value); !message.empty()) fail(message);
   return value;
 }
 

@@ -16,6 +16,12 @@ struct TextSyntax {
   char continuation = '\0';  ///< as the last character of a line, joins the next one to it
 };
 
+/// Takes a word as a number, whatever the locale; one that is too small for a double is 0, one that is too large
+/// infinite. What is wrong with it, as an error message without its place, or nothing.
+std::string parse_number(std::string_view word, Real& value);
+/// The same as an integer.
+std::string parse_integer(std::string_view word, std::int64_t& value);
+
 /// Walks through a text word by word, a block of the source in memory at a time. A line ends at LF, CRLF or CR.
 class TextLexer {
  public:
