@@ -82,15 +82,28 @@ void RunValues::place_bodies(Real time) {
   scene_->simulation.restore(state);
 }
 
+/// Normals that constraints take at the start of a step and keep in it.
+void RunValues::freeze_shapes() {
+  const pliant::Simulation& simulation = scene_->simulation;
+  const pliant::StateView view = simulation.state().view();
+  for (const auto& [id, group] : simulation.groups()) {
+    for (const auto& batch : group.set.batches) {
+      if (batch->freezes_shape()) batch->begin_step(view, simulation.settings().time_step);
+    }
+  }
+}
+
 std::vector<float> RunValues::energies(Real time) {
   const Real step = scene_->simulation.settings().time_step;
   while (clock_.time < time - time_rounding * step) {
     place_bodies(clock_.time);
     scene_->timeline.act_due(scene_->simulation, clock_.step, clock_.time);
     scene_->timeline.move_all(scene_->simulation);
+    freeze_shapes();
     clock_.advance_time(scene_->simulation.settings().time_step);
   }
   place_bodies(time);
+  if (clock_.step > 0 && scene_->simulation.settings().energy_projection > 0) freeze_shapes();  // as its steps end
   const std::vector<float> all = vertex_energy(scene_->simulation);
   const auto first = all.begin() + first_vertex_;
   return {first, first + animation_.cache.vertex_count()};

@@ -28,6 +28,7 @@ class RunValues {
 
  private:
   void place_bodies(pliant::Real time);
+  void freeze_shapes();
   std::vector<float> energies(pliant::Real time);
   std::vector<float> velocities(pliant::Real time, const pliant::Positions& positions) const;
 

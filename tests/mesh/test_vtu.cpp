@@ -58,7 +58,7 @@ class VtuText {
       return head + "format=\"binary\">\n  " + (is_split ? base64(front) + base64(data) : base64(front + data)) +
              "\n</DataArray>\n";
     }
-    const std::string element = head + fmt::format("format=\"appended\" offset=\"{}\"/>\n", appended_.size());
+    std::string element = head + fmt::format("format=\"appended\" offset=\"{}\"/>\n", appended_.size());
     const bool is_raw = coding_.place == Coding::appended_raw;
     appended_ += is_raw ? front + data : coding_.compressed ? base64(front) + base64(data) : base64(front + data);
     return element;
@@ -112,21 +112,22 @@ const Positions five = mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 
 template <class Number>
 std::vector<Number> as(const std::vector<double>& numbers) {
   std::vector<Number> result;
+  result.reserve(numbers.size());
   for (const double number : numbers) result.push_back(static_cast<Number>(number));
   return result;
 }
 
 /// Five points, a triangle, a quadrilateral and a line, with a map.
-template <class Real_, class Integer>
+template <class Coordinate, class Integer>
 std::string mixed_file(const Coding& coding, const std::string& real, const std::string& integer) {
   VtuText text(coding);
   return text.file(
       "<Piece NumberOfPoints=\"5\" NumberOfCells=\"3\">\n<PointData Scalars=\"w\">\n" +
-      text.array(real, "Name=\"w\"", as<Real_>({1, 2, 3, 4, 5})) +
-      text.array(real, "Name=\"v\" NumberOfComponents=\"3\"", as<Real_>(coordinates)) +
+      text.array(real, "Name=\"w\"", as<Coordinate>({1, 2, 3, 4, 5})) +
+      text.array(real, "Name=\"v\" NumberOfComponents=\"3\"", as<Coordinate>(coordinates)) +
       "</PointData>\n<CellData></CellData>\n<Points>\n" +
-      text.array(real, "Name=\"Points\" NumberOfComponents=\"3\"", as<Real_>(coordinates)) + "</Points>\n<Cells>\n" +
-      text.array(integer, "Name=\"connectivity\"", as<Integer>({0, 1, 2, 0, 1, 4, 2, 3, 4})) +
+      text.array(real, "Name=\"Points\" NumberOfComponents=\"3\"", as<Coordinate>(coordinates)) +
+      "</Points>\n<Cells>\n" + text.array(integer, "Name=\"connectivity\"", as<Integer>({0, 1, 2, 0, 1, 4, 2, 3, 4})) +
       text.array(integer, "Name=\"offsets\"", as<Integer>({3, 7, 9})) +
       text.array(std::string("UInt8"), "Name=\"types\"", std::vector<std::uint8_t>{5, 9, 3}) + "</Cells>\n</Piece>\n");
 }
@@ -282,7 +283,7 @@ TEST_CASE("what a compressed .vtu file claims is held against its size") {
     std::string text = ascii_file(four, "0 1 2", "3", "5");
     const std::string from = "format=\"ascii\">" + four;
     text.replace(text.find(from), from.size(), "format=\"binary\">" + data);
-    return text.replace(text.find(">"), 1, " compressor=\"vtkZLibDataCompressor\">");
+    return text.replace(text.find('>'), 1, " compressor=\"vtkZLibDataCompressor\">");
   };
   const auto head = [](std::vector<std::uint32_t> numbers) {
     std::string bytes(4 * numbers.size(), '\0');
