@@ -100,6 +100,13 @@ inline FourIndices four_at(const Index* from) {
   return four;
 }
 
+inline FourFloats smaller(FourFloats a, FourFloats b) {
+  return a < b ? a : b;
+}
+inline FourFloats larger(FourFloats a, FourFloats b) {
+  return a > b ? a : b;
+}
+
 /// Bit j: box j of b meets box i of a.
 inline unsigned meeting_row(const EightBoxes& a, std::size_t i, const EightBoxes& b) {
   unsigned bits = 0;

@@ -9,6 +9,8 @@ namespace {
 
 using collision::four_of;
 using collision::FourFloats;
+using collision::larger;
+using collision::smaller;
 using FourMasks = decltype(FourFloats{} < FourFloats{});
 
 constexpr std::size_t lanes = 4;
@@ -23,13 +25,6 @@ FourFloats to_unit(FourFloats x) {
   const FourFloats zero{}, one = four_of(1.0F);
   const FourFloats above = x > zero ? x : zero;
   return above < one ? above : one;
-}
-
-FourFloats larger(FourFloats a, FourFloats b) {
-  return a > b ? a : b;
-}
-FourFloats smaller(FourFloats a, FourFloats b) {
-  return a < b ? a : b;
 }
 
 /// A vector in each lane.

@@ -9,6 +9,8 @@ namespace {
 
 /// Of r: how much farther apart than r a pair may be to be listed.
 constexpr Real list_slack = 1;
+/// Of r: how far apart features of flat sheets are looked for at rest.
+constexpr Real reach_at_rest = 3;
 /// Of r: by how much boxes around ways are larger than these.
 constexpr Real pad_of_ways = 0.1;
 /// Of a bound: ways that are shorter bring nothing together. A little less than Planes has it.
@@ -64,6 +66,7 @@ void PairList::set_surface(const Surface& surface, const Positions& rest, std::s
   pads_.resize(radii.size());
   std::ranges::transform(radii, pads_.begin(), [](Real r) { return pad_of_ways * r; });
   find_own_radii(rest);
+  find_sheets(rest);
 }
 
 void PairList::clear() {
@@ -93,6 +96,24 @@ void PairList::find_own_radii(const Positions& rest) {
   }
 }
 
+/// Bodies that are flat at rest, and how near features are to each other there.
+void PairList::find_sheets(const Positions& rest) {
+  sheets_.set_surface(*surface_, rest);
+  if (sheets_.is_empty()) return;
+  const std::vector<Real> pads(radii_.size(), reach_at_rest / 2 * largest_radius_);
+  std::vector<Real> nearest(radii_.size(), reach_at_rest * largest_radius_);
+  const Positions flat = sheets_.flattened(rest, 4 * reach_at_rest * largest_radius_);
+  ThreadPool one(1);
+  if (!search_->try_find(flat, flat, pads, one)) std::ranges::fill(nearest, 0);
+  for (const Pair& pair : search_->pairs()) {
+    const Index sheet = sheets_.sheet_of(pair.vertices[0]);
+    if (sheet < 0 || sheets_.sheet_of(pair.vertices[3]) != sheet) continue;
+    const Real distance = measure(flat, pair).distance;
+    for (const Index v : pair.vertices) nearest[at(v)] = std::min(nearest[at(v)], distance);
+  }
+  sheets_.set_nearest(nearest);
+}
+
 /// What was near in the substep before tells of the first way: of nothing else, for a step goes by its own state alone.
 void PairList::begin(std::span<const char> is_pinned, const LetGo& let_go, const ReducedDistances& reduced) {
   is_of_before_ = (is_listed_ || is_of_before_) && has_listed_all_ && std::ranges::equal(is_held_, is_pinned);
@@ -120,7 +141,9 @@ bool PairList::update(const Positions& q, ThreadPool& threads) {
 /// All pairs that can be nearer than r while no vertex has gone farther from here than half the slack.
 void PairList::list(const Positions& q, ThreadPool& threads) {
   const FarPairs far(*surface_, q, radii_);
-  const std::span<const Pair> pairs = search_->find(q, q, radii_, threads, &far);
+  if (!sheets_.is_empty()) sheets_.find_spread(q, (1 + list_slack) * largest_radius_, threads);
+  const std::span<const Pair> pairs =
+      search_->find(q, q, radii_, threads, &far, sheets_.is_empty() ? nullptr : &sheets_);
   listed_chunks_.resize(std::max(listed_chunks_.size(), pairs.size() / pairs_of_chunk + 1));
   for_each_chunk_of(pairs.size(), pairs_of_chunk, threads, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
     listed_chunks_[chunk].clear();
@@ -274,7 +297,10 @@ const PairList::OnTheWay& PairList::on_the_way(const Positions& from, const Posi
     is_short_ = false;
     set_boxes(from, to);
   }
-  const bool is_all = search_->try_find(boxes_.low, boxes_.high, pads_, threads);
+  const bool has_spread = is_relative_ && !sheets_.is_empty();
+  if (has_spread) sheets_.find_spread(from, to, largest_radius_, threads);
+  const bool is_all =
+      search_->try_find(boxes_.low, boxes_.high, pads_, threads, nullptr, has_spread ? &sheets_ : nullptr);
   const std::span<const Pair> pairs = search_->pairs();
   collect_on_the_way(pairs.size(), threads, [&](std::size_t i, OnTheWay& found) {
     add_on_the_way(pairs[i], box_distance(from, pairs[i]), found);

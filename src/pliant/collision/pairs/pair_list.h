@@ -4,6 +4,7 @@
 // too.
 #include <optional>
 
+#include "pliant/collision/pairs/flat_sheets.h"
 #include "pliant/collision/pairs/gap.h"
 #include "pliant/collision/pairs/let_go.h"
 #include "pliant/collision/pairs/pair_search.h"
@@ -76,6 +77,7 @@ class PairList {
   };
 
   void find_own_radii(const Positions& rest);
+  void find_sheets(const Positions& rest);
   /// Of vertices that go from a to b: how far each goes, apart from `common`. Returns the farthest.
   Real find_lengths(const Positions& a, const Positions& b, const Vec3& common, std::vector<Real>& lengths) const;
   /// Of those, what is common to all ways, so that the longest of the rest is short.
@@ -99,6 +101,7 @@ class PairList {
   std::optional<PairSearch> search_;
   std::vector<Real> radii_, pads_;
   Real smallest_radius_ = 0, largest_radius_ = 0;
+  FlatSheets sheets_;
   std::vector<OwnRadius> own_radii_;  // of pairs that are nearer than r at rest, in the order of pairs
 
   Positions reference_;  // where the near pairs were listed

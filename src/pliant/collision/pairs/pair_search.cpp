@@ -57,7 +57,7 @@ PairSearch::PairSearch(const Surface& surface, std::int64_t most)
     for (std::size_t c = 0; c < corners.size(); c += at(corner_count)) {
       body.push_back(surface.body[at(surface.vertices[at(corners[c])])]);
     }
-    items_.push_back({BoxTree(std::move(corners), corner_count), std::move(body), {}, {}});
+    items_.push_back({BoxTree(std::move(corners), corner_count), std::move(body), {}, {}, -1, {}, -1});
   };
   add(places_of_corners(std::span(surface.triangles), place_of_vertex), 3);
   add(places_of_corners(edges, place_of_vertex), 2);
@@ -108,19 +108,26 @@ void PairSearch::update_owners(Items& items) {
   }
 }
 
-OwnedTree PairSearch::owned(std::size_t place) const {
+void PairSearch::update_places(Items& items, const FlatSheets& sheets) {
+  if (items.placed_build == items.tree.build_count()) return;
+  items.places.set(*surface_, items.tree, sheets);
+  items.placed_build = items.tree.build_count();
+}
+
+OwnedTree PairSearch::owned(std::size_t place, const FlatSheets* sheets) const {
   const Items& items = items_[place];
-  return {&items.tree, items.owned_build < 0 ? nullptr : &items.owners};
+  return {&items.tree, items.owned_build < 0 ? nullptr : &items.owners, sheets == nullptr ? nullptr : &items.places,
+          sheets};
 }
 
 std::span<const Pair> PairSearch::find(const Positions& begin, const Positions& end, std::span<const Real> pads,
-                                       ThreadPool& pool, const FarPairs* far) {
-  if (!try_find(begin, end, pads, pool, far)) fail(end);
+                                       ThreadPool& pool, const FarPairs* far, const FlatSheets* sheets) {
+  if (!try_find(begin, end, pads, pool, far, sheets)) fail(end);
   return pairs_;
 }
 
 bool PairSearch::try_find(const Positions& begin, const Positions& end, std::span<const Real> pads, ThreadPool& pool,
-                          const FarPairs* far) {
+                          const FarPairs* far, const FlatSheets* sheets) {
   set_boxes(begin, end, pads, pool);
   std::array<bool, places> is_fit{};
   for (std::size_t place = 0; place < places; ++place) is_fit[place] = items_[place].tree.refit(boxes_, pool);
@@ -132,11 +139,14 @@ bool PairSearch::try_find(const Positions& begin, const Positions& end, std::spa
       if (!is_fit[place]) items_[place].tree.refit(boxes_, pool);
     }
   }
-  for (Items& items : items_) update_owners(items);
+  for (Items& items : items_) {
+    update_owners(items);
+    if (sheets != nullptr) update_places(items, *sheets);
+  }
   std::array<std::int64_t, 4> offsets{};
   for (std::size_t k = 0; k < meeting_.size(); ++k) {
     const auto& [kind, a, b] = kinds[k];
-    if (!meeting_[k].find(*surface_, owned(a), owned(b), most_ - offsets[k], pool)) {
+    if (!meeting_[k].find(*surface_, owned(a, sheets), owned(b, sheets), most_ - offsets[k], pool)) {
       pairs_.clear();
       crowded_ = k;
       return false;
@@ -180,7 +190,7 @@ Pair PairSearch::pair_of(PairKind kind, Index first, Index second) const {
 
 void PairSearch::fail(const Positions& end) const {
   const Kind& kind = kinds[crowded_];
-  const Index item = MeetingItems::crowded_item(*surface_, owned(kind.a), owned(kind.b), most_);
+  const Index item = MeetingItems::crowded_item(*surface_, owned(kind.a, nullptr), owned(kind.b, nullptr), most_);
   const Index vertex = kind.kind == PairKind::edge_edge ? surface_->edges[at(item)][0] : surface_->vertices[at(item)];
   const auto place = std::ranges::find(surface_->vertices, vertex) - surface_->vertices.begin();
   fail_input(fmt::format(
