@@ -28,8 +28,12 @@ RigidPlacement RigidPlacement::share(Real share) const {
 
 RigidMoments::RigidMoments(const Vec3& center, std::span<const Index> vertices, std::span<const Real> weights,
                            const WorkingState& work) {
-  Vec3 residuals = Vec3::Zero(), torque = Vec3::Zero(), arms = Vec3::Zero(), ways = Vec3::Zero();
-  Mat3 second = Mat3::Zero(), crossed = Mat3::Zero();
+  // columns of four, of which the last number is 0: two registers
+  using Four = Eigen::Matrix<Real, 4, 1>;
+  using FourByThree = Eigen::Matrix<Real, 4, 3>;
+  Vec3 torque = Vec3::Zero();
+  Four residuals = Four::Zero(), arms = Four::Zero(), ways = Four::Zero();
+  FourByThree second = FourByThree::Zero(), crossed = FourByThree::Zero();
   Real sum_of_weights = 0, energy = 0;
   for (const Index v : vertices) {
     const Real w = weights[at(v)];
@@ -37,24 +41,24 @@ RigidMoments::RigidMoments(const Vec3& center, std::span<const Index> vertices, 
     const Vec3 arm = x - center;
     const Vec3 way = row(work.prediction, v) - x;
     const Vec3 residual = row(work.residual, v);
-    const Vec3 weighted = w * arm;
-    residuals += residual;
+    const Four weighted = w * Four(arm.x(), arm.y(), arm.z(), 0);
+    residuals += Four(residual.x(), residual.y(), residual.z(), 0);
     torque += arm.cross(residual);
     sum_of_weights += w;
     energy += w / 2 * way.squaredNorm();
     arms += weighted;
-    ways += w * way;
+    ways += w * Four(way.x(), way.y(), way.z(), 0);
     second += weighted * arm.transpose();
     crossed += weighted * way.transpose();
   }
-  residual_ << residuals, torque;
-  elastic_ << residuals - ways, torque - cross_sum(crossed);
+  residual_ << residuals.head<3>(), torque;
+  elastic_ << (residuals - ways).head<3>(), torque - cross_sum(crossed.topRows<3>());
   weight_ = sum_of_weights;
   energy_ = energy;
-  arms_ = arms;
-  ways_ = ways;
-  second_ = second;
-  crossed_ = crossed;
+  arms_ = arms.head<3>();
+  ways_ = ways.head<3>();
+  second_ = second.topRows<3>();
+  crossed_ = crossed.topRows<3>();
 }
 
 /// With the ways d = t + (R − 1) a: Σ w (b − d) and Σ w (a + d) × (b − d), and elastic forces turned.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 namespace pliant {
@@ -127,6 +128,11 @@ void PairList::begin(std::span<const char> is_pinned, const LetGo& let_go, const
 
 // ---- near pairs
 
+void PairList::take_along(const Positions& q) {
+  reference_ = q;
+  has_now_ = has_end_ = false;
+}
+
 bool PairList::update(const Positions& q, ThreadPool& threads) {
   if (is_listed_) {
     go_to(q);
@@ -165,7 +171,9 @@ void PairList::list(const Positions& q, ThreadPool& threads) {
   }
   take_own_radii();
   reduce_radii();
-  reference_ = q;
+  take_along(q);
+  now_ = q;
+  has_now_ = true;
   gone_.assign(at(static_cast<Index>(q.rows())), 0);
   farthest_gone_ = 0;
   is_listed_ = true;
@@ -227,8 +235,24 @@ std::vector<PairList::Near> PairList::nearer_than_radius(const Positions& q, con
   return found;
 }
 
+/// Most moves end where they were to lead, and the next one begins there.
 void PairList::go_to(const Positions& q) {
+  if (has_now_ && is_same(q, now_)) return;
+  if (has_end_ && is_same(q, end_)) {
+    std::swap(now_, end_);
+    std::swap(gone_, gone_at_end_);
+    std::swap(farthest_gone_, farthest_at_end_);
+    return std::swap(has_now_, has_end_);
+  }
+  now_ = q;
+  has_now_ = true;
   farthest_gone_ = find_lengths(reference_, q, common_way(reference_, q), gone_);
+}
+
+/// To the last bit.
+bool PairList::is_same(const Positions& a, const Positions& b) {
+  return a.rows() == b.rows() &&
+         std::memcmp(a.data(), b.data(), sizeof(Real) * static_cast<std::size_t>(a.size())) == 0;
 }
 
 Real PairList::bound(const Near& near) const {
@@ -249,7 +273,11 @@ void PairList::take_way(const Positions& from, const Positions& to, bool is_rela
   longest_way_ = find_lengths(from, to, common_, ways_);
   is_short_ = is_listed_ || (is_of_before_ && is_relative);
   if (is_short_) {
-    if (is_relative) find_lengths(reference_, to, common_way(reference_, to), gone_at_end_);
+    if (is_relative && !(has_end_ && is_same(to, end_))) {
+      end_ = to;
+      has_end_ = true;
+      farthest_at_end_ = find_lengths(reference_, to, common_way(reference_, to), gone_at_end_);
+    }
     is_short_ = std::ranges::all_of(surface_->vertices, [&](Index v) {
       const Real gone = is_relative ? std::max(gone_[at(v)], gone_at_end_[at(v)]) : gone_[at(v)] + ways_[at(v)];
       return gone < 0.9 * (1 + list_slack) / 2 * radii_[at(v)];

@@ -30,6 +30,43 @@ std::vector<Index> places_of_corners(std::span<const Item> items, std::span<cons
   return corners;
 }
 
+#ifdef __SSE2__
+/// Three pairs of numbers, the last two of which are of interest in all; each rounded as rounded_down() does.
+void round_down(__m128d a, __m128d b, __m128d c, FourFloats& ab, FourFloats& c_alone) {
+  const __m128d limit = _mm_set1_pd(Real{std::numeric_limits<float>::max()});
+  const auto nearest = [&](__m128d& x) {
+    x = _mm_min_pd(_mm_max_pd(x, -limit), limit);
+    return _mm_cvtpd_ps(x);
+  };
+  const auto is_above = [](__m128 rounded, __m128d x) { return _mm_castpd_ps(_mm_cmpgt_pd(_mm_cvtps_pd(rounded), x)); };
+  const auto lowered = [](__m128 rounded, __m128 is_too_high) {
+    const __m128i bits = _mm_castps_si128(rounded);
+    // 1 below 0, and −1 above
+    const __m128i down = _mm_or_si128(_mm_set1_epi32(1), _mm_srai_epi32(_mm_xor_si128(bits, _mm_set1_epi32(-1)), 31));
+    return _mm_castsi128_ps(_mm_add_epi32(bits, _mm_and_si128(down, _mm_castps_si128(is_too_high))));
+  };
+  const __m128 of_a = nearest(a), of_b = nearest(b), of_c = nearest(c);
+  const __m128 above = _mm_shuffle_ps(is_above(of_a, a), is_above(of_b, b), _MM_SHUFFLE(2, 0, 2, 0));
+  const __m128 above_c = _mm_shuffle_ps(is_above(of_c, c), _mm_setzero_ps(), _MM_SHUFFLE(2, 0, 2, 0));
+  ab = reinterpret_cast<FourFloats>(lowered(_mm_movelh_ps(of_a, of_b), above));
+  c_alone = reinterpret_cast<FourFloats>(lowered(of_c, above_c));
+}
+
+FloatBox box_of_way(const Positions& begin, const Positions& end, Index vertex, Real pad) {
+  const Real* const from = begin.data() + 3 * vertex;
+  const Real* const to = end.data() + 3 * vertex;
+  const __m128d from_xy = _mm_loadu_pd(from), to_xy = _mm_loadu_pd(to);
+  const __m128d from_z = _mm_load_sd(from + 2), to_z = _mm_load_sd(to + 2);
+  const __m128d pads = _mm_set1_pd(pad);
+  const __m128d low_xy = _mm_min_pd(from_xy, to_xy) - pads, high_xy = _mm_max_pd(from_xy, to_xy) + pads;
+  const __m128d low_z = _mm_min_pd(from_z, to_z) - pads, high_z = _mm_max_pd(from_z, to_z) + pads;
+  FourFloats low, high;  // x, y and z of the low corner, z of the other one turned over; its x and y
+  round_down(low_xy, _mm_unpacklo_pd(low_z, -high_z), -high_xy, low, high);
+  const FourFloats none{};
+  return {__builtin_shufflevector(low, none, 0, 1, 2, 4),
+          __builtin_shufflevector(-high, __builtin_shufflevector(-low, none, 3, 4, 4, 4), 0, 1, 4, 5)};
+}
+#else
 FloatBox box_of_way(const Positions& begin, const Positions& end, Index vertex, Real pad) {
   FloatBox box{};
   for (Eigen::Index a = 0; a < 3; ++a) {
@@ -39,6 +76,7 @@ FloatBox box_of_way(const Positions& begin, const Positions& end, Index vertex, 
   }
   return box;
 }
+#endif
 
 }  // namespace
 
