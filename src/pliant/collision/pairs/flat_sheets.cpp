@@ -49,22 +49,10 @@ void FlatSheets::Hull::add(const Hull& other) {
 FlatSheets::Box FlatSheets::box_of(Index vertex) const {
   if (sheet_of_vertex_[at(vertex)] < 0) return {};
   const Sheet& sheet = sheets_[at(sheet_of_vertex_[at(vertex)])];
-  const auto number = [&](std::size_t i) { return static_cast<float>(places_[at(vertex)][i] - sheet.origin[i]); };
+  const auto number = [&](std::size_t i) {
+    return static_cast<float>(places_[at(vertex)][i] - sheet.origin[i]) * sheet.cells_per_length;
+  };
   return Box{{number(0), number(1)}, {number(0), number(1)}, sheet_of_vertex_[at(vertex)]};
-}
-
-bool FlatSheets::are_apart(const Box& a, const Box& b) const {
-  if (a.sheet < 0 || a.sheet != b.sheet) return false;
-  const Sheet& sheet = sheets_[at(a.sheet)];
-  const float low_u = std::min(a.low[0], b.low[0]), low_v = std::min(a.low[1], b.low[1]);
-  const float size = std::max(std::max(a.high[0], b.high[0]) - low_u, std::max(a.high[1], b.high[1]) - low_v);
-  // A rectangle of up to two cells lies in the block that begins with the cell of its corner.
-  Index level = 0;
-  for (float cells = size * sheet.cells_per_length; cells > static_cast<float>(block - 1); cells /= 2) ++level;
-  if (level >= sheet.level_count) return false;
-  const Index column = static_cast<Index>(low_u * sheet.cells_per_length) >> level;
-  const Index row = static_cast<Index>(low_v * sheet.cells_per_length) >> level;
-  return are_spread_[at(sheet.cell(level, column, row))] != 0;
 }
 
 void FlatSheets::find_spread(const Positions& q, Real distance, ThreadPool& threads) {

@@ -18,6 +18,8 @@
 // two such features that lie in the block are nearer than that.
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
@@ -32,7 +34,7 @@ class FlatSheets {
  public:
   /// Where something lies in the flat shape of a sheet.
   struct Box {
-    std::array<float, 2> low{}, high{};  ///< [m]
+    std::array<float, 2> low{}, high{};  ///< in cells of the finest grid
     Index sheet = -1;                    ///< none
 
     void add(const Box& other);
@@ -59,7 +61,17 @@ class FlatSheets {
   Box box_of(Index vertex) const;
   /// Whether all features in two boxes that share no vertex are farther apart than asked for. False where that is not
   /// known.
-  bool are_apart(const Box& a, const Box& b) const;
+  bool are_apart(const Box& a, const Box& b) const {
+    if (a.sheet < 0 || a.sheet != b.sheet) return false;
+    const Sheet& sheet = sheets_[at(a.sheet)];
+    const float column = std::min(a.low[0], b.low[0]), row = std::min(a.low[1], b.low[1]);
+    const float size = std::max(std::max(a.high[0], b.high[0]) - column, std::max(a.high[1], b.high[1]) - row);
+    // A rectangle of up to three cells lies in the block that begins with the cell of its corner.
+    const Index level = size <= block - 1 ? 0 : rounded_up_logarithm(size / (block - 1));
+    if (level >= sheet.level_count) return false;
+    const Index cell = sheet.cell(level, static_cast<Index>(column) >> level, static_cast<Index>(row) >> level);
+    return are_spread_[at(cell)] != 0;
+  }
 
  private:
   static constexpr Index most_levels = 16;
@@ -92,6 +104,11 @@ class FlatSheets {
     void add(const Hull& other);
   };
 
+  /// Of x ≥ 1 to the base of 2, from the bits of x.
+  static Index rounded_up_logarithm(float x) {
+    constexpr std::int32_t mantissa = (1 << 23) - 1, bias = 127;
+    return ((std::bit_cast<std::int32_t>(x) + mantissa) >> 23) - bias;
+  }
   void add_sheet(const Surface& surface, const Positions& rest, Index part, std::span<const Index> triangles,
                  std::span<const Index> vertices);
   static void lay_out_grids(std::span<const std::array<Real, 2>> places, Real size, Sheet& sheet);
