@@ -31,6 +31,18 @@ FourFloats checked(FourFloats x) {
   return size < four_of(most_stretched) ? x : four_of(std::numeric_limits<float>::infinity());
 }
 
+/// Of FᵀF, for four times both columns of F.
+FourFloats least_eigenvalues(const std::array<FourFloats, 4>& u, const std::array<FourFloats, 4>& v) {
+  const auto [ux, uy, uz] = collision::columns_of(u[0], u[1], u[2], u[3]);
+  const auto [vx, vy, vz] = collision::columns_of(v[0], v[1], v[2], v[3]);
+  const FourFloats uu = ux * ux + uy * uy + uz * uz, vv = vx * vx + vy * vy + vz * vz;
+  const FourFloats uv = ux * vx + uy * vy + uz * vz;
+  const FourFloats half = four_of(0.5F) * (uu - vv), squared = half * half + uv * uv;
+  std::array<float, 4> roots;
+  for (std::size_t i = 0; i < 4; ++i) roots[i] = std::sqrt(squared[i]);
+  return four_of(0.5F) * (uu + vv) - collision::four_at(roots.data());
+}
+
 }  // namespace
 
 void FlatSheets::Box::add(const Box& other) {
@@ -76,15 +88,20 @@ void FlatSheets::find_hulls(const Positions& q, ThreadPool& threads) {
       for (Index i = chunk * items_of_chunk; i < end; ++i) visit(i);
     });
   };
-  in_chunks(count_of(triangles_), [&](Index t) {
-    const auto& [vertices, inverse] = triangles_[at(t)];
-    const FourFloats first = edge_of(q, vertices[0], vertices[1]), second = edge_of(q, vertices[0], vertices[2]);
-    Derivative& each = derivatives_[at(t)];
-    each = {checked(first * four_of(inverse[0]) + second * four_of(inverse[2])),
-            checked(first * four_of(inverse[1]) + second * four_of(inverse[3]))};
-    const float uu = sum_of(each.u * each.u), vv = sum_of(each.v * each.v), uv = sum_of(each.u * each.v);
-    const float half = (uu - vv) / 2;
-    each.u[3] = (uu + vv) / 2 - std::sqrt(half * half + uv * uv);
+  const Index count = count_of(triangles_);
+  in_chunks((count + 3) / 4, [&](Index four) {
+    std::array<FourFloats, 4> u, v;
+    for (Index i = 0; i < 4; ++i) {
+      const auto& [vertices, inverse] = triangles_[at(std::min(4 * four + i, count - 1))];
+      const FourFloats first = edge_of(q, vertices[0], vertices[1]), second = edge_of(q, vertices[0], vertices[2]);
+      u[at(i)] = checked(first * four_of(inverse[0]) + second * four_of(inverse[2]));
+      v[at(i)] = checked(first * four_of(inverse[1]) + second * four_of(inverse[3]));
+    }
+    const FourFloats least = least_eigenvalues(u, v);
+    for (Index i = 0; i < std::min<Index>(4, count - 4 * four); ++i) {
+      u[at(i)][3] = least[i];
+      derivatives_[at(4 * four + i)] = {u[at(i)], v[at(i)]};
+    }
   });
   in_chunks(first_cells_, [&](Index cell) {
     Hull hull = hulls_[at(cell)];

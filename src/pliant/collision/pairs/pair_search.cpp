@@ -11,6 +11,7 @@ namespace pliant {
 
 using collision::BoxTree;
 using collision::FloatBox;
+using collision::FourFloats;
 using collision::MeetingItems;
 using collision::OwnedTree;
 
