@@ -1,6 +1,7 @@
 #include "pliant/solver/descent.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace pliant {
@@ -137,7 +138,7 @@ bool Descent::has_left_steep_place(const LocalResult& local) const {
 /// Whether a move with memory leads farther than surfaces should be searched for. Where contacts begin, the memory may
 /// know next to no resistance, and such a move is taken back anyway, or cut at thousands of planes.
 bool Descent::is_too_long(const StepContext& context, const WorkingState& work) const {
-  const auto longest_of = [](const auto& ways) { return ways.rowwise().norm().maxCoeff(); };
+  const auto longest_of = [](const auto& ways) { return std::sqrt(ways.rowwise().squaredNorm().maxCoeff()); };
   const Real longest = longest_of(work.positions - lbfgs_.positions_before());
   const Real of_solve = longest_of(work.solution);
   if (longest > longest_of_memory * of_solve) return true;

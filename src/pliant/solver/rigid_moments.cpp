@@ -1,5 +1,7 @@
 #include "pliant/solver/rigid_moments.h"
 
+#include <array>
+
 namespace pliant {
 namespace {
 
@@ -26,35 +28,58 @@ RigidPlacement RigidPlacement::share(Real share) const {
   return {share * shift, turn_by(share * whole.angle() * whole.axis())};
 }
 
+/// Pairs of numbers side by side, in registers: x and y of a vector, and what goes with its z.
 RigidMoments::RigidMoments(const Vec3& center, std::span<const Index> vertices, std::span<const Real> weights,
                            const WorkingState& work) {
-  Vec3 residuals = Vec3::Zero(), torque = Vec3::Zero(), arms = Vec3::Zero(), ways = Vec3::Zero();
-  Mat3 second = Mat3::Zero(), crossed = Mat3::Zero();
-  Real sum_of_weights = 0, energy = 0;
+  using Two = Real __attribute__((vector_size(16)));
+  const auto xy_of = [](const Real* from) {
+    Two pair;
+    __builtin_memcpy(&pair, from, sizeof pair);
+    return pair;
+  };
+  const auto twice = [](Real number) { return Two{number, number}; };
+  const Two center_xy = xy_of(center.data());
+  Vec3 torque = Vec3::Zero();
+  Two residuals{}, arms{}, ways{}, arms_and_ways_z{}, weight_and_energy{};
+  Real residuals_z = 0;
+  std::array<Two, 3> second{}, crossed{};                // x and y of each column
+  Two second_z{}, crossed_z{}, second_and_crossed_zz{};  // z of the first two, and of the last ones
   for (const Index v : vertices) {
     const Real w = weights[at(v)];
-    const Vec3 x = row(work.positions, v);
-    const Vec3 arm = x - center;
-    const Vec3 way = row(work.prediction, v) - x;
-    const Vec3 residual = row(work.residual, v);
-    const Vec3 weighted = w * arm;
+    const Real* const x = work.positions.data() + 3 * v;
+    const Real* const s = work.prediction.data() + 3 * v;
+    const Real* const r = work.residual.data() + 3 * v;
+    const Two arm = xy_of(x) - center_xy, way = xy_of(s) - xy_of(x), residual = xy_of(r);
+    const Real arm_z = x[2] - center.z(), way_z = s[2] - x[2];
     residuals += residual;
-    torque += arm.cross(residual);
-    sum_of_weights += w;
-    energy += w / 2 * way.squaredNorm();
+    residuals_z += r[2];
+    torque.x() += arm[1] * r[2] - arm_z * residual[1];
+    torque.y() += arm_z * residual[0] - arm[0] * r[2];
+    torque.z() += arm[0] * residual[1] - arm[1] * residual[0];
+    weight_and_energy += Two{w, w / 2 * (way[0] * way[0] + (way[1] * way[1] + way_z * way_z))};
+    const Two weighted = twice(w) * arm;
+    const Real weighted_z = w * arm_z;
     arms += weighted;
-    ways += w * way;
-    second += weighted * arm.transpose();
-    crossed += weighted * way.transpose();
+    ways += twice(w) * way;
+    arms_and_ways_z += Two{weighted_z, w * way_z};
+    second[0] += weighted * twice(arm[0]), crossed[0] += weighted * twice(way[0]);
+    second[1] += weighted * twice(arm[1]), crossed[1] += weighted * twice(way[1]);
+    second[2] += weighted * twice(arm_z), crossed[2] += weighted * twice(way_z);
+    second_z += twice(weighted_z) * arm;
+    crossed_z += twice(weighted_z) * way;
+    second_and_crossed_zz += twice(weighted_z) * Two{arm_z, way_z};
   }
-  residual_ << residuals, torque;
-  elastic_ << residuals - ways, torque - cross_sum(crossed);
-  weight_ = sum_of_weights;
-  energy_ = energy;
-  arms_ = arms;
-  ways_ = ways;
-  second_ = second;
-  crossed_ = crossed;
+  weight_ = weight_and_energy[0];
+  energy_ = weight_and_energy[1];
+  arms_ = {arms[0], arms[1], arms_and_ways_z[0]};
+  ways_ = {ways[0], ways[1], arms_and_ways_z[1]};
+  for (Index i = 0; i < 3; ++i) {
+    second_.col(i) << second[at(i)][0], second[at(i)][1], i < 2 ? second_z[i] : second_and_crossed_zz[0];
+    crossed_.col(i) << crossed[at(i)][0], crossed[at(i)][1], i < 2 ? crossed_z[i] : second_and_crossed_zz[1];
+  }
+  const Vec3 sum(residuals[0], residuals[1], residuals_z);
+  residual_ << sum, torque;
+  elastic_ << sum - ways_, torque - cross_sum(crossed_);
 }
 
 /// With the ways d = t + (R − 1) a: Σ w (b − d) and Σ w (a + d) × (b − d), and elastic forces turned.

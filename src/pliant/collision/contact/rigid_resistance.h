@@ -28,9 +28,16 @@ struct RigidResistance {
     const Vec3 arm = x - center;
     Mat3 turning;
     for (int i = 0; i < 3; ++i) turning.col(i) = arm.cross(stiffness.col(i));
-    curvature.topLeftCorner<3, 3>() += stiffness;
-    curvature.bottomLeftCorner<3, 3>() += turning;
-    for (int i = 0; i < 3; ++i) curvature.bottomRightCorner<3, 3>().row(i) += arm.cross(turning.row(i)).transpose();
+    for (int j = 0; j < 3; ++j) {
+      for (int i = j; i < 3; ++i) curvature(i, j) += stiffness(i, j);
+      for (int i = 0; i < 3; ++i) curvature(3 + i, j) += turning(i, j);
+    }
+    const auto turned = [&](int i, int from, int to) {
+      return arm(from) * turning(i, to) - arm(to) * turning(i, from);
+    };
+    for (int i = 0; i < 3; ++i) curvature(3 + i, 3) += turned(i, 1, 2);
+    for (int i = 1; i < 3; ++i) curvature(3 + i, 4) += turned(i, 2, 0);
+    curvature(5, 5) += turned(2, 0, 1);
   }
 };
 

@@ -15,16 +15,17 @@ constexpr Index groups_of_chunk = 256;
 
 /// Of all boxes [m].
 double sum_of_sides(std::span<const EightBoxes> boxes) {
-  double sum = 0;
+  std::array<double, 4> sums{};
   for (const EightBoxes& eight : boxes) {
-    std::array<float, boxes_side_by_side> sides{};
+    FourFloats sides{};
     for (std::size_t a = 0; a < 3; ++a) {
-      for (std::size_t i = 0; i < boxes_side_by_side; ++i)
-        sides[i] += std::max(0.0F, eight.high[a][i] - eight.low[a][i]);
+      for (std::size_t i = 0; i < boxes_side_by_side; i += 4) {
+        sides += larger(four_at(&eight.high[a][i]) - four_at(&eight.low[a][i]), FourFloats{});
+      }
     }
-    for (const float side : sides) sum += double{side};
+    for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += double{sides[i]};
   }
-  return sum;
+  return sums[0] + sums[1] + sums[2] + sums[3];
 }
 
 std::size_t groups_for(std::size_t boxes) {
@@ -131,13 +132,24 @@ bool BoxTree::refit(std::span<const FloatBox> vertex_boxes, ThreadPool& pool) {
     const std::size_t count = std::min(boxes_side_by_side, at(item_count_ - first));
     const Index* const corners = corners_of_group(group);
     EightBoxes& eight = levels_[0][at(group)];
-    for (std::size_t i = 0; i < count; ++i) eight.set(i, box_of(corners + i, boxes_side_by_side, vertex_boxes));
+    if (count < boxes_side_by_side) {
+      for (std::size_t i = 0; i < count; ++i) eight.set(i, box_of(corners + i, boxes_side_by_side, vertex_boxes));
+      return;
+    }
+    std::array<FloatBox, boxes_side_by_side> boxes;
+    for (std::size_t i = 0; i < count; ++i) boxes[i] = box_of(corners + i, boxes_side_by_side, vertex_boxes);
+    eight.set_all(boxes);
   });
   for (std::size_t l = 1; l < levels_.size(); ++l) {
     const auto& below = levels_[l - 1];
     in_chunks(count_of(levels_[l]), [&](Index group) {
       const std::size_t first = at(group) * boxes_side_by_side;
       const std::size_t count = std::min(boxes_side_by_side, below.size() - first);
+      if (count == boxes_side_by_side) {
+        std::array<FloatBox, boxes_side_by_side> boxes;
+        for (std::size_t i = 0; i < count; ++i) boxes[i] = below[first + i].hull();
+        return levels_[l][at(group)].set_all(boxes);
+      }
       for (std::size_t i = 0; i < count; ++i) levels_[l][at(group)].set(i, below[first + i].hull());
     });
   }

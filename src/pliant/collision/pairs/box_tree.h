@@ -46,6 +46,10 @@ class BoxTree {
   const Index* corners_of_group(Index group) const {
     return &placed_corners_[boxes_side_by_side * at(corner_count_) * at(group)];
   }
+  /// Of the item in a place of level 0.
+  std::span<const Index> corners_of(Index place) const {
+    return std::span(corners_).subspan(at(corner_count_ * places_[at(place)]), at(corner_count_));
+  }
   std::int64_t build_count() const { return build_count_; }
 
  private:

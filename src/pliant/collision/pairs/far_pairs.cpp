@@ -1,6 +1,7 @@
 #include "pliant/collision/pairs/far_pairs.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "pliant/collision/pairs/eight_boxes.h"
 
@@ -9,6 +10,8 @@ namespace {
 
 using collision::four_of;
 using collision::FourFloats;
+using collision::larger;
+using collision::smaller;
 using FourMasks = decltype(FourFloats{} < FourFloats{});
 
 constexpr std::size_t lanes = 4;
@@ -23,13 +26,6 @@ FourFloats to_unit(FourFloats x) {
   const FourFloats zero{}, one = four_of(1.0F);
   const FourFloats above = x > zero ? x : zero;
   return above < one ? above : one;
-}
-
-FourFloats larger(FourFloats a, FourFloats b) {
-  return a > b ? a : b;
-}
-FourFloats smaller(FourFloats a, FourFloats b) {
-  return a < b ? a : b;
 }
 
 /// A vector in each lane.
@@ -86,29 +82,31 @@ FourFloats squared_distance_of_edges(const FourVectors& a, const FourVectors& b,
 
 /// Four pairs, seen from the first vertex of each.
 struct FarPairs::Four {
-  alignas(16) float corners[3][3][lanes];  // by corner and axis
-  alignas(16) float reach[lanes];
+  std::array<collision::ThreeColumns, 3> corners;
+  FourFloats reach{};
 
-  FourVectors corner(std::size_t c) const {
-    return {collision::four_at(corners[c][0]), collision::four_at(corners[c][1]), collision::four_at(corners[c][2])};
-  }
-  void set(std::size_t lane, const Positions& q, const std::array<Index, 4>& vertices, Real pair_reach) {
-    const Vec3 first = row(q, vertices[0]);
+  void set(const Positions& q, const std::array<std::array<Index, 4>, lanes>& vertices) {
     for (std::size_t c = 0; c < 3; ++c) {
-      const Vec3 from_first = row(q, vertices[c + 1]) - first;
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        corners[c][axis][lane] = static_cast<float>(from_first(static_cast<Index>(axis)));
-      }
+      const auto from_first = [&](std::size_t lane) {
+        const Real* const first = q.data() + 3 * vertices[lane][0];
+        const Real* const corner = q.data() + 3 * vertices[lane][c + 1];
+        const auto number = [&](std::size_t axis) { return static_cast<float>(corner[axis] - first[axis]); };
+        return FourFloats{number(0), number(1), number(2), 0};
+      };
+      corners[c] = collision::columns_of(from_first(0), from_first(1), from_first(2), from_first(3));
     }
-    reach[lane] = static_cast<float>(pair_reach);
   }
   /// A bit for each that is far; none where something is not a number.
   template <PairKind kind>
   unsigned far() const {
+    const auto corner = [&](std::size_t i) {
+      return FourVectors{corners[i].first, corners[i].second, corners[i].third};
+    };
     FourVectors a = corner(0), b = corner(1), c = corner(2);
     const FourFloats squared_size = larger(larger(a.squared(), b.squared()), c.squared());
-    FourFloats scale;
-    for (std::size_t i = 0; i < lanes; ++i) scale[i] = 1 / std::sqrt(squared_size[i]);
+    std::array<float, lanes> size;
+    for (std::size_t i = 0; i < lanes; ++i) size[i] = std::sqrt(squared_size[i]);
+    const FourFloats scale = four_of(1.0F) / collision::four_at(size.data());
     a = a.times(scale), b = b.times(scale), c = c.times(scale);  // so that products stay in the range of floats
     FourFloats squared;
     if constexpr (kind == PairKind::edge_edge) {
@@ -118,7 +116,7 @@ struct FarPairs::Four {
     } else {
       squared = squared_distance_of_segment(a, b);
     }
-    const FourFloats most = collision::four_at(reach) * scale * four_of(1 + uncertain_share) + four_of(uncertain_share);
+    const FourFloats most = reach * scale * four_of(1 + uncertain_share) + four_of(uncertain_share);
     return collision::bits_of(squared > most * most);
   }
 };
@@ -145,16 +143,16 @@ std::size_t FarPairs::drop_far(std::span<Items> pairs) const {
       Real& side = j < second_side ? first : second;
       side = std::max(side, reach_[at(vertices[j])]);
     }
-    return first + second;
+    return static_cast<float>(first + second);
   };
   std::size_t kept = 0;
   Four four;
+  std::array<std::array<Index, 4>, lanes> vertices;
   for (std::size_t i = 0; i < pairs.size(); i += lanes) {
     const std::size_t count = std::min(lanes, pairs.size() - i);
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-      const std::array<Index, 4> vertices = vertices_of(pairs[i + std::min(lane, count - 1)]);
-      four.set(lane, *q_, vertices, reach_of(vertices));
-    }
+    for (std::size_t lane = 0; lane < lanes; ++lane) vertices[lane] = vertices_of(pairs[i + std::min(lane, count - 1)]);
+    four.set(*q_, vertices);
+    four.reach = FourFloats{reach_of(vertices[0]), reach_of(vertices[1]), reach_of(vertices[2]), reach_of(vertices[3])};
     const unsigned far = four.far<kind>();
     for (std::size_t lane = 0; lane < count; ++lane) {
       if ((far >> lane & 1U) == 0) pairs[kept++] = pairs[i + lane];

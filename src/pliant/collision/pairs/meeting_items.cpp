@@ -60,9 +60,9 @@ void visit_boxes(const Surface& surface, const OwnedTree& a, const OwnedTree& b,
     const int bit = std::countr_zero(bits);
     const Index box_a = group_size * group_a + bit / group_size;
     const Index box_b = group_size * group_b + bit % group_size;
-    if (a.owners == nullptr || TreeOwners::may_meet(surface, *a.owners, box_a, *b.owners, box_b, level)) {
-      visit(box_a, box_b);
-    }
+    if (a.owners != nullptr && !TreeOwners::may_meet(surface, *a.owners, box_a, *b.owners, box_b, level)) continue;
+    if (a.places != nullptr && TreePlaces::are_apart(*a.sheets, *a.places, box_a, *b.places, box_b, level)) continue;
+    visit(box_a, box_b);
   }
 }
 
@@ -170,6 +170,31 @@ bool TreeOwners::may_meet(const Surface& surface, const TreeOwners& a, Index box
   const Index owner_b = b.owners_[at(level)][at(box_b)];
   if (owner_a == several || owner_b == several) return true;
   return (owner_a % 2 == 0 || owner_b % 2 == 0) && surface.may_meet(owner_a / 2, owner_b / 2);
+}
+
+void TreePlaces::set(const Surface& surface, const BoxTree& tree, const FlatSheets& sheets) {
+  boxes_.resize(at(tree.height()));
+  for (Index l = 0; l < tree.height(); ++l) {
+    std::vector<FlatSheets::Box>& boxes = boxes_[at(l)];
+    boxes.assign(boxes_side_by_side * tree.level(l).size(), {});
+    for (std::size_t box = 0; box < boxes.size(); ++box) {
+      if (l == 0) {
+        if (tree.items()[box] < 0) continue;
+        const std::span<const Index> corners = tree.corners_of(static_cast<Index>(box));
+        boxes[box] = sheets.box_of(surface.vertices[at(corners.front())]);
+        for (const Index each : corners) boxes[box].add(sheets.box_of(surface.vertices[at(each)]));
+        continue;
+      }
+      const std::vector<FlatSheets::Box>& below = boxes_[at(l - 1)];
+      const std::size_t first = boxes_side_by_side * box;
+      if (first >= below.size()) continue;
+      // Gaps at the end of a group meet nothing.
+      boxes[box] = below[first];
+      for (std::size_t i = first + 1; i < first + boxes_side_by_side; ++i) {
+        if (!tree.level(l - 1)[box].is_empty(i - first)) boxes[box].add(below[i]);
+      }
+    }
+  }
 }
 
 bool MeetingItems::find(const Surface& surface, const OwnedTree& a, const OwnedTree& b, std::int64_t most,

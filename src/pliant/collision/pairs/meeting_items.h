@@ -4,6 +4,7 @@
 
 #include "pliant/collision/pairs/box_tree.h"
 #include "pliant/collision/pairs/far_pairs.h"
+#include "pliant/collision/pairs/flat_sheets.h"
 #include "pliant/collision/pairs/surface.h"
 
 namespace pliant::collision {
@@ -23,10 +24,29 @@ class TreeOwners {
   std::vector<std::vector<Index>> owners_;
 };
 
-/// A tree of vertices, edges or triangles, and who owns them; `owners` is null where all pairs are wanted.
+/// Where the boxes of a tree lie in flat sheets, so that boxes of which no pair can be near are passed over.
+class TreePlaces {
+ public:
+  /// Corners of the tree are places in Surface::vertices.
+  void set(const Surface& surface, const BoxTree& tree, const FlatSheets& sheets);
+  /// Whether all pairs of a box of the one tree and one of the other are known to be far apart, both of one level from
+  /// 1 on.
+  static bool are_apart(const FlatSheets& sheets, const TreePlaces& a, Index box_a, const TreePlaces& b, Index box_b,
+                        Index level) {
+    return sheets.are_apart(a.boxes_[at(level)][at(box_a)], b.boxes_[at(level)][at(box_b)]);
+  }
+
+ private:
+  std::vector<std::vector<FlatSheets::Box>> boxes_;  // by level
+};
+
+/// A tree of vertices, edges or triangles, and who owns them; `owners` is null where all pairs are wanted, `places`
+/// where nothing is known of flat sheets.
 struct OwnedTree {
   const BoxTree* tree = nullptr;
   const TreeOwners* owners = nullptr;
+  const TreePlaces* places = nullptr;
+  const FlatSheets* sheets = nullptr;
 };
 
 class MeetingItems {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 namespace pliant {
@@ -9,6 +10,8 @@ namespace {
 
 /// Of r: how much farther apart than r a pair may be to be listed.
 constexpr Real list_slack = 1;
+/// Of r: how far apart features of flat sheets are looked for at rest.
+constexpr Real reach_at_rest = 3;
 /// Of r: by how much boxes around ways are larger than these.
 constexpr Real pad_of_ways = 0.1;
 /// Of a bound: ways that are shorter bring nothing together. A little less than Planes has it.
@@ -64,6 +67,7 @@ void PairList::set_surface(const Surface& surface, const Positions& rest, std::s
   pads_.resize(radii.size());
   std::ranges::transform(radii, pads_.begin(), [](Real r) { return pad_of_ways * r; });
   find_own_radii(rest);
+  find_sheets(rest);
 }
 
 void PairList::clear() {
@@ -93,6 +97,24 @@ void PairList::find_own_radii(const Positions& rest) {
   }
 }
 
+/// Bodies that are flat at rest, and how near features are to each other there.
+void PairList::find_sheets(const Positions& rest) {
+  sheets_.set_surface(*surface_, rest);
+  if (sheets_.is_empty()) return;
+  const std::vector<Real> pads(radii_.size(), reach_at_rest / 2 * largest_radius_);
+  std::vector<Real> nearest(radii_.size(), reach_at_rest * largest_radius_);
+  const Positions flat = sheets_.flattened(rest, 4 * reach_at_rest * largest_radius_);
+  ThreadPool one(1);
+  if (!search_->try_find(flat, flat, pads, one)) std::ranges::fill(nearest, 0);
+  for (const Pair& pair : search_->pairs()) {
+    const Index sheet = sheets_.sheet_of(pair.vertices[0]);
+    if (sheet < 0 || sheets_.sheet_of(pair.vertices[3]) != sheet) continue;
+    const Real distance = measure(flat, pair).distance;
+    for (const Index v : pair.vertices) nearest[at(v)] = std::min(nearest[at(v)], distance);
+  }
+  sheets_.set_nearest(nearest);
+}
+
 /// What was near in the substep before tells of the first way: of nothing else, for a step goes by its own state alone.
 void PairList::begin(std::span<const char> is_pinned, const LetGo& let_go, const ReducedDistances& reduced) {
   is_of_before_ = (is_listed_ || is_of_before_) && has_listed_all_ && std::ranges::equal(is_held_, is_pinned);
@@ -105,6 +127,11 @@ void PairList::begin(std::span<const char> is_pinned, const LetGo& let_go, const
 }
 
 // ---- near pairs
+
+void PairList::take_along(const Positions& q) {
+  reference_ = q;
+  has_now_ = has_end_ = false;
+}
 
 bool PairList::update(const Positions& q, ThreadPool& threads) {
   if (is_listed_) {
@@ -120,7 +147,9 @@ bool PairList::update(const Positions& q, ThreadPool& threads) {
 /// All pairs that can be nearer than r while no vertex has gone farther from here than half the slack.
 void PairList::list(const Positions& q, ThreadPool& threads) {
   const FarPairs far(*surface_, q, radii_);
-  const std::span<const Pair> pairs = search_->find(q, q, radii_, threads, &far);
+  if (!sheets_.is_empty()) sheets_.find_spread(q, (1 + list_slack) * largest_radius_, threads);
+  const std::span<const Pair> pairs =
+      search_->find(q, q, radii_, threads, &far, sheets_.is_empty() ? nullptr : &sheets_);
   listed_chunks_.resize(std::max(listed_chunks_.size(), pairs.size() / pairs_of_chunk + 1));
   for_each_chunk_of(pairs.size(), pairs_of_chunk, threads, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
     listed_chunks_[chunk].clear();
@@ -142,7 +171,9 @@ void PairList::list(const Positions& q, ThreadPool& threads) {
   }
   take_own_radii();
   reduce_radii();
-  reference_ = q;
+  take_along(q);
+  now_ = q;
+  has_now_ = true;
   gone_.assign(at(static_cast<Index>(q.rows())), 0);
   farthest_gone_ = 0;
   is_listed_ = true;
@@ -164,13 +195,35 @@ Real PairList::find_lengths(const Positions& a, const Positions& b, const Vec3& 
                             std::vector<Real>& lengths) const {
   const auto count = static_cast<Index>(b.rows());
   lengths.resize(at(count));
-  Real longest = 0;
-  for (Index v = 0; v < count; ++v) {
-    const Real length = (row(b, v) - row(a, v) - common).norm();
-    lengths[at(v)] = length;
-    longest = std::max(longest, length);
+  // two vertices at once: six numbers in a row
+  using Two = Real __attribute__((vector_size(16)));
+  const auto two_at = [](const Real* from) {
+    Two two;
+    __builtin_memcpy(&two, from, sizeof two);
+    return two;
+  };
+  const std::array<Two, 3> commons{Two{common[0], common[1]}, Two{common[2], common[0]}, Two{common[1], common[2]}};
+  Two longest_of_two{};
+  Index v = 0;
+  for (; v + 1 < count; v += 2) {
+    std::array<Two, 3> squares;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Two way = two_at(b.data() + 3 * v + 2 * i) - two_at(a.data() + 3 * v + 2 * i) - commons[i];
+      squares[i] = way * way;
+    }
+    const Two x = __builtin_shufflevector(squares[0], squares[1], 0, 3);
+    const Two y = __builtin_shufflevector(squares[0], squares[2], 1, 2);
+    const Two z = __builtin_shufflevector(squares[1], squares[2], 0, 3);
+    std::array<Real, 2> sums;
+    const Two sum = x + (y + z);
+    for (std::size_t i = 0; i < 2; ++i) sums[i] = std::sqrt(sum[i]);
+    __builtin_memcpy(&lengths[at(v)], sums.data(), sizeof sums);
+    const Two length = two_at(sums.data());
+    longest_of_two = length > longest_of_two ? length : longest_of_two;
   }
-  return longest;
+  if (v < count) lengths[at(v)] = (row(b, v) - row(a, v) - common).norm();
+  const Real of_last = v < count ? lengths[at(v)] : 0;
+  return std::max(std::max(longest_of_two[0], longest_of_two[1]), of_last);
 }
 
 /// The middle of a box about some of them: whatever it is, bounds hold.
@@ -204,8 +257,24 @@ std::vector<PairList::Near> PairList::nearer_than_radius(const Positions& q, con
   return found;
 }
 
+/// Most moves end where they were to lead, and the next one begins there.
 void PairList::go_to(const Positions& q) {
+  if (has_now_ && is_same(q, now_)) return;
+  if (has_end_ && is_same(q, end_)) {
+    std::swap(now_, end_);
+    std::swap(gone_, gone_at_end_);
+    std::swap(farthest_gone_, farthest_at_end_);
+    return std::swap(has_now_, has_end_);
+  }
+  now_ = q;
+  has_now_ = true;
   farthest_gone_ = find_lengths(reference_, q, common_way(reference_, q), gone_);
+}
+
+/// To the last bit.
+bool PairList::is_same(const Positions& a, const Positions& b) {
+  return a.rows() == b.rows() &&
+         std::memcmp(a.data(), b.data(), sizeof(Real) * static_cast<std::size_t>(a.size())) == 0;
 }
 
 Real PairList::bound(const Near& near) const {
@@ -226,7 +295,11 @@ void PairList::take_way(const Positions& from, const Positions& to, bool is_rela
   longest_way_ = find_lengths(from, to, common_, ways_);
   is_short_ = is_listed_ || (is_of_before_ && is_relative);
   if (is_short_) {
-    if (is_relative) find_lengths(reference_, to, common_way(reference_, to), gone_at_end_);
+    if (is_relative && !(has_end_ && is_same(to, end_))) {
+      end_ = to;
+      has_end_ = true;
+      farthest_at_end_ = find_lengths(reference_, to, common_way(reference_, to), gone_at_end_);
+    }
     is_short_ = std::ranges::all_of(surface_->vertices, [&](Index v) {
       const Real gone = is_relative ? std::max(gone_[at(v)], gone_at_end_[at(v)]) : gone_[at(v)] + ways_[at(v)];
       return gone < 0.9 * (1 + list_slack) / 2 * radii_[at(v)];
@@ -274,7 +347,10 @@ const PairList::OnTheWay& PairList::on_the_way(const Positions& from, const Posi
     is_short_ = false;
     set_boxes(from, to);
   }
-  const bool is_all = search_->try_find(boxes_.low, boxes_.high, pads_, threads);
+  const bool has_spread = is_relative_ && !sheets_.is_empty();
+  if (has_spread) sheets_.find_spread(from, to, largest_radius_, threads);
+  const bool is_all =
+      search_->try_find(boxes_.low, boxes_.high, pads_, threads, nullptr, has_spread ? &sheets_ : nullptr);
   const std::span<const Pair> pairs = search_->pairs();
   collect_on_the_way(pairs.size(), threads, [&](std::size_t i, OnTheWay& found) {
     add_on_the_way(pairs[i], box_distance(from, pairs[i]), found);

@@ -4,6 +4,7 @@
 // too.
 #include <optional>
 
+#include "pliant/collision/pairs/flat_sheets.h"
 #include "pliant/collision/pairs/gap.h"
 #include "pliant/collision/pairs/let_go.h"
 #include "pliant/collision/pairs/pair_search.h"
@@ -27,7 +28,7 @@ class PairList {
   void begin(std::span<const char> is_pinned, const LetGo& let_go, const ReducedDistances& reduced);
   void changed_exceptions() { is_listed_ = is_of_before_ = false; }
   /// Near pairs are at q now, as far apart as they were.
-  void take_along(const Positions& q) { reference_ = q; }
+  void take_along(const Positions& q);
   /// At the next update, whatever is listed.
   void list_anew() { is_listed_ = false; }
   /// The first way is asked for by a search.
@@ -75,7 +76,9 @@ class PairList {
     Gap gap;
   };
 
+  static bool is_same(const Positions& a, const Positions& b);
   void find_own_radii(const Positions& rest);
+  void find_sheets(const Positions& rest);
   /// Of vertices that go from a to b: how far each goes, apart from `common`. Returns the farthest.
   Real find_lengths(const Positions& a, const Positions& b, const Vec3& common, std::vector<Real>& lengths) const;
   /// Of those, what is common to all ways, so that the longest of the rest is short.
@@ -99,6 +102,7 @@ class PairList {
   std::optional<PairSearch> search_;
   std::vector<Real> radii_, pads_;
   Real smallest_radius_ = 0, largest_radius_ = 0;
+  FlatSheets sheets_;
   std::vector<OwnRadius> own_radii_;  // of pairs that are nearer than r at rest, in the order of pairs
 
   Positions reference_;  // where the near pairs were listed
@@ -108,6 +112,8 @@ class PairList {
   std::vector<char> is_held_;
   std::vector<Near> near_;
   std::vector<Gap> gaps_;
+  Positions now_;  // what the next two are about, if anything
+  bool has_now_ = false;
   std::vector<Real> gone_;  // since then, apart from what all have gone [m]
   Real farthest_gone_ = 0;
 
@@ -115,7 +121,10 @@ class PairList {
   Vec3 common_ = Vec3::Zero();  // to all of them [m]
   std::vector<Real> ways_;      // lengths [m]
   Real longest_way_ = 0;
-  std::vector<Real> gone_at_end_;    // scratch [m]
+  Positions end_;  // what the next two are about, if anything
+  bool has_end_ = false;
+  std::vector<Real> gone_at_end_;  // as gone_ [m]
+  Real farthest_at_end_ = 0;
   bool is_short_ = false;            // so that no pair can meet that is not near
   bool is_relative_ = false;         // lengths are apart from what all go
   bool has_been_held_back_ = false;  // in this substep

@@ -11,6 +11,7 @@ namespace pliant {
 
 using collision::BoxTree;
 using collision::FloatBox;
+using collision::FourFloats;
 using collision::MeetingItems;
 using collision::OwnedTree;
 
@@ -30,6 +31,43 @@ std::vector<Index> places_of_corners(std::span<const Item> items, std::span<cons
   return corners;
 }
 
+#ifdef __SSE2__
+/// Three pairs of numbers, the last two of which are of interest in all; each rounded as rounded_down() does.
+void round_down(__m128d a, __m128d b, __m128d c, FourFloats& ab, FourFloats& c_alone) {
+  const __m128d limit = _mm_set1_pd(Real{std::numeric_limits<float>::max()});
+  const auto nearest = [&](__m128d& x) {
+    x = _mm_min_pd(_mm_max_pd(x, -limit), limit);
+    return _mm_cvtpd_ps(x);
+  };
+  const auto is_above = [](__m128 rounded, __m128d x) { return _mm_castpd_ps(_mm_cmpgt_pd(_mm_cvtps_pd(rounded), x)); };
+  const auto lowered = [](__m128 rounded, __m128 is_too_high) {
+    const __m128i bits = _mm_castps_si128(rounded);
+    // 1 below 0, and −1 above
+    const __m128i down = _mm_or_si128(_mm_set1_epi32(1), _mm_srai_epi32(_mm_xor_si128(bits, _mm_set1_epi32(-1)), 31));
+    return _mm_castsi128_ps(_mm_add_epi32(bits, _mm_and_si128(down, _mm_castps_si128(is_too_high))));
+  };
+  const __m128 of_a = nearest(a), of_b = nearest(b), of_c = nearest(c);
+  const __m128 above = _mm_shuffle_ps(is_above(of_a, a), is_above(of_b, b), _MM_SHUFFLE(2, 0, 2, 0));
+  const __m128 above_c = _mm_shuffle_ps(is_above(of_c, c), _mm_setzero_ps(), _MM_SHUFFLE(2, 0, 2, 0));
+  ab = reinterpret_cast<FourFloats>(lowered(_mm_movelh_ps(of_a, of_b), above));
+  c_alone = reinterpret_cast<FourFloats>(lowered(of_c, above_c));
+}
+
+FloatBox box_of_way(const Positions& begin, const Positions& end, Index vertex, Real pad) {
+  const Real* const from = begin.data() + 3 * vertex;
+  const Real* const to = end.data() + 3 * vertex;
+  const __m128d from_xy = _mm_loadu_pd(from), to_xy = _mm_loadu_pd(to);
+  const __m128d from_z = _mm_load_sd(from + 2), to_z = _mm_load_sd(to + 2);
+  const __m128d pads = _mm_set1_pd(pad);
+  const __m128d low_xy = _mm_min_pd(from_xy, to_xy) - pads, high_xy = _mm_max_pd(from_xy, to_xy) + pads;
+  const __m128d low_z = _mm_min_pd(from_z, to_z) - pads, high_z = _mm_max_pd(from_z, to_z) + pads;
+  FourFloats low, high;  // x, y and z of the low corner, z of the other one turned over; its x and y
+  round_down(low_xy, _mm_unpacklo_pd(low_z, -high_z), -high_xy, low, high);
+  const FourFloats none{};
+  return {__builtin_shufflevector(low, none, 0, 1, 2, 4),
+          __builtin_shufflevector(-high, __builtin_shufflevector(-low, none, 3, 4, 4, 4), 0, 1, 4, 5)};
+}
+#else
 FloatBox box_of_way(const Positions& begin, const Positions& end, Index vertex, Real pad) {
   FloatBox box{};
   for (Eigen::Index a = 0; a < 3; ++a) {
@@ -39,6 +77,7 @@ FloatBox box_of_way(const Positions& begin, const Positions& end, Index vertex, 
   }
   return box;
 }
+#endif
 
 }  // namespace
 
@@ -57,7 +96,7 @@ PairSearch::PairSearch(const Surface& surface, std::int64_t most)
     for (std::size_t c = 0; c < corners.size(); c += at(corner_count)) {
       body.push_back(surface.body[at(surface.vertices[at(corners[c])])]);
     }
-    items_.push_back({BoxTree(std::move(corners), corner_count), std::move(body), {}, {}});
+    items_.push_back({BoxTree(std::move(corners), corner_count), std::move(body), {}, {}, -1, {}, -1});
   };
   add(places_of_corners(std::span(surface.triangles), place_of_vertex), 3);
   add(places_of_corners(edges, place_of_vertex), 2);
@@ -108,19 +147,26 @@ void PairSearch::update_owners(Items& items) {
   }
 }
 
-OwnedTree PairSearch::owned(std::size_t place) const {
+void PairSearch::update_places(Items& items, const FlatSheets& sheets) {
+  if (items.placed_build == items.tree.build_count()) return;
+  items.places.set(*surface_, items.tree, sheets);
+  items.placed_build = items.tree.build_count();
+}
+
+OwnedTree PairSearch::owned(std::size_t place, const FlatSheets* sheets) const {
   const Items& items = items_[place];
-  return {&items.tree, items.owned_build < 0 ? nullptr : &items.owners};
+  return {&items.tree, items.owned_build < 0 ? nullptr : &items.owners, sheets == nullptr ? nullptr : &items.places,
+          sheets};
 }
 
 std::span<const Pair> PairSearch::find(const Positions& begin, const Positions& end, std::span<const Real> pads,
-                                       ThreadPool& pool, const FarPairs* far) {
-  if (!try_find(begin, end, pads, pool, far)) fail(end);
+                                       ThreadPool& pool, const FarPairs* far, const FlatSheets* sheets) {
+  if (!try_find(begin, end, pads, pool, far, sheets)) fail(end);
   return pairs_;
 }
 
 bool PairSearch::try_find(const Positions& begin, const Positions& end, std::span<const Real> pads, ThreadPool& pool,
-                          const FarPairs* far) {
+                          const FarPairs* far, const FlatSheets* sheets) {
   set_boxes(begin, end, pads, pool);
   std::array<bool, places> is_fit{};
   for (std::size_t place = 0; place < places; ++place) is_fit[place] = items_[place].tree.refit(boxes_, pool);
@@ -132,11 +178,14 @@ bool PairSearch::try_find(const Positions& begin, const Positions& end, std::spa
       if (!is_fit[place]) items_[place].tree.refit(boxes_, pool);
     }
   }
-  for (Items& items : items_) update_owners(items);
+  for (Items& items : items_) {
+    update_owners(items);
+    if (sheets != nullptr) update_places(items, *sheets);
+  }
   std::array<std::int64_t, 4> offsets{};
   for (std::size_t k = 0; k < meeting_.size(); ++k) {
     const auto& [kind, a, b] = kinds[k];
-    if (!meeting_[k].find(*surface_, owned(a), owned(b), most_ - offsets[k], pool)) {
+    if (!meeting_[k].find(*surface_, owned(a, sheets), owned(b, sheets), most_ - offsets[k], pool)) {
       pairs_.clear();
       crowded_ = k;
       return false;
@@ -180,7 +229,7 @@ Pair PairSearch::pair_of(PairKind kind, Index first, Index second) const {
 
 void PairSearch::fail(const Positions& end) const {
   const Kind& kind = kinds[crowded_];
-  const Index item = MeetingItems::crowded_item(*surface_, owned(kind.a), owned(kind.b), most_);
+  const Index item = MeetingItems::crowded_item(*surface_, owned(kind.a, nullptr), owned(kind.b, nullptr), most_);
   const Index vertex = kind.kind == PairKind::edge_edge ? surface_->edges[at(item)][0] : surface_->vertices[at(item)];
   const auto place = std::ranges::find(surface_->vertices, vertex) - surface_->vertices.begin();
   fail_input(fmt::format(

@@ -29,15 +29,16 @@ class PairSearch {
   void set_held(std::span<const char> is_held);
 
   /// begin, end: positions at both ends of the ways, m × 3, finite [m]. pads: of each vertex, ≥ 0 [m]. All in the
-  /// solver's order. far: leaves out most of these, and nothing but these. Returns the pairs in their order, which hold
+  /// solver's order. far, sheets: leave out most of these and of those, and nothing else; sheets must stay the same.
+  /// Returns the pairs in their order, which hold
   /// until the next call. The same for any number of threads. Allocates nothing once there is memory for as many pairs.
   ///
   /// Throws Error(input) where there are more than `most`, naming the vertex where most of them are.
   std::span<const Pair> find(const Positions& begin, const Positions& end, std::span<const Real> pads, ThreadPool& pool,
-                             const FarPairs* far = nullptr);
+                             const FarPairs* far = nullptr, const FlatSheets* sheets = nullptr);
   /// The same, but false where there are too many.
   bool try_find(const Positions& begin, const Positions& end, std::span<const Real> pads, ThreadPool& pool,
-                const FarPairs* far = nullptr);
+                const FarPairs* far = nullptr, const FlatSheets* sheets = nullptr);
   std::span<const Pair> pairs() const { return pairs_; }
 
   /// How often trees were put in order, for benchmarks.
@@ -50,6 +51,8 @@ class PairSearch {
     collision::TreeOwners owners;
     std::vector<char> is_held;
     std::int64_t owned_build = -1;  // the build that `owners` was made for
+    collision::TreePlaces places{};
+    std::int64_t placed_build = -1;  // the same of `places`
   };
   enum : std::size_t { triangles_place, edges_place, vertices_place, loose_edges_place, places };
   struct Kind {
@@ -62,7 +65,8 @@ class PairSearch {
 
   void set_boxes(const Positions& begin, const Positions& end, std::span<const Real> pads, ThreadPool& pool);
   void update_owners(Items& items);
-  collision::OwnedTree owned(std::size_t place) const;
+  void update_places(Items& items, const FlatSheets& sheets);
+  collision::OwnedTree owned(std::size_t place, const FlatSheets* sheets) const;
   Pair pair_of(PairKind kind, Index first, Index second) const;
   [[noreturn]] void fail(const Positions& end) const;
 
