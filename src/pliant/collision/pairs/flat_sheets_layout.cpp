@@ -24,6 +24,8 @@ constexpr Real shift = 0.37;
 constexpr Real rounding_of_places = 1e-4;
 /// How many cells a grid may have.
 constexpr Real most_cells_of_vertex = 4;
+/// And on a side: single precision knows places on longer ones less well than rounding_of_places says.
+constexpr Real most_cells_of_side = 1024;
 
 Real cross(const Place& from, const Place& a, const Place& b) {
   return (a[0] - from[0]) * (b[1] - from[1]) - (a[1] - from[1]) * (b[0] - from[0]);
@@ -165,7 +167,8 @@ void FlatSheets::lay_out_grids(std::span<const Place> places, Real size, Sheet& 
     for (std::size_t i = 0; i < 2; ++i) low[i] = std::min(low[i], place[i]), high[i] = std::max(high[i], place[i]);
   }
   const auto cells = [&](std::size_t i) { return std::floor((high[i] - low[i]) / size + shift) + 1; };
-  while (cells(0) * cells(1) > most_cells_of_vertex * static_cast<Real>(places.size()) + block * block) size *= 2;
+  const Real most_cells = most_cells_of_vertex * static_cast<Real>(places.size()) + block * block;
+  while (cells(0) * cells(1) > most_cells || std::max(cells(0), cells(1)) > most_cells_of_side) size *= 2;
   for (std::size_t i = 0; i < 2; ++i) sheet.origin[i] = low[i] - shift * size;
   sheet.cells_per_length = static_cast<float>(1 / size);
   sheet.columns[0] = static_cast<Index>(cells(0));
