@@ -16,7 +16,6 @@ namespace pliant {
 
 namespace {
 
-constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 /// A word must fit in.
 constexpr std::size_t lexer_block_size = 1 << 18;
 

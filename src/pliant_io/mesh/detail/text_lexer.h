@@ -10,6 +10,9 @@
 
 namespace pliant {
 
+/// Of UTF-8; some editors put it at the start of a text.
+inline constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+
 /// What has a meaning beyond words and line ends; '\0' where nothing has.
 struct TextSyntax {
   char comment = '\0';       ///< a word that starts with it ends the line early

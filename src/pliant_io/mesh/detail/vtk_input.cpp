@@ -20,7 +20,6 @@ constexpr std::size_t most_characters = 1 << 16;
 }  // namespace
 
 VtkInput::VtkInput(const ByteSource& source) : source_(source) {
-  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   fill();
   if (block_.starts_with(byte_order_mark)) position_ = byte_order_mark.size();
 }
