@@ -17,7 +17,7 @@ namespace pliant {
 enum class VtkType { int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, float64 };
 enum class VtkByteOrder { little, big };
 
-/// By its name in a file of XML ("Float64"); none for one that is no number.
+/// By its name in an XML file ("Float64"); nothing for any other name.
 std::optional<VtkType> xml_type(std::string_view name);
 /// By its name in a legacy file ("unsigned_char"), in small letters.
 std::optional<VtkType> legacy_type(std::string_view name);
