@@ -155,9 +155,9 @@ TEST_CASE("without texture coordinates the warp hangs down where it can") {
     }
     return Vec3(0, 0, 0);
   };
-  CHECK(warp(without_texture(sheet(Plane::xy))) == Vec3::UnitY());
-  CHECK(warp(without_texture(sheet(Plane::yz))) == Vec3::UnitY());
-  CHECK(warp(without_texture(sheet(Plane::xz))) == Vec3::UnitX());
+  CHECK(warp(without_texture(sheet(Plane::xy))) == Vec3::UnitX());
+  CHECK(warp(without_texture(sheet(Plane::yz))) == Vec3::UnitZ());
+  CHECK(warp(without_texture(sheet(Plane::xz))) == Vec3::UnitZ());
   // Every triangle of a closed surface has one, those across the axis too.
   const Mesh ball = sphere({.subdivisions = 2});
   CHECK(Elastic(ball, FibreStrain{}).set().count == static_cast<Index>(ball.triangles.size()));

@@ -74,7 +74,7 @@ class TextureCorners {
   std::map<Triangle, Triangle> rows_;
 };
 
-/// The axes of space, the one that lies best in the surface first; where they lie alike, y before x before z.
+/// The axes of space, the one that lies best in the surface first; where they lie alike, z before x before y.
 std::array<Vec3, 3> best_axes(const BodyView& body, const Stencils& triangles) {
   Vec3 out_of_surface = Vec3::Zero();
   for (Index i = 0; i < triangles.size(); ++i) {
@@ -84,7 +84,7 @@ std::array<Vec3, 3> best_axes(const BodyView& body, const Stencils& triangles) {
     if (norm > 0) out_of_surface += n.cwiseProduct(n) / norm;
   }
   const Real alike = 0.05 * out_of_surface.sum();
-  std::array<Index, 3> order = {1, 0, 2};
+  std::array<Index, 3> order = {2, 0, 1};
   for (auto place = order.begin(); place != order.end(); ++place) {
     const auto out = [&](Index axis) { return out_of_surface[axis]; };
     const Real least = out(*std::min_element(place, order.end(), [&](Index a, Index b) { return out(a) < out(b); }));

@@ -17,8 +17,8 @@ constexpr std::array<std::string_view, 3> choice_names(Grain) {
 ///
 /// `direction`, one for all or one for each triangle, is laid into the plane of the triangle. Where there is none:
 /// `uv`: the way in which v of the texture coordinates grows; `edge`: from the first vertex to the second; `automatic`:
-/// by v where a triangle has texture coordinates, else by the axis of space that lies best in the whole surface (y
-/// before x before z where they lie alike), or the next best where that is nearly normal to a triangle.
+/// by v where a triangle has texture coordinates, else by the axis of space that lies best in the whole surface (z
+/// before x before y where they lie alike), or the next best where that is nearly normal to a triangle.
 ///
 /// Throws Error(input), naming `type`, body and triangle, on a direction that is zero or normal to a triangle, on lists
 /// of the wrong length, and with `uv` on a triangle whose texture coordinates are missing or have no area.

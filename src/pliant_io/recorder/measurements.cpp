@@ -4,10 +4,12 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <set>
 #include <string>
 
 #include <fmt/format.h>
 
+#include "pliant/constraints/fibre_strain.h"
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
 #include "pliant_io/files/csv.h"
@@ -122,10 +124,18 @@ Real stretch_past_limits(const Simulation& simulation) {
     }
     return largest;
   };
+  std::set<BodyId> with_fibres;
+  const auto is_fibres = [](const ConstraintGroup& batch) { return batch.type() == FibreStrain::info.name; };
+  for (const auto& [id, group] : simulation.groups()) {
+    for (const auto& batch : group.set.batches) {
+      if (is_fibres(*batch)) with_fibres.insert(group.body);
+    }
+  }
   Real largest = 0;
   for (const auto& [id, group] : simulation.groups()) {
     for (const auto& batch : group.set.batches) {
-      if (batch->limits_stretches()) largest = std::max(largest, largest_of(*batch));
+      if (!batch->limits_stretches() || (with_fibres.contains(group.body) && !is_fibres(*batch))) continue;
+      largest = std::max(largest, largest_of(*batch));
     }
   }
   return largest;

@@ -36,7 +36,8 @@ struct Measurements {
 Measurements measure(Simulation& simulation, const StepReport& report);
 
 /// How far stretches are past their limits in the state at hand: the largest ‖z − p‖ of all strains, which is 0.02
-/// where cloth that may not stretch is 2 % longer. 0 where there are none.
+/// where cloth that may not stretch is 2 % longer. Of a body with fibres, these alone: what else it has is its shear.
+/// 0 where there are none.
 Real stretch_past_limits(const Simulation& simulation);
 
 /// What of contact has columns.
