@@ -150,9 +150,10 @@ std::vector<std::string> warnings_of(const Simulation& simulation, const SystemI
   return warnings;
 }
 
-Json describe_bodies(const Simulation& simulation) {
+Json describe_bodies(const Scene& scene) {
+  const Simulation& simulation = scene.simulation;
   Json bodies = Json::array();
-  for (const Body& body : simulation.bodies()) {
+  for (Index id = 0; const Body& body : simulation.bodies()) {
     const pliant::BoundingBox box = pliant::bounding_box(body.mesh.vertices);
     const pliant::Vec3 size = box.max - box.min;
     bodies.push_back({{"name", body.name},
@@ -162,6 +163,8 @@ Json describe_bodies(const Simulation& simulation) {
                       {"tetrahedra", body.mesh.tetrahedra.size()},
                       {"mass", mass_of(body, simulation)},
                       {"size", {size[0], size[1], size[2]}}});
+    const auto material = scene.materials.find(pliant::BodyId{id++});
+    if (material != scene.materials.end()) bodies.back()["material"] = material->second;
   }
   return bodies;
 }
@@ -224,7 +227,7 @@ Json describe(Scene& scene) {
       {"step_text", steps_text(settings)},
       {"iterations", simulation.settings().iterations},
       {"backend", simulation.backend()},
-      {"bodies", describe_bodies(simulation)},
+      {"bodies", describe_bodies(scene)},
       {"constraints", pliant::count_constraints(simulation)},
       {"groups", describe_groups(simulation)},
       {"forces", std::move(forces)},
@@ -262,6 +265,7 @@ void print_bodies(const Json& json) {
     for (const char* elements : {"edges", "triangles", "tetrahedra"}) {
       if (body[elements] != 0) fmt::print(", {} {}", body[elements].get<std::size_t>(), elements);
     }
+    if (body.contains("material")) fmt::print(" of {}", text_of(body["material"]));
     const Json& size = body["size"];
     fmt::print("; {:.4g} kg; {:.3g} x {:.3g} x {:.3g} m\n", body["mass"].get<Real>(), size[0].get<Real>(),
                size[1].get<Real>(), size[2].get<Real>());

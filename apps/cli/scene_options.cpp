@@ -23,10 +23,16 @@ bool has_mesh_name(const SceneArguments& arguments) {
   return pliant::mesh_format(arguments.scene).has_value();
 }
 
+/// The name of a group of a mesh's only body; those of its material have the body's in front.
+std::string short_name(const pliant::Simulation& simulation, const pliant::Group& group) {
+  const std::string body = simulation.body(group.body).name + ".";
+  return pliant::printable(group.name.starts_with(body) ? group.name.substr(body.size()) : group.name);
+}
+
 std::string groups_text(const pliant::Simulation& simulation) {
   std::string text;
   for (const auto& [id, group] : simulation.groups()) {
-    text += fmt::format("  {:<9} {} of type {}", pliant::printable(group.name), group.set.count, group.type);
+    text += fmt::format("  {:<9} {} of type {}", short_name(simulation, group), group.set.count, group.type);
     if (const auto stiffness = simulation.stiffness(id)) text += fmt::format(", stiffness {:.4g}", *stiffness);
     text += "\n";
   }
@@ -96,6 +102,8 @@ std::string assumptions_text(const SceneArguments& arguments, const pliant::Scen
   std::string text = fmt::format("{}: {}\n", name, pliant::printable(scene.description, 1000));
   text += fmt::format("  size      {:.3g} x {:.3g} x {:.3g} m, z is up\n", size.x(), size.y(), size.z());
   text += fmt::format("  mass      {:.4g} kg\n", std::accumulate(masses.begin(), masses.end(), pliant::Real(0)));
+  for (const auto& [id, material] : scene.materials)
+    text += fmt::format("  material  {}\n", pliant::printable(material));
   text += groups_text(simulation);
   text += fmt::format("  forces    {}\n", forces_text(simulation));
   text += fmt::format("  steps     {} of {:.4g} s, {} iterations each\n", scene.steps, settings.time_step,

@@ -63,7 +63,7 @@ class MeshAlone(unittest.TestCase):
         self.write("quad.obj", QUAD)
         text = self.pliant("run", "quad.obj", "--steps", 3, "--set", "bodies[0].mass.total=2").stdout
         for line in ["quad.obj: cloth of 4 vertices, pinned at the highest vertices", "size      1 x 0 x 1 m",
-                     "mass      2 kg", "pins      3 of type position", "warp      2 of type fibre_strain, stiffness 1102.48",
+                     "mass      2 kg", "pins      3 of type position", "material  cotton", "warp      2 of type fibre_strain, stiffness 1102",
                      "forces    gravity; no wind", "steps     3 of 0.01667 s, 20 iterations each"]:
             self.assertIn(line, text)
         self.assertIn("mass      0.1238 kg", self.pliant("check", "quad.obj").stdout)
@@ -102,7 +102,7 @@ class MeshAlone(unittest.TestCase):
     def test_loose_vertices_are_named_and_dropped(self):
         self.write("loose.obj", "v 0.5 0 0.5\n" + QUAD.replace("f 1 2 3 4", "f 2 3 4 5"))
         warning = self.pliant("check", "loose.obj").stderr
-        self.assertIn("bodies[0].mass: 1 vertex in no element (0): each gets a thousandth of the mean mass", warning)
+        self.assertIn("bodies[0].material: 1 vertex in no element (0): each gets a thousandth of the mean mass", warning)
         for command in [["run", "--steps", 2, "--out", "out"], ["check"]]:
             done = self.pliant(*command, "loose.obj", "--drop-loose")
             self.assertIn("left out 1 vertex that no element has; the other 4 are numbered anew", done.stderr)

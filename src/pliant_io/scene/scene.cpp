@@ -90,6 +90,7 @@ void read_simulation(const Node& root, Scene& scene) {
     settings.damping = *damping;
     scene.simulation.set_settings(settings);
   }
+  for (const auto& [id, material] : reader.material_of) scene.materials.emplace(id, material.name);
   Index body = 0;
   for_each_entry(root, "bodies", [&](const Node& node) { reader.read_body_contact(node, BodyId{body++}); });
   reader.read_gravity(root.find("gravity"));

@@ -4,6 +4,7 @@
 //     Scene scene = load_scene("curtain.json");
 //     for (std::int64_t i = 0; i < scene.steps; ++i) scene.step();
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 
@@ -39,6 +40,7 @@ struct Scene {
   Timeline timeline;
   SceneSource source;                       ///< what it was read from, for parse_scene
   std::vector<SceneFile> files;             ///< of its meshes and maps, each once
+  std::map<BodyId, std::string> materials;  ///< names, of the bodies that are made of one
   std::vector<std::string> group_names;     ///< of the groups there are, and behind them those that events add
   std::vector<std::string> collider_names;  ///< the same of colliders
   bool has_surfaces = false;                ///< whether surfaces touch at the start, or once an event has acted
