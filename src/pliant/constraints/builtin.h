@@ -15,6 +15,7 @@
 #include "pliant/constraints/tetrahedron_strain.h"
 #include "pliant/constraints/tetrahedron_volume.h"
 #include "pliant/constraints/triangle_area.h"
+#include "pliant/constraints/triangle_bending.h"
 #include "pliant/constraints/triangle_strain.h"
 
 namespace pliant {
@@ -32,6 +33,7 @@ using BuiltinConstraints = std::tuple<
     EdgeStrain,
     Bending,
     HingeBending,
+    TriangleBending,
     TriangleStrain,
     TriangleArea,
     TetrahedronStrain,
@@ -51,6 +53,7 @@ using BuiltinProjections = std::tuple<
     AbsoluteCurvature,
     SignedFanCurvature,
     SignedHingeCurvature,
+    SignedTriangleCurvature,
     TriangleStrainProjection,
     TriangleAreaProjection,
     TetrahedronStrainProjection,
