@@ -95,6 +95,29 @@ Eigen::VectorXd least_combination(const Eigen::Matrix<Real, 3, Eigen::Dynamic>& 
   return folds_of_quadratics.transpose() * (solver.eigenvectors() * part);
 }
 
+/// Leaves the fold at the edge itself and the two others that need the smallest shares, and returns these.
+Eigen::VectorXd choose(std::vector<Fold>& all, const Eigen::Matrix<Real, 3, Eigen::Dynamic>& of_quadratics,
+                       const Vec3& error) {
+  constexpr Real clearly_smaller = 1 - 1e-6;  // so that rounding does not choose
+  Real smallest = 1;
+  Vec3 chosen = Vec3::Zero();
+  std::array<std::size_t, 2> pair{};
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    for (std::size_t j = i + 1; j < all.size(); ++j) {
+      Mat3 three;
+      three << of_quadratics.col(0), of_quadratics.col(static_cast<Index>(i)), of_quadratics.col(static_cast<Index>(j));
+      const Vec3 share = three.inverse() * error;
+      if (!(share.cwiseAbs().maxCoeff() < clearly_smaller * smallest)) continue;
+      smallest = share.cwiseAbs().maxCoeff();
+      chosen = share;
+      pair = {i, j};
+    }
+  }
+  if (pair[0] == 0) return least_combination(of_quadratics, error);
+  all = {all[0], all[pair[0]], all[pair[1]]};
+  return chosen;
+}
+
 EdgeSlope slope_of(const Sheet& sheet, Index edge, std::vector<Fold>& all) {
   /// Below this share a correction would lengthen the stencil and not be noticed: meshes are written to few digits.
   constexpr Real negligible = 1e-4;
@@ -120,22 +143,13 @@ EdgeSlope slope_of(const Sheet& sheet, Index edge, std::vector<Fold>& all) {
   if (error.norm() <= negligible * all[0].of_quadratics(scale).norm()) return slope;
   add_outer_folds(sheet, both[0], edge, {a, b, above}, all);
   add_outer_folds(sheet, both[1], edge, {a, b, below}, all);
-  const auto shares = [&] {
-    Eigen::Matrix<Real, 3, Eigen::Dynamic> of_quadratics(3, count_of(all));
-    for (Index k = 0; k < count_of(all); ++k) of_quadratics.col(k) = all[at(k)].of_quadratics(scale);
-    return least_combination(of_quadratics, error);
-  };
-  const Eigen::VectorXd first = shares();
-  std::size_t kept = 0;
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    if (std::abs(first[static_cast<Index>(k)]) > negligible) all[kept++] = all[k];
-  }
-  all.resize(kept);
-  const Eigen::VectorXd share = shares();
-  for (std::size_t k = 0; k < kept; ++k) {
-    for (std::size_t i = 0; i < 4; ++i) {
-      slope.add(all[k].points[i].vertex, -share[static_cast<Index>(k)] * all[k].coefficients[i]);
-    }
+  Eigen::Matrix<Real, 3, Eigen::Dynamic> of_quadratics(3, count_of(all));
+  for (Index k = 0; k < count_of(all); ++k) of_quadratics.col(k) = all[at(k)].of_quadratics(scale);
+  const Eigen::VectorXd share = choose(all, of_quadratics, error);
+  for (Index k = 0; k < count_of(all); ++k) {
+    if (std::abs(share[k]) <= negligible) continue;
+    const Fold& fold = all[at(k)];
+    for (std::size_t i = 0; i < 4; ++i) slope.add(fold.points[i].vertex, -share[k] * fold.coefficients[i]);
   }
   return slope;
 }

@@ -3,11 +3,12 @@
 //
 //        r ─── o₁ ── r          s = ½ (slope of a b o₁ − slope of b a o₂) − Σ γₖ foldₖ, in the direction of o₁
 //          ╲  ╱  ╲  ╱           fold: what a triangle's slope toward its apex and its neighbor's toward its own
-//           a ──── b                  come to, at the edge itself and the four around; zero on flat sheets
-//          ╱  ╲  ╱  ╲           γ: the least of those that make s exact on quadratic surfaces
+//           a ──── b                  come to, at the edge itself and at two of the four around; zero on flat sheets
+//          ╱  ╲  ╱  ╲           γ: makes s exact on quadratic surfaces; zero where o₁ and o₂ are opposite each other
 //        r ─── o₂ ── r
 //
-// The triangles are unfolded into the plane around each edge.
+// The triangles are unfolded into the plane around each edge. Of the pairs of edges around, the one is taken that needs
+// the smallest γ; where none does with γ < 1, or near borders there are not enough, the least γ of all that there are.
 #include <array>
 #include <vector>
 

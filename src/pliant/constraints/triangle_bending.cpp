@@ -37,7 +37,7 @@ struct HessianRows {
     coefficients.rightCols(capacity - kept).setZero();
   }
 
-  /// Turns the rows so that the first holds most of what the vertices of the rest shape give, and the last least.
+  /// Where the rest shape is curved, turns the rows so that the first holds most of its bend, the last least.
   void align(const Positions& rest) {
     Mat3 z = Mat3::Zero();
     Real magnitude = 0;
@@ -82,8 +82,7 @@ HessianRows rows_of(const Sheet& sheet, const std::vector<EdgeSlope>& slopes, In
   const Vec3 origin = row(sheet.vertices, corners[0]);
   const Vec3 x = row(sheet.vertices, corners[1]) - origin;
   const Vec3 y = row(sheet.vertices, corners[2]) - origin;
-  const std::array<Vec2, 3> flat = {
-      Vec2(0, 0), Vec2(x.norm(), 0), Vec2(x.dot(y) / x.norm(), 2 * area / x.norm())};
+  const std::array<Vec2, 3> flat = {Vec2(0, 0), Vec2(x.norm(), 0), Vec2(x.dot(y) / x.norm(), 2 * area / x.norm())};
   HessianRows rows;
   for (const Index corner : corners) rows.add(corner, Vec3::Zero());
   std::vector<Vec3> free;
@@ -134,13 +133,13 @@ ConstraintSet build(const BodyView& body, const TriangleBending& options) {
     const auto is_free = [&](Index edge) { return slopes[at(edge)].is_free(); };
     if (std::ranges::all_of(sheet.edges_of[at(i)], is_free)) continue;
     HessianRows rows = rows_of(sheet, slopes, i, areas[at(i)]);
-    rows.align(body.rest.vertices);
+    const Real measure = stiffness.of(i) * areas[at(i)];
     ++bent;
+    rows.align(body.rest.vertices);
     for (Index r = 0; r < 3; ++r) {
       const std::vector<Real> coefficients = rows.row_of(r);
       if (coefficients.empty()) continue;
-      batches.add(rows.stencil, coefficients, stiffness.of(i) * areas[at(i)],
-                  r == 0 ? options.orientation : Orientation::absolute);
+      batches.add(rows.stencil, coefficients, measure, r == 0 ? options.orientation : Orientation::absolute);
     }
   }
   ConstraintSet set = batches.take();

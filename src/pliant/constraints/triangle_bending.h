@@ -2,26 +2,25 @@
 // Bending of a triangle together with its neighbors: the Hessian of position, borders included.
 //
 //        r ─── x₂ ─── r         H = 1/A Σ_e l_e sym((∂_t x t + s_e n) ⊗ n) over its three edges, constant in it
-//          ╲  ╱  ╲  ╱           z = (H_xx, √2 H_xy, H_yy), three rows, each a constraint of its own
+//          ╲  ╱  ╲  ╱           z = (H_xx, √2 H_xy, H_yy), three rows, each a constraint
 //          x₀ ─── x₁            p = z ‖z_g‖/‖z‖ of each row
 //            ╲   ╱              E = κ A/2 Σ (‖z‖ − ‖z_g‖)²
 //              r
 //
-// l, t, n: length, direction and outer normal of an edge in the plane of the triangle at rest; s_e: slope across the edge
-// at its middle. This is Morley's plate element, with slopes that vertices give: the mean of the slopes of the two
-// triangles, corrected by the folds at the edge and at the four edges around it, by the smallest combination of them that
-// makes s_e exact for every quadratic surface laid over the unfolded triangles. On lattices no correction is needed and a
-// triangle has 6 vertices, on grids of alternating or crossed diagonals 8, on other meshes up to 12. Both triangles have
-// the same s_e, so that moments of any constant H are in balance inside; with both, the energy is κ/2 ∫ ‖∇²x‖² (a plate of
-// ν = 0) on any mesh and in any direction, not only where vertices lie on a smooth surface but also where they find
-// their equilibrium themselves.
+// l, t, n: length, direction and outer normal of an edge in the plane of the triangle at rest; s_e: slope across the
+// edge at its middle. This is Morley's plate element, with slopes that vertices give: the mean of the slopes of the two
+// triangles, corrected by folds at the edge and at edges around it, so that it is exact for every quadratic surface
+// laid over the unfolded triangles (edge_slope.h), to a share of 1e-4. On grids a triangle has 6 vertices, on other
+// meshes 9 in the mean and 12 at most. Both triangles have the same s_e, so that moments of any constant H are in
+// balance inside. With both, the energy is κ/2 ∫ ‖∇²x‖² (a plate of ν = 0) on any mesh and in any direction, not only
+// where vertices lie on a smooth surface but also where they find their equilibrium themselves.
 //
 // Borders: s_e is free there, so that no moment acts across: the part of H along n ⊗ n is left out, curvature along the
 // border and twist are kept. A border that is clamped holds half a row of triangles behind the last pinned vertices.
 //
-// Curved rest: rows are turned among themselves so that the first has the direction of H of the rest shape, and the two
-// others (nearly) nothing of it: flat triangles resist bending of every kind, curved ones keep the magnitude of theirs.
-// With `signed`, the first row also keeps its side of the triangle, as in bending.h.
+// Flat rest: p = 0, a constant quadratic. Curved rest: rows are turned among themselves so that the first has the
+// direction of H of the rest shape, and the two others (nearly) nothing of it: the bend keeps its direction in the
+// sheet and its magnitude. With `signed`, the first row also keeps its side of the triangle, as in bending.h.
 //
 // Source: Morley 1971, "The constant-moment plate-bending element", J. Strain Analysis 6(1); slopes from a patch of
 // triangles after Oñate and Flores 2005, CMAME 194, 2406-2443, where they are not the same on both sides.
@@ -54,8 +53,8 @@ struct TriangleBending {
   }
 };
 
-/// Batches by the number of vertices, flat and curved. Throws Error(input) on an index out of range, a triangle that has
-/// no area, lists of the wrong length.
+/// Batches by the number of vertices, flat and curved. Throws Error(input) on an index out of range, a triangle that
+/// has no area, lists of the wrong length.
 ConstraintSet build(const BodyView& body, const TriangleBending& options);
 
 }  // namespace pliant
