@@ -90,6 +90,8 @@ std::vector<ProjectionsResult> measure_projections(std::optional<int> repeats) {
   kernels.push_back(make_kernel("bending, curved at rest", wavy_sheet(), Bending{}));
   kernels.push_back(make_kernel("hinge, flat at rest", sheet(), HingeBending{}));
   kernels.push_back(make_kernel("hinge, curved at rest", wavy_sheet(), HingeBending{}));
+  kernels.push_back(make_kernel("triangle_bending, flat at rest", sheet(), TriangleBending{}));
+  kernels.push_back(make_kernel("triangle_bending, curved at rest", wavy_sheet(), TriangleBending{}));
   for (Kernel& kernel : kernels) kernel.seconds();
   repeat(repeats, seconds_for_all, [&] {
     for (Kernel& kernel : kernels) kernel.samples.add(kernel.seconds());

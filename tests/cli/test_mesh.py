@@ -47,7 +47,7 @@ class MeshAlone(unittest.TestCase):
         return json.loads(self.pliant("check", *arguments, "--json").stdout)
 
     def test_each_kind_becomes_what_it_is(self):
-        kinds = {"quad.obj": (QUAD, "cloth of 4 vertices", {"position", "fibre_strain", "triangle_strain", "hinge"}),
+        kinds = {"quad.obj": (QUAD, "cloth of 4 vertices", {"position", "fibre_strain", "triangle_strain", "triangle_bending"}),
                  "box.obj": (BOX, "a skin of 8 vertices", {"position", "triangle_strain", "hinge"}),
                  "rope.obj": ("v 0 0 0\nv 1 0 0\nv 1 0 1\nl 1 2 3\n", "ropes of 3 vertices", {"position", "edge_spring"}),
                  "solid.msh": (SOLID, "a soft solid of 4 vertices", {"position", "tetrahedron_strain"})}

@@ -112,7 +112,7 @@ TEST_CASE("no modulus is higher than what the least stretch allows") {
     Real most = 0;
     for (const MaterialGroup& group : material_groups(steel, {.least_stretch = least_stretch})) {
       if (const auto* strain = std::get_if<TriangleStrain>(&group.options)) most = strain->stiffness[0];
-      if (const auto* bend = std::get_if<HingeBending>(&group.options)) CHECK(bend->stiffness[0] == 2.4);
+      if (const auto* bend = std::get_if<TriangleBending>(&group.options)) CHECK(bend->stiffness[0] == 2.4);
     }
     return most;
   };

@@ -190,5 +190,7 @@ template <>
 struct Samples<pliant::SignedFanCurvature> : HalfSphereSamples {};
 template <>
 struct Samples<pliant::SignedHingeCurvature> : HalfSphereSamples {};
+template <>
+struct Samples<pliant::SignedTriangleCurvature> : HalfSphereSamples {};
 
 }  // namespace pliant_tests

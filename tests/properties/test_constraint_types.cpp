@@ -92,6 +92,10 @@ std::vector<HingeBending> variants(const Mesh&) {
   return {{}, {.orientation = Orientation::signed_}};
 }
 template <>
+std::vector<TriangleBending> variants(const Mesh&) {
+  return {{}, {.orientation = Orientation::signed_}};
+}
+template <>
 std::vector<Drag> variants(const Mesh& mesh) {
   Drag drag{.stencils = {{4}, {1, 0}}, .weights = {{1}, {0.25, 0.75}}};
   const Triangle& triangle = mesh.triangles[0];

@@ -91,6 +91,7 @@ TEST_CASE("every number, choice and vector of every type is a parameter") {
       {"edge_strain", {"measure", "stiffness", "min_stretch", "max_stretch"}},
       {"bending", {"stiffness", "orientation"}},
       {"hinge", {"stiffness", "orientation"}},
+      {"triangle_bending", {"stiffness", "orientation"}},
       {"triangle_strain", {"stiffness", "min_stretch", "max_stretch"}},
       {"fibre_strain", {"grain", "angle", "stiffness", "min_stretch", "max_stretch"}},
       {"triangle_area", {"stiffness", "min_area", "max_area"}},

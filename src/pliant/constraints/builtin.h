@@ -16,6 +16,7 @@
 #include "pliant/constraints/tetrahedron_strain.h"
 #include "pliant/constraints/tetrahedron_volume.h"
 #include "pliant/constraints/triangle_area.h"
+#include "pliant/constraints/triangle_bending.h"
 #include "pliant/constraints/triangle_strain.h"
 
 namespace pliant {
@@ -33,6 +34,7 @@ using BuiltinConstraints = std::tuple<
     EdgeStrain,
     Bending,
     HingeBending,
+    TriangleBending,
     TriangleStrain,
     FibreStrain,
     TriangleArea,
@@ -53,6 +55,7 @@ using BuiltinProjections = std::tuple<
     AbsoluteCurvature,
     SignedFanCurvature,
     SignedHingeCurvature,
+    SignedTriangleCurvature,
     TriangleStrainProjection,
     FibreStrainProjection,
     TriangleAreaProjection,

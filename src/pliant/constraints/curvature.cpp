@@ -67,8 +67,14 @@ Vec3 hinge_normal(const Positions& positions, std::span<const Index> stencil) {
   return unit_or_zero(edge.cross(first) + second.cross(edge));
 }
 
+Vec3 corner_normal(const Positions& positions, std::span<const Index> stencil) {
+  const Vec3 x0 = row(positions, stencil[0]);
+  return unit_or_zero((row(positions, stencil[1]) - x0).cross(row(positions, stencil[2]) - x0));
+}
+
 template <class Signed>
-void CurvatureBatches<Signed>::add(std::span<const Index> stencil, std::span<const Real> coefficients, Real measure) {
+void CurvatureBatches<Signed>::add(std::span<const Index> stencil, std::span<const Real> coefficients, Real measure,
+                                   Orientation orientation) {
   const Positions& x = body_.rest.vertices;
   // Summed as the local step sums it, so that a curved body at rest has a force of exactly zero.
   std::array<Real, 3> z = {0, 0, 0};
@@ -85,7 +91,7 @@ void CurvatureBatches<Signed>::add(std::span<const Index> stencil, std::span<con
     batch(same_size.flat, stencil.size()).add(global, coefficients, measure, {});
     return;
   }
-  if (orientation_ == Orientation::absolute) {
+  if (orientation == Orientation::absolute) {
     const std::array<Real, 4> field = {rest, z[0], z[1], z[2]};
     batch(same_size.absolute, stencil.size()).add(global, coefficients, measure, field);
     return;
@@ -115,7 +121,9 @@ ConstraintSet CurvatureBatches<Signed>::take() {
 
 template struct SignedCurvature<fan_normal>;
 template struct SignedCurvature<hinge_normal>;
+template struct SignedCurvature<corner_normal>;
 template class CurvatureBatches<SignedFanCurvature>;
 template class CurvatureBatches<SignedHingeCurvature>;
+template class CurvatureBatches<SignedTriangleCurvature>;
 
 }  // namespace pliant

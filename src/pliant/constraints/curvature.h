@@ -1,5 +1,5 @@
 #pragma once
-// Projections of curvature vectors, shared by `bending` and `hinge`: both keep the length of z.
+// Projections of curvature vectors, shared by `bending`, `hinge` and `triangle_bending`: all keep the length of z.
 #include <cmath>
 #include <map>
 
@@ -53,8 +53,12 @@ Vec3 fan_normal(const Positions& positions, std::span<const Index> stencil);
 /// Unit normal of the triangles x₀ x₁ x₂ and x₁ x₀ x₃ together; zero where they have none.
 Vec3 hinge_normal(const Positions& positions, std::span<const Index> stencil);
 
+/// Unit normal of the triangle of the first three vertices; zero where it has none.
+Vec3 corner_normal(const Positions& positions, std::span<const Index> stencil);
+
 using SignedFanCurvature = SignedCurvature<fan_normal>;
 using SignedHingeCurvature = SignedCurvature<hinge_normal>;
+using SignedTriangleCurvature = SignedCurvature<corner_normal>;
 
 /// Sorts curvature constraints into batches: one for each size of stencil, flat and curved apart.
 template <class Signed>
@@ -64,7 +68,11 @@ class CurvatureBatches {
       : type_(type), body_(body), orientation_(orientation), stiffness_(stiffness) {}
 
   /// `stencil` within the body; the coefficients sum to zero.
-  void add(std::span<const Index> stencil, std::span<const Real> coefficients, Real measure);
+  void add(std::span<const Index> stencil, std::span<const Real> coefficients, Real measure) {
+    add(stencil, coefficients, measure, orientation_);
+  }
+  /// The same, of an orientation of its own.
+  void add(std::span<const Index> stencil, std::span<const Real> coefficients, Real measure, Orientation orientation);
   ConstraintSet take();
 
  private:

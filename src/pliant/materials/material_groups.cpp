@@ -44,7 +44,7 @@ std::vector<MaterialGroup> sheet_groups(SheetMaterial sheet, const MaterialLay& 
     const Real nu = sheet.poisson;
     groups.push_back({"width", TriangleArea{.stiffness = 2 * softer * nu / (1 - nu * nu)}});
   }
-  groups.push_back({"bend", HingeBending{.stiffness = sheet.bending, .orientation = Orientation::signed_}});
+  groups.push_back({"bend", TriangleBending{.stiffness = sheet.bending, .orientation = Orientation::signed_}});
   return groups;
 }
 

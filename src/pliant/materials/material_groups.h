@@ -36,7 +36,8 @@ struct MaterialLay {
 /// One group of constraints that a material is expressed by.
 struct MaterialGroup {
   std::string_view name;  ///< "warp", "weft", "shear", "width", "bend"; "solid", "volume"
-  std::variant<FibreStrain, TriangleStrain, TriangleArea, HingeBending, TetrahedronStrain, TetrahedronVolume> options;
+  std::variant<FibreStrain, TriangleStrain, TriangleArea, TriangleBending, TetrahedronStrain, TetrahedronVolume>
+      options;
 };
 
 /// The groups of a sheet or a solid, those that would do nothing left out. Moduli of stretch and shear, not of bending,
