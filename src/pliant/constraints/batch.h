@@ -13,6 +13,7 @@
 //     static constexpr bool rotation_invariant = true;   // projections turn with z, in the middle of a step as well
 //     static constexpr bool is_difference = true;     // A is (−1, 1), which its kernel need not read
 //     static void begin_step(const Positions& q, std::span<const Index> stencil, Real* fields);
+//     static void go_to(Real time, Real* fields);     // to the end of a step: numbers that follow from the time alone
 #include <array>
 #include <cmath>
 #include <string>
@@ -102,12 +103,11 @@ class Batch final : public ConstraintGroup {
   }
   bool freezes_shape() const override { return has_begin_step; }
   bool is_rotation_invariant() const override { return rotates_along; }
-  void begin_step(const StateView& state, Real) override {
-    if constexpr (has_begin_step) {
-      const auto n = static_cast<std::size_t>(vertices());
-      for (std::size_t i = 0; i < rest_measure_.size(); ++i) {
-        Type::begin_step(state.positions, std::span<const Index>(stencil_).subspan(i * n, n), field(i));
-      }
+  void begin_step(const StateView& state, [[maybe_unused]] Real time_step) override {
+    const auto n = static_cast<std::size_t>(vertices());
+    for (std::size_t i = 0; (has_begin_step || goes_with_time) && i < rest_measure_.size(); ++i) {
+      if constexpr (goes_with_time) Type::go_to(state.time + time_step, field(i));
+      if constexpr (has_begin_step) Type::begin_step(state.positions, std::span(stencil_).subspan(i * n, n), field(i));
     }
   }
 
@@ -130,6 +130,7 @@ class Batch final : public ConstraintGroup {
   static constexpr bool has_kernel = requires { Type::kernel; };
   static constexpr bool rotates_along = requires { Type::rotation_invariant; };
   static constexpr bool has_begin_step = requires { &Type::begin_step; };
+  static constexpr bool goes_with_time = requires { &Type::go_to; };
 
   /// Writes w (p − z) of constraint i; returns its energy.
   Real project_one(const Real* positions, std::size_t i, Real* to) const {
