@@ -142,16 +142,6 @@ struct Samples<pliant::EdgeStrainProjection> : ShellSamples {
 };
 
 template <>
-struct Samples<pliant::AttachmentProjection> : ShellSamples {
-  static Fields fields(Random& random) {
-    const Real length = random.index(3) == 0 ? 0 : random.uniform(0.2, 2);
-    return {length, length, length, 0, 0};
-  }
-  static Eigen::RowVector3d member(Random& random, const Fields& f) { return member_of(random, 0, f[0]); }
-  static Real distance(const Fields& f, const Eigen::RowVector3d& p) { return distance_from(0, f[0], p); }
-};
-
-template <>
 struct Samples<pliant::FlatCurvature> : ShellSamples {
   static Fields fields(Random&) { return {}; }
   static Eigen::RowVector3d member(Random&, const Fields&) { return Eigen::RowVector3d::Zero(); }

@@ -93,6 +93,7 @@ struct AttachmentProjection {
     const Real scale = length > field[0] ? field[0] / length : 1;
     for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = scale * z[axis];
   }
+  static Real end_length(const Real* field) { return field[1]; }
   /// L as it is at a time [s].
   static void go_to(Real time, Real* field) {
     const Real elapsed = time - field[3];

@@ -2,8 +2,7 @@
 // The one loop over stencils. A constraint type is a struct with
 //     static constexpr std::string_view name;
 //     static constexpr int vertices;                  // n, or dynamic_vertices: then every batch has an n of its own
-//     static constexpr int rows;                      // k
-//     static constexpr int fields;                    // numbers of rest data a constraint
+//     static constexpr int rows, fields;              // k; numbers of rest data a constraint
 //     static constexpr bool translation_invariant;    // every row of every A sums to zero
 //     static void project(const Real* fields, const Real* z, Real* p);   // z, p: k × 3
 // and, where it needs them,
