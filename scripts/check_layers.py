@@ -24,6 +24,7 @@ LAYERS = {
                           "pliant/constraints", "pliant/forces", "pliant/solver"],
 }
 LAYERS["pliant/timeline"] = LAYERS["pliant/simulation"] + ["pliant/simulation"]
+LAYERS["pliant/materials"] = LAYERS["pliant/simulation"] + ["pliant/simulation"]
 # All of the algorithm, and of files what is below.
 LAYERS["pliant_io/files"] = ["pliant"]
 LAYERS["pliant_io/mesh"] = LAYERS["pliant_io/files"] + ["pliant_io/files"]

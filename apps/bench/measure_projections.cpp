@@ -82,6 +82,7 @@ std::vector<ProjectionsResult> measure_projections(std::optional<int> repeats) {
   kernels.push_back(make_kernel("edge_spring", sheet(), EdgeSpring{}));
   kernels.push_back(make_kernel("edge_strain", sheet(), EdgeStrain{}));
   kernels.push_back(make_kernel("triangle_strain", sheet(), TriangleStrain{}));
+  kernels.push_back(make_kernel("fibre_strain", sheet(), FibreStrain{}));
   kernels.push_back(make_kernel("triangle_area", sheet(), TriangleArea{}));
   kernels.push_back(make_kernel("tetrahedron_strain", block(), TetrahedronStrain{}));
   kernels.push_back(make_kernel("tetrahedron_volume", block(), TetrahedronVolume{}));

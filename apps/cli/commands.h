@@ -31,6 +31,7 @@ void add_view_command(CLI::App& program, int& exit_code);
 void add_resume_command(CLI::App& program, int& exit_code);
 void add_run_command(CLI::App& program, int& exit_code);
 void add_sweep_command(CLI::App& program, int& exit_code);
+void add_materials_command(CLI::App& program);
 void add_scenes_command(CLI::App& program);
 void add_check_command(CLI::App& program);
 void add_schema_command(CLI::App& program);

@@ -144,6 +144,7 @@ void add_commands(CLI::App& program, int& exit_code) {
   pliant_cli::add_convert_command(program);
   pliant_cli::add_info_command(program);
   if constexpr (pliant_cli::has_studies) pliant_cli::add_bench_command(program);
+  pliant_cli::add_materials_command(program);
   pliant_cli::add_scenes_command(program);
   pliant_cli::add_schema_command(program);
   pliant_cli::add_completion_command(program);

@@ -39,6 +39,7 @@ constexpr std::array quantities = {
     Quantity{"total", "total energy", " [J]", Of::state},
     Quantity{"speed_sum", "total speed", " [m/s]", Of::state},
     Quantity{"momentum", "momentum", " [N·s]", Of::state},
+    Quantity{"past_limits", "stretch past its limits", "", Of::state},
     Quantity{"residual", "residual", " [N]", Of::step},
     Quantity{"objective", "objective", " [J]", Of::step},
     Quantity{"iterations", "iterations", "", Of::step},

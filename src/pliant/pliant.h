@@ -4,6 +4,7 @@
 #include "pliant/constraints/builtin.h"
 #include "pliant/core/error.h"
 #include "pliant/forces/builtin.h"
+#include "pliant/materials/material_groups.h"
 #include "pliant/mesh/mass.h"
 #include "pliant/mesh/shapes.h"
 #include "pliant/mesh/topology.h"

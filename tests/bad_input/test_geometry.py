@@ -130,6 +130,7 @@ MATERIALS = {
     "nothing": [],
     "springs": [{"type": "edge_spring"}],
     "strain": [{"type": "edge_strain", "measure": "cloth"}, {"type": "triangle_strain"}, {"type": "tetrahedron_strain"}],
+    "grain": [{"type": "fibre_strain"}, {"type": "fibre_strain", "angle": 90}, {"type": "fibre_strain", "grain": "edge"}],
     "area and volume": [{"type": "triangle_area"}, {"type": "tetrahedron_volume"}, {"type": "edge_spring", "reduction": "identity"}],
     "bending": [{"type": "edge_spring"}, {"type": "bending"}, {"type": "hinge"}],
     "signed bending": [{"type": "bending", "orientation": "signed"}, {"type": "hinge", "orientation": "signed"}],
@@ -141,7 +142,7 @@ WIND = [{"type": "wind"}, {"type": "wind", "model": "thesis", "gust_strength": 1
 
 def is_possible(shape, constraint):
     kind = constraint["type"]
-    if kind in ("triangle_strain", "triangle_area"):
+    if kind in ("triangle_strain", "triangle_area", "fibre_strain"):
         return "triangles" in shape
     if kind in ("hinge", "bending"):
         return len(shape.get("triangles", [])) > 1

@@ -94,7 +94,7 @@ class Numbers(HostileTest):
 
     def test_limits(self):
         self.attack(case(constraint_scene(name, {f"min_{what}": low, f"max_{what}": high}), name, low, high)
-                    for name, what in (("edge_strain", "stretch"), ("triangle_strain", "stretch"),
+                    for name, what in (("edge_strain", "stretch"), ("triangle_strain", "stretch"), ("fibre_strain", "stretch"),
                                        ("tetrahedron_strain", "stretch"), ("triangle_area", "area"),
                                        ("tetrahedron_volume", "volume"))
                     for low in [0, 1e-300, 1, 1e300] for high in [0, 1e-300, 0.5, 1e300])

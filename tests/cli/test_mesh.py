@@ -47,7 +47,7 @@ class MeshAlone(unittest.TestCase):
         return json.loads(self.pliant("check", *arguments, "--json").stdout)
 
     def test_each_kind_becomes_what_it_is(self):
-        kinds = {"quad.obj": (QUAD, "cloth of 4 vertices", {"position", "triangle_strain", "hinge"}),
+        kinds = {"quad.obj": (QUAD, "cloth of 4 vertices", {"position", "fibre_strain", "triangle_strain", "hinge"}),
                  "box.obj": (BOX, "a skin of 8 vertices", {"position", "triangle_strain", "hinge"}),
                  "rope.obj": ("v 0 0 0\nv 1 0 0\nv 1 0 1\nl 1 2 3\n", "ropes of 3 vertices", {"position", "edge_spring"}),
                  "solid.msh": (SOLID, "a soft solid of 4 vertices", {"position", "tetrahedron_strain"})}
@@ -63,10 +63,10 @@ class MeshAlone(unittest.TestCase):
         self.write("quad.obj", QUAD)
         text = self.pliant("run", "quad.obj", "--steps", 3, "--set", "bodies[0].mass.total=2").stdout
         for line in ["quad.obj: cloth of 4 vertices, pinned at the highest vertices", "size      1 x 0 x 1 m",
-                     "mass      2 kg", "pins      3 of type position", "stretch   2 of type triangle_strain, stiffness 1000",
-                     "forces    gravity; no wind", "steps     3 of 0.01667 s, 10 iterations each"]:
+                     "mass      2 kg", "pins      3 of type position", "warp      2 of type fibre_strain, stiffness 1102.48",
+                     "forces    gravity; no wind", "steps     3 of 0.01667 s, 20 iterations each"]:
             self.assertIn(line, text)
-        self.assertIn("mass      0.3 kg", self.pliant("check", "quad.obj").stdout)
+        self.assertIn("mass      0.1238 kg", self.pliant("check", "quad.obj").stdout)
         self.assertEqual(self.pliant("run", "quad.obj", "--steps", 3, "--quiet").stdout, "")
         self.assertNotIn("mass      ", self.pliant("run", "chain", "--steps", 1).stdout)
 
@@ -96,7 +96,7 @@ class MeshAlone(unittest.TestCase):
 
     def test_vertices_of_no_element_have_a_little_mass(self):
         info = self.check(self.write("loose.obj", QUAD + "v 0.5 0 0.5\n"))
-        self.assertAlmostEqual(info["bodies"][0]["mass"], 0.3 * (1 + 1e-3 / 4), delta=1e-12)
+        self.assertAlmostEqual(info["bodies"][0]["mass"], 0.1238 * (1 + 1e-3 / 4), delta=1e-12)
         self.assertEqual(info["bodies"][0]["vertices"], 5)
 
     def test_loose_vertices_are_named_and_dropped(self):

@@ -128,13 +128,12 @@ class FirstGarment(unittest.TestCase):
         (self.folder / "shirt.json").write_text(self.scene)
         self.assertIn("The scene is sound.", self.pliant("check", "shirt.json"))
         self.pliant("run", "shirt.json", "--steps", "3", "--out", "out/stiff", "--set",
-                    "bodies[shirt].constraints[bend].stiffness=0.003")
+                    "bodies[shirt].material.bending=0.003")
         self.pliant("convert", "out/stiff", "shirt.usda")
         self.pliant("convert", "out/stiff", "shirt.pc2", "--fps", "24")
 
     def test_the_messages_of_the_page(self):
-        for old, new, message in (("hinge\", \"name\": \"bend\", \"stiffness", "hinge\", \"name\": \"bend\", \"stifness",
-                                   "constraints[2].stifness: unknown key; "),
+        for old, new, message in (('"bending"', '"bendng"', "bodies[0].material.bendng: unknown key; "),
                                   ('"shirt.obj"', '"shrt.obj"', "bodies[0].mesh.file: shrt.obj: no such file; check the path"),
                                   ("[0, 0, 0.7]", "[0, 0, 7]", "constraints[0].on: no vertex is selected; the body spans (")):
             with self.subTest(message):

@@ -142,6 +142,9 @@ struct Samples<pliant::EdgeStrainProjection> : ShellSamples {
 };
 
 template <>
+struct Samples<pliant::FibreStrainProjection> : Samples<pliant::EdgeStrainProjection> {};
+
+template <>
 struct Samples<pliant::FlatCurvature> : ShellSamples {
   static Fields fields(Random&) { return {}; }
   static Eigen::RowVector3d member(Random&, const Fields&) { return Eigen::RowVector3d::Zero(); }

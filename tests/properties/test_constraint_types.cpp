@@ -66,6 +66,12 @@ std::vector<TriangleStrain> variants(const Mesh&) {
   return {{}, {.min_stretch = 0.9, .max_stretch = 1.1}};
 }
 template <>
+std::vector<FibreStrain> variants(const Mesh&) {
+  return {{.grain = Grain::edge},
+          {.direction = Vec3(1, 2, -3), .angle = 30},
+          {.angle = 90, .min_stretch = 0, .max_stretch = 1.1}};
+}
+template <>
 std::vector<TriangleArea> variants(const Mesh&) {
   return {{}, {.min_area = 0.9, .max_area = 1.1}, {.min_area = 0}};
 }

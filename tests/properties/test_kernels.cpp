@@ -127,8 +127,8 @@ Outcome<Type> run(const LocalKernels& kernels, const Many<Type>& many) {
 }
 
 using Kernelled = std::tuple<EdgeSpringProjection, EdgeStrainProjection, TriangleStrainProjection,
-                             TetrahedronStrainProjection, TriangleAreaProjection, TetrahedronVolumeProjection,
-                             FlatCurvature, AbsoluteCurvature, SignedFanCurvature>;
+                             FibreStrainProjection, TetrahedronStrainProjection, TriangleAreaProjection,
+                             TetrahedronVolumeProjection, FlatCurvature, AbsoluteCurvature, SignedFanCurvature>;
 
 /// Sizes from far below to far above the rest shape, far from the origin as well.
 template <class Type>

@@ -10,6 +10,7 @@
 
 #include "pliant/collision/colliders/builtin.h"
 #include "pliant/constraints/edge_spring.h"
+#include "pliant/constraints/fibre_strain.h"
 #include "pliant/constraints/position.h"
 #include "pliant/constraints/triangle_strain.h"
 #include "pliant/forces/builtin.h"
@@ -114,6 +115,27 @@ TEST_CASE("the energies of a row add up to its total, under pressure too") {
   }
 }
 
+TEST_CASE("how far stretches are past their limits is the largest excess of all strains") {
+  const auto past_limits = [](auto... strains) {
+    Simulation simulation;
+    const Mesh sheet = grid({.columns = 40, .rows = 40, .plane = Plane::xy});
+    BodyOptions options;
+    options.start = sheet.vertices * Vec3(1.25, 1.125, 1).asDiagonal();
+    const BodyId body = simulation.add_body(sheet, Mass::total(1), options);
+    simulation.add(body, EdgeSpring{.stiffness = 5});
+    (simulation.add(body, strains), ...);
+    return measure(simulation, {}).past_limits;
+  };
+  const auto approx = [](Real x) { return doctest::Approx(x).epsilon(1e-12); };
+  CHECK(past_limits() == 0);
+  CHECK(past_limits(FibreStrain{.direction = Vec3(1, 0, 0)}) == approx(0.25));
+  CHECK(past_limits(FibreStrain{.direction = Vec3(0, 1, 0), .stiffness = 1e6, .max_stretch = 1.025}) == approx(0.1));
+  CHECK(past_limits(TriangleStrain{.stiffness = 3, .max_stretch = 1.2}) == approx(0.05));
+  CHECK(past_limits(TriangleStrain{.max_stretch = 1.5}) == 0);
+  CHECK(past_limits(TriangleStrain{}) == approx(std::hypot(0.25, 0.125)));
+  CHECK(past_limits(TriangleStrain{}, FibreStrain{.direction = Vec3(0, 1, 0)}) == approx(0.125));
+}
+
 TEST_CASE("a force says which potential it has; its name decides nothing") {
   class Tide final : public Force {
    public:
@@ -157,7 +179,7 @@ TEST_CASE("the file has a row for each record, and numbers that read back to the
   REQUIRE(quoted != text.npos);
   text.replace(quoted, 20, "elastic_pins");
   const auto columns = read_columns(text);
-  CHECK(columns.size() == 19);
+  CHECK(columns.size() == 20);
   for (const auto& column : columns) {
     CAPTURE(column.first);
     REQUIRE(column.second.size() == rows.size());
@@ -197,7 +219,7 @@ TEST_CASE("groups that come and go have columns from the start, and 0 where they
   simulation.add(body, EdgeSpring{.stiffness = 5}, "springs");
   step();
   const auto columns = read_columns(TemporaryFolder::read(folder.path() / "measurements.csv"));
-  CHECK(columns.size() == 19);
+  CHECK(columns.size() == 20);
   const std::vector<Real>& of_springs = columns.at("elastic_springs");
   const std::vector<Real>& of_skin = columns.at("elastic_skin");
   REQUIRE(of_springs.size() == 4);

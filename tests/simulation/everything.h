@@ -26,6 +26,7 @@ inline void add_everything_cloth(pliant::Simulation& simulation, pliant::Index s
                              .stiffness = 20,
                              .targets = Vec3(0.5, 0.4, 0.1)});
   simulation.add(cloth, TriangleArea{.stiffness = 20, .min_area = 0.97});
+  simulation.add(cloth, FibreStrain{.angle = 30, .stiffness = 30, .max_stretch = 1.01});
   simulation.add(cloth, EdgeSpring{.on = {1, 2, 3}, .stiffness = 30, .reduction = EdgeReduction::identity});
   simulation.add(cloth, OnPlane{.on = {size}, .stiffness = 50, .normal = Vec3(1, 0, 2)});
   simulation.add(cloth, InHalfSpace{.on = {size + 2}, .stiffness = 50, .normal = Vec3(0, 1, 1)});

@@ -131,6 +131,7 @@ TEST_CASE("rest data that is refused") {
   CHECK(contains(refusal_of(Line{}), "direction is missing"));
   CHECK(contains(refusal_of(OnPlane{}), "plane: normal is missing"));
   CHECK(contains(refusal_of(InHalfSpace{.normal = Vec3(0, 0, 0)}), "zero vector"));
+  CHECK(contains(refusal_of(FibreStrain{.direction = Vec3(0, 0, 0)}), "direction 0 is the zero vector"));
   CHECK(contains(refusal_of(TriangleArea{.min_area = 2}), "triangle_area: min_area 2 is above max_area 1"));
   CHECK(contains(refusal_of(Line{.direction = Vec3(0, not_a_number, 0)}), "line: direction"));
   CHECK(contains(refusal_of(Position{.targets = std::vector<Vec3>{{0, 0, 0}}}), "targets has 1 entries for 9"));

@@ -7,9 +7,10 @@
 //     static void project(const Real* fields, const Real* z, Real* p);   // z, p: k × 3
 // and, where it needs them,
 //     static constexpr bool has_targets = true;       // the three fields are a point that may be moved
-//     static constexpr bool has_anchors = true;       // the first three are a point that begins where the vertices are
+//     static constexpr bool has_anchors = true;       // the first three are a point that begins at the vertices
 //     static constexpr auto kernel = &LocalKernels::edge_spring;   // does many at once, in place of project
 //     static constexpr bool rotation_invariant = true;   // projections turn with z, in the middle of a step as well
+//     static constexpr bool limits_stretches = true;  // z is a stretch or F, and p has stretches between limits
 //     static constexpr bool is_difference = true;     // A is (−1, 1), which its kernel need not read
 //     static void begin_step(const Positions& q, std::span<const Index> stencil, Real* fields);
 //     static void go_to(Real time, Real* fields);     // to the end of a step: numbers that follow from the time alone
@@ -67,12 +68,8 @@ class Batch final : public ConstraintGroup {
   std::span<const Real> fields() const { return fields_; }
 
   std::span<Real> targets() override {
-    if constexpr (requires { Type::has_targets; }) {
-      static_assert(Type::fields == 3, "the targets of a batch are its fields");
-      return fields_;
-    } else {
-      return {};
-    }
+    static_assert(!has_targets || Type::fields == 3, "the targets of a batch are its fields");
+    return has_targets ? std::span<Real>(fields_) : std::span<Real>();
   }
 
   std::span<Real> anchor(Index i) override {
@@ -102,6 +99,7 @@ class Batch final : public ConstraintGroup {
   }
   bool freezes_shape() const override { return has_begin_step; }
   bool is_rotation_invariant() const override { return rotates_along; }
+  bool limits_stretches() const override { return has_stretches; }
   void begin_step(const StateView& state, [[maybe_unused]] Real time_step) override {
     const auto n = static_cast<std::size_t>(vertices());
     for (std::size_t i = 0; (has_begin_step || goes_with_time) && i < rest_measure_.size(); ++i) {
@@ -126,8 +124,10 @@ class Batch final : public ConstraintGroup {
 
  private:
   static constexpr std::size_t size = Type::rows * 3;
+  static constexpr bool has_targets = requires { Type::has_targets; };
   static constexpr bool has_kernel = requires { Type::kernel; };
   static constexpr bool rotates_along = requires { Type::rotation_invariant; };
+  static constexpr bool has_stretches = requires { Type::limits_stretches; };
   static constexpr bool has_begin_step = requires { &Type::begin_step; };
   static constexpr bool goes_with_time = requires { &Type::go_to; };
 

@@ -9,6 +9,7 @@
 #include "pliant/constraints/drag.h"
 #include "pliant/constraints/edge_spring.h"
 #include "pliant/constraints/edge_strain.h"
+#include "pliant/constraints/fibre_strain.h"
 #include "pliant/constraints/hinge.h"
 #include "pliant/constraints/line.h"
 #include "pliant/constraints/plane.h"
@@ -34,6 +35,7 @@ using BuiltinConstraints = std::tuple<
     Bending,
     HingeBending,
     TriangleStrain,
+    FibreStrain,
     TriangleArea,
     TetrahedronStrain,
     TetrahedronVolume,
@@ -53,6 +55,7 @@ using BuiltinProjections = std::tuple<
     SignedFanCurvature,
     SignedHingeCurvature,
     TriangleStrainProjection,
+    FibreStrainProjection,
     TriangleAreaProjection,
     TetrahedronStrainProjection,
     TetrahedronVolumeProjection,

@@ -40,6 +40,10 @@ std::span<Real> ConstraintGroup::targets() {
   return {};
 }
 
+bool ConstraintGroup::limits_stretches() const {
+  return false;
+}
+
 bool ConstraintGroup::is_external() {
   return !targets().empty();
 }

@@ -67,6 +67,10 @@ class ConstraintGroup {
   /// a force brings.
   virtual bool is_external();
 
+  /// Whether z of its constraints is a stretch or a gradient made of stretches, and ‖z − p‖ how far these are past
+  /// their limits.
+  virtual bool limits_stretches() const;
+
   /// Moves the guess that a step begins with, q = s of every vertex, to where this group and the inertia M/η² [N/m] of
   /// each vertex (0: it is pinned) would have it. A group that a force brings says so: s has every other force in it,
   /// and few iterations are not to find out about this one.

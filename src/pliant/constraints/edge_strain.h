@@ -60,6 +60,7 @@ struct EdgeStrainProjection {
   static constexpr int fields = 2;  // min, max
   static constexpr bool translation_invariant = true;
   static constexpr bool rotation_invariant = true;
+  static constexpr bool limits_stretches = true;
   static constexpr auto kernel = &LocalKernels::edge_strain;
   static void project(const Real* field, const Real* z, Real* p) {
     const Real stretch = std::sqrt(z[0] * z[0] + z[1] * z[1] + z[2] * z[2]);

@@ -42,6 +42,7 @@ struct TetrahedronStrainProjection {
   static constexpr int fields = 2;  // min, max
   static constexpr bool translation_invariant = true;
   static constexpr bool rotation_invariant = true;
+  static constexpr bool limits_stretches = true;
   static constexpr auto kernel = &LocalKernels::tetrahedron_strain;
   static void project(const Real* field, const Real* z, Real* p);
 };

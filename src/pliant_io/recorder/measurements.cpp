@@ -4,10 +4,12 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <set>
 #include <string>
 
 #include <fmt/format.h>
 
+#include "pliant/constraints/fibre_strain.h"
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
 #include "pliant_io/files/csv.h"
@@ -33,6 +35,7 @@ constexpr std::array after_elastic = {
     Column{"angular_momentum_x", [](const Measurements& row) { return row.angular_momentum[0]; }},
     Column{"angular_momentum_y", [](const Measurements& row) { return row.angular_momentum[1]; }},
     Column{"angular_momentum_z", [](const Measurements& row) { return row.angular_momentum[2]; }},
+    Column{"past_limits", [](const Measurements& row) { return row.past_limits; }},
     Column{"residual", [](const Measurements& row) { return row.residual; }},
     Column{"objective", [](const Measurements& row) { return row.objective; }},
     Column{"iterations", [](const Measurements& row) { return static_cast<Real>(row.report.iterations); }},
@@ -102,6 +105,42 @@ void check_finite(const Measurements& row) {
 
 }  // namespace
 
+Real stretch_past_limits(const Simulation& simulation) {
+  const auto largest_of = [&](const ConstraintGroup& batch) {
+    const GroupShape shape = batch.shape();
+    const auto size = static_cast<std::size_t>(3 * shape.rows);
+    constexpr Index at_once = 1024;
+    std::vector<Real> moves(size * static_cast<std::size_t>(std::min(at_once, shape.count)));
+    Real largest = 0;
+    for (Index begin = 0; begin < shape.count; begin += at_once) {
+      const Index end = std::min(begin + at_once, shape.count);
+      batch.project(simulation.state().positions, moves, begin, end);
+      for (Index i = begin; i < end; ++i) {
+        const Eigen::Map<const Eigen::VectorX<Real>> move(moves.data() + static_cast<std::size_t>(i - begin) * size,
+                                                          3 * shape.rows);
+        const Real weight = batch.stiffness() * batch.rest_measure()[static_cast<std::size_t>(i)];
+        largest = std::max(largest, move.stableNorm() / weight);
+      }
+    }
+    return largest;
+  };
+  std::set<BodyId> with_fibres;
+  const auto is_fibres = [](const ConstraintGroup& batch) { return batch.type() == FibreStrain::info.name; };
+  for (const auto& [id, group] : simulation.groups()) {
+    for (const auto& batch : group.set.batches) {
+      if (is_fibres(*batch)) with_fibres.insert(group.body);
+    }
+  }
+  Real largest = 0;
+  for (const auto& [id, group] : simulation.groups()) {
+    for (const auto& batch : group.set.batches) {
+      if (!batch->limits_stretches() || (with_fibres.contains(group.body) && !is_fibres(*batch))) continue;
+      largest = std::max(largest, largest_of(*batch));
+    }
+  }
+  return largest;
+}
+
 Measurements measure(Simulation& simulation, const StepReport& report) {
   const Evaluation evaluation = simulation.evaluate();
   const State& state = simulation.state();
@@ -109,6 +148,7 @@ Measurements measure(Simulation& simulation, const StepReport& report) {
   row.step = state.step;
   row.time = state.time;
   row.report = report;
+  row.past_limits = stretch_past_limits(simulation);
   row.residual = evaluation.residual;
   row.objective = evaluation.objective();
   for (Index i = 0; i < state.vertex_count(); ++i) {

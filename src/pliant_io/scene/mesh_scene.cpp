@@ -21,27 +21,27 @@ using MeshSceneJson = nlohmann::ordered_json;
 
 enum class MeshKind { solid, skin, cloth, ropes };
 
-/// What a kind is made of, for a body of about a meter.
+/// What a kind is made of, for a body of about a meter. Cloth is cotton; its mass and stiffness here are of ropes
+/// beside.
 struct MeshMaterial {
   std::string_view text;
   Real mass;       // [kg]
   Real stiffness;  // of springs and triangles [N/m], of tetrahedra [Pa]
   Real bending;    // [N·m]
-  Index iterations;
 };
 
 MeshMaterial mesh_material(MeshKind kind) {
   switch (kind) {
     case MeshKind::solid:
-      return {"a soft solid", 5, 2e4, 0, 20};
+      return {"a soft solid", 5, 2e4, 0};
     case MeshKind::skin:
-      return {"a skin", 1, 2e3, 0.5, 20};
+      return {"a skin", 1, 2e3, 0.5};
     case MeshKind::cloth:
-      return {"cloth", 0.3, 1e3, 1e-3, 10};
+      return {"cloth", 0.3, 1e4, 0};
     case MeshKind::ropes:
       break;
   }
-  return {"ropes", 0.3, 1e4, 0, 20};
+  return {"ropes", 0.3, 1e4, 0};
 }
 
 MeshKind mesh_kind(const Mesh& mesh) {
@@ -106,11 +106,10 @@ MeshSceneJson constraints_json(const Mesh& mesh, MeshKind kind, const MeshMateri
     constraints.push_back({{"type", "tetrahedron_strain"}, {"name", "solid"}, {"stiffness", material.stiffness}});
     return constraints;
   }
-  if (!mesh.triangles.empty()) {
+  if (kind == MeshKind::skin) {
     constraints.push_back({{"type", "triangle_strain"}, {"name", "stretch"}, {"stiffness", material.stiffness}});
-    MeshSceneJson bend = {{"type", "hinge"}, {"name", "bend"}, {"stiffness", material.bending}};
-    if (kind == MeshKind::skin) bend["orientation"] = "signed";
-    constraints.push_back(std::move(bend));
+    constraints.push_back(
+        {{"type", "hinge"}, {"name", "bend"}, {"stiffness", material.bending}, {"orientation", "signed"}});
   }
   if (mesh.edges.empty()) return constraints;
   MeshSceneJson ropes = {{"type", "edge_spring"}, {"name", "ropes"}, {"stiffness", material.stiffness}};
@@ -174,15 +173,20 @@ Scene make_mesh_scene(const std::filesystem::path& file, const ImportOptions& im
   const std::string up(choice_names(import.up)[static_cast<std::size_t>(import.up)]);
   MeshSceneJson mesh_json = {{"file", file.filename().string()}, {"scale", scale}, {"up", up}};
   if (import.drop_loose) mesh_json["drop_loose"] = true;
-  const MeshSceneJson body = {{"name", file.stem().string()},
-                              {"mesh", std::move(mesh_json)},
-                              {"mass", mass_json(mesh, material, scale / import.scale)},
-                              {"constraints", constraints_json(mesh, kind, material, pins)}};
+  MeshSceneJson body = {{"name", file.stem().string()}, {"mesh", std::move(mesh_json)}};
+  MeshSceneJson settings = {{"iterations", 20}};
+  const bool is_cloth = kind == MeshKind::cloth;
+  if (is_cloth) {
+    body["material"] = "cotton";
+    settings = {{"integrator", "bdf2"}, {"iterations", 20}, {"acceleration", "lbfgs"}};
+  }
+  if (!is_cloth || has_lower_elements_alone(mesh)) body["mass"] = mass_json(mesh, material, scale / import.scale);
+  body["constraints"] = constraints_json(mesh, kind, material, pins);
   const std::string description =
       fmt::format("{} of {} vertices, pinned at {}{}", material.text, mesh.vertex_count(), pins.text, remark);
   const MeshSceneJson scene = {{"pliant", 1},
                                {"description", description},
-                               {"settings", MeshSceneJson::object({{"iterations", material.iterations}})},
+                               {"settings", std::move(settings)},
                                {"bodies", MeshSceneJson::array({body})}};
   std::string text;
   try {

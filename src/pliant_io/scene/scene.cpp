@@ -15,7 +15,7 @@ namespace {
 
 const std::vector<std::string_view> top_keys = {
     "pliant",  "name",      "description", "settings", "steps",  "gravity", "bodies",  "attachments", "forces",
-    "contact", "colliders", "moves",       "events",   "output", "view",    "include", "$schema"};
+    "contact", "colliders", "moves",       "events",   "output", "view",    "include", "$schema",     "materials"};
 
 /// The names there are, and behind them those that come later, each once.
 std::vector<std::string> all_names(std::vector<std::string> names, std::vector<std::string> later) {
@@ -83,7 +83,13 @@ void read_simulation(const Node& root, Scene& scene) {
     bodies.fail("there is no body; add one");
   }
   SceneReader reader(scene.simulation, scene.timeline);
+  if (const auto materials = root.find("materials")) reader.materials = read_materials(*materials);
   for_each_entry(root, "bodies", [&](const Node& node) { reader.read_body(node); });
+  const auto given = root.find("settings");
+  if (const auto damping = reader.damping_of_materials(); damping && !(given && given->has("damping"))) {
+    settings.damping = *damping;
+    scene.simulation.set_settings(settings);
+  }
   Index body = 0;
   for_each_entry(root, "bodies", [&](const Node& node) { reader.read_body_contact(node, BodyId{body++}); });
   for_each_entry(root, "attachments", [&](const Node& node) { reader.add_attachment(node); });

@@ -63,6 +63,7 @@ SchemaJson all_definitions() {
   SchemaJson all = definitions();
   all["transform"] = described(transform_schema(), "of the rest positions: scaled, then turned, then moved");
   all["settings"] = object_schema(options_properties<SolverSettings>());
+  all["body_material"] = body_material_schema();
   all.update(part_definitions());
   all.update(event_definitions());
   return all;
@@ -88,6 +89,7 @@ SchemaJson body_schema() {
                                      {"mesh", mesh_schema()},
                                      {"transform", schema_reference("transform")},
                                      {"mass", mass_schema()},
+                                     {"material", schema_reference("body_material")},
                                      {"start_positions", list_schema(schema_reference("vector"))},
                                      {"velocity", schema_reference("vector")},
                                      {"velocities", list_schema(schema_reference("vector"))},
@@ -95,7 +97,7 @@ SchemaJson body_schema() {
                                      {"contact", schema_reference("body_contact")},
                                      {"animation", schema_reference("animation")}},
                                     {"mesh"});
-  schema["anyOf"] = {{{"required", {"mass"}}}, {{"required", {"animation"}}}};
+  schema["anyOf"] = {{{"required", {"mass"}}}, {{"required", {"material"}}}, {{"required", {"animation"}}}};
   return schema;
 }
 
@@ -121,6 +123,7 @@ SchemaJson root_properties() {
       {"settings", schema_reference("settings")},
       {"steps", {{"type", "integer"}, {"minimum", 0}, {"default", defaults.steps}}},
       {"gravity", {{"anyOf", {schema_reference("vector"), {{"type", "null"}}}}, {"description", "[m/s²]; null: none"}}},
+      {"materials", described(materials_schema(), "of one's own, by name")},
       {"bodies", list_schema(body_schema())},
       {"attachments",
        list_schema(described(SchemaJson{{"$ref", "#/$defs/attachment"}, {"unevaluatedProperties", false}},

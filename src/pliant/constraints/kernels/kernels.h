@@ -12,11 +12,17 @@ constexpr LocalKernels kernels_of(const char* instruction_set) {
   using Lengths = LengthKernels<width>;
   using Strains = StrainKernels<width>;
   using Products = ProductKernels<width>;
-  return {Lengths::edge_spring,           Lengths::edge_strain,
-          Strains::triangle_strain,       Strains::tetrahedron_strain,
-          Products::triangle_area,        Products::tetrahedron_volume,
-          Lengths::template curvature<0>, Lengths::template curvature<4>,
-          Lengths::template curvature<8>, instruction_set};
+  return {Lengths::edge_spring,
+          Lengths::template strain<2>,
+          Lengths::template strain<3>,
+          Strains::triangle_strain,
+          Strains::tetrahedron_strain,
+          Products::triangle_area,
+          Products::tetrahedron_volume,
+          Lengths::template curvature<0>,
+          Lengths::template curvature<4>,
+          Lengths::template curvature<8>,
+          instruction_set};
 }
 
 }  // namespace

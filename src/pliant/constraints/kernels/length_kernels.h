@@ -41,12 +41,14 @@ struct LengthKernels : Block<width> {
     return sums.done(vectors);
   }
 
-  static LocalDone edge_strain(const LocalBlock& block) {
+  /// One stretch, of an edge or along a fibre of a triangle, between its limits.
+  template <std::size_t vertices>
+  static LocalDone strain(const LocalBlock& block) {
     Sums sums;
     const std::size_t vectors = block.count / width;
     for (std::size_t i = 0; i < vectors; ++i) {
       Number z[3];
-      All::template reduce<2, 1>(block, i * width, z);
+      All::template reduce<vertices, 1>(block, i * width, z);
       const double* limits = block.fields + 2 * i * width;
       const Number min = Math::load(limits, 2, 0);
       const Number max = Math::load(limits, 2, 1);

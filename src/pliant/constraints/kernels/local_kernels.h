@@ -41,6 +41,7 @@ struct LocalKernels {
   using Kernel = LocalDone(const LocalBlock& block);
   Kernel* edge_spring;
   Kernel* edge_strain;
+  Kernel* fibre_strain;
   Kernel* triangle_strain;     ///< with one stretch allowed; others are left
   Kernel* tetrahedron_strain;  ///< the same
   Kernel* triangle_area;       ///< far from its limits, inverted or nearly flat elements are left

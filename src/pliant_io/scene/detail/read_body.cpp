@@ -1,3 +1,5 @@
+#include <numeric>
+
 #include "pliant/mesh/geometry.h"
 #include "pliant/timeline/animated_body.h"
 #include "pliant_io/scene/detail/option_reader.h"
@@ -26,10 +28,16 @@ void check_rows(const Node& node, std::string_view key, Index vertex_count) {
 }
 
 /// What is animated goes where it is told, whatever it weighs: without a mass it has a kilogram.
-Mass read_body_mass(const Node& body, const Mesh& mesh, const std::string& name, std::vector<std::string>& warnings) {
-  if (!body.has("mass") && body.has("animation")) return Mass::per_vertex(Real{1} / mesh.vertex_count());
-  const Node node = body.require("mass");
-  Mass mass = with_loose_vertices(read_mass(node, mesh), node, mesh, warnings);
+/// What has a material weighs what that does.
+Mass read_body_mass(const Node& body, const Mesh& mesh, const std::string& name,
+                    const std::optional<BodyMaterial>& material, std::vector<std::string>& warnings) {
+  const bool by_material = material && !body.has("mass");
+  if (!by_material && !body.has("mass") && body.has("animation")) {
+    return Mass::per_vertex(Real{1} / mesh.vertex_count());
+  }
+  const Node node = body.require(by_material ? "material" : "mass");
+  Mass mass = by_material ? mass_of(material->material) : read_mass(node, mesh);
+  mass = with_loose_vertices(std::move(mass), node, mesh, warnings);
   node.locate([&] { vertex_masses(mesh, mass, printable(name)); });
   return mass;
 }
@@ -38,7 +46,7 @@ Mass read_body_mass(const Node& body, const Mesh& mesh, const std::string& name,
 
 void SceneReader::read_body(const Node& node) {
   node.check_keys({"name", "mesh", "transform", "mass", "start_positions", "velocity", "velocities", "constraints",
-                   "contact", "animation"});
+                   "contact", "animation", "material"});
   BodyOptions options;
   options.name = fmt::format("body {}", bodies.size());
   read_optional(node, "name", options.name);
@@ -58,7 +66,14 @@ void SceneReader::read_body(const Node& node) {
   }
   const Index vertex_count = mesh.vertex_count();
   const auto animation_node = node.find("animation");
-  const Mass mass = read_body_mass(node, mesh, options.name, warnings);
+  const auto material_node = node.find("material");
+  std::optional<BodyMaterial> material;
+  if (material_node) {
+    material = read_body_material(*material_node, materials);
+    const std::string reason = misfit(material->material, mesh);
+    if (!reason.empty()) material_node->fail(reason);
+  }
+  const Mass mass = read_body_mass(node, mesh, options.name, material, warnings);
   check_rows(node, "start_positions", vertex_count);
   check_rows(node, "velocities", vertex_count);
   read_optional(node, "start_positions", options.start);
@@ -72,6 +87,7 @@ void SceneReader::read_body(const Node& node) {
   bodies.emplace(name, id);
   bodies_of[&node.origin()].push_back(id);
   if (animation_node) add_animation(*animation_node, id, std::move(animation.path));
+  if (material) add_material(*material_node, id, *material);
   const auto constraints = node.find("constraints");
   if (!constraints) return;
   constraints->require_list();
@@ -80,6 +96,30 @@ void SceneReader::read_body(const Node& node) {
     entry.require_object();
     add_group(entry, id, read_constraint_options(entry, {"name"}, body(id)));
   }
+}
+
+void SceneReader::add_material(const Node& node, BodyId id, const BodyMaterial& given) {
+  for (const MaterialGroup& group : material_groups(given.material, given.lay)) {
+    const std::string name = free_name(fmt::format("{}.{}", simulation.body(id).name, group.name));
+    ConstraintOptions options = std::visit([](const auto& of) { return ConstraintOptions(of); }, group.options);
+    node.locate([&] { add(simulation, id, options, name); });
+    groups.emplace(name, GroupEntry{id, std::move(options)});
+  }
+  simulation.set_contact(id, {.friction = given.material.surface.friction});
+  material_of.emplace(id, given.material);
+}
+
+std::optional<Real> SceneReader::damping_of_materials() const {
+  if (material_of.empty()) return std::nullopt;
+  Real mass = 0, sum = 0;
+  for (const auto& [id, material] : material_of) {
+    const Body& body = simulation.body(id);
+    const auto first = simulation.state().masses.begin() + body.first_vertex;
+    const Real of_body = std::accumulate(first, first + body.mesh.vertex_count(), Real{0});
+    mass += of_body;
+    sum += of_body * material.surface.damping;
+  }
+  return sum / mass;
 }
 
 void SceneReader::add_animation(const Node& node, BodyId id, std::shared_ptr<Path> path) {

@@ -73,7 +73,7 @@ void SceneReader::read_contact(const Node& node) {
 void SceneReader::read_body_contact(const Node& body, BodyId id) {
   const auto node = body.find("contact");
   if (!node) return;
-  BodyContact contact;
+  BodyContact contact = simulation.body(id).contact;  // of its material
   read_options(*node, contact, {"ignores"});
   if (const auto names = node->find("ignores")) contact.ignores = read_ignored(*names, id);
   node->locate([&] { simulation.set_contact(id, contact); });

@@ -87,7 +87,7 @@ bool merge_objects(std::string_view, Target base, Target over) {
 bool merge_top_key(const Document& base_document, const Document& over_document, std::string_view key, Target base,
                    Target over) {
   constexpr std::array<std::string_view, 6> lists = {"bodies", "attachments", "forces", "colliders", "moves", "events"};
-  constexpr std::array<std::string_view, 4> objects = {"settings", "contact", "output", "view"};
+  constexpr std::array<std::string_view, 5> objects = {"settings", "contact", "output", "view", "materials"};
   for (const Document* document : {&base_document, &over_document}) {
     const Node node = Node(*document).require(key);
     if (std::ranges::find(lists, key) != lists.end()) node.require_list();

@@ -8,6 +8,7 @@
 #include "pliant_io/scene/detail/collider_options.h"
 #include "pliant_io/scene/detail/constraint_options.h"
 #include "pliant_io/scene/detail/force_options.h"
+#include "pliant_io/scene/detail/read_material.h"
 
 namespace pliant {
 
@@ -25,6 +26,8 @@ struct SceneReader {
   Simulation& simulation;
   Timeline& timeline;
   std::vector<Positions> untransformed = {};  ///< rest positions of each body before its transform; empty: it has none
+  OwnMaterials materials = {};                ///< of the scene
+  std::map<BodyId, Material> material_of = {};  ///< of the bodies that have one
   std::map<std::string, BodyId, std::less<>> bodies = {};
   std::map<const Origin*, std::vector<BodyId>> bodies_of = {};  ///< by the text that they stand in
   std::map<std::string, GroupEntry, std::less<>> groups = {};
@@ -43,6 +46,8 @@ struct SceneReader {
   }
 
   void read_body(const Node& node);
+  /// That of the bodies' materials, each by the mass of its body [1/s]; none where no body has any.
+  std::optional<Real> damping_of_materials() const;
   /// Its value; nothing: the default.
   void read_gravity(const std::optional<Node>& node);
   void read_force(const Node& node);
@@ -80,6 +85,8 @@ struct SceneReader {
   std::string own_name(const Node& node, std::string_view type);
 
  private:
+  /// The groups of a body's material.
+  void add_material(const Node& node, BodyId body, const BodyMaterial& given);
   /// Holds all vertices of a body, and lets them go along the path, if there is one.
   void add_animation(const Node& node, BodyId body, std::shared_ptr<Path> path);
   bool is_taken(std::string_view name) const { return owner_of(name) != nullptr; }

@@ -4,6 +4,7 @@
 
 #include "pliant/constraints/builtin.h"
 #include "pliant/forces/builtin.h"
+#include "pliant/materials/material_groups.h"
 #include "pliant_io/mesh/mesh_file.h"
 #include "pliant_io/scene/animation_options.h"
 #include "pliant_io/scene/detail/collider_options.h"
@@ -252,6 +253,8 @@ SchemaJson mass_schema() {
   return schema;
 }
 
+namespace {
+
 SchemaJson attachment_schema() {
   const SchemaJson side =
       object_schema({{"body", text_schema("name of the body")}, {"on", schema_reference("selection")}}, {"body"});
@@ -261,6 +264,36 @@ SchemaJson attachment_schema() {
   SchemaJson schema = open_object_schema(joined(properties, options_properties<Attachment>()), {"from", "to"});
   schema["description"] = std::string(Attachment::info.energy);
   return schema;
+}
+
+/// The numbers of materials; none has a default, since they are those of the material that is named.
+SchemaJson material_numbers() {
+  SchemaJson properties = options_properties<SheetMaterial>();
+  properties.update(options_properties<SolidMaterial>());
+  properties.update(options_properties<SurfaceMaterial>());
+  for (auto& [name, schema] : properties.items()) schema.erase("default");
+  return properties;
+}
+
+}  // namespace
+
+SchemaJson body_material_schema() {
+  const SchemaJson name = text_schema("of a material: `pliant materials` lists them");
+  SchemaJson properties = {{"name", name}};
+  properties.update(options_properties<MaterialLay>());
+  properties.update(material_numbers());
+  return {{"anyOf", {name, object_schema(std::move(properties), {"name"})}}};
+}
+
+SchemaJson materials_schema() {
+  SchemaJson properties = {{"like", text_schema("name of a material whose numbers it has, but those given here")},
+                           {"kind", choice_schema(std::array<std::string_view, 2>{"sheet", "solid"})},
+                           {"description", text_schema("one line")},
+                           {"source", text_schema("where the numbers come from")}};
+  properties.update(material_numbers());
+  SchemaJson material = object_schema(std::move(properties));
+  material["oneOf"] = {{{"required", {"like"}}}, {{"required", {"kind"}}}};
+  return {{"type", "object"}, {"additionalProperties", std::move(material)}};
 }
 
 SchemaJson part_definitions() {

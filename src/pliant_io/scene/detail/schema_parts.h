@@ -10,6 +10,8 @@ SchemaJson text_schema(std::string_view description);
 SchemaJson mesh_schema();
 SchemaJson constraint_schema();
 SchemaJson mass_schema();
+SchemaJson body_material_schema();
+SchemaJson materials_schema();
 
 /// Definitions: what meshes, constraints, forces and colliders there are ("mesh", "mesh_part", "constraint", "force",
 /// "contact", "collider"), and entries of "moves" and "events" ("timed_move", "event").

@@ -1,0 +1,104 @@
+#include "pliant/materials/material_groups.h"
+
+#include <algorithm>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "pliant/core/printable.h"
+
+namespace pliant {
+namespace {
+
+/// A Poisson's ratio is expressed where warp and weft agree so far.
+constexpr Real alike = 1.001;
+
+/// The modulus with which a meter that hangs is longer by `stretch`; `density` a square or a cubic meter.
+Real modulus_of(Real stretch, Real density) {
+  constexpr Real gravity = 9.81;
+  return stretch > 0 ? density * gravity / stretch : std::numeric_limits<Real>::max();
+}
+
+std::vector<MaterialGroup> sheet_groups(SheetMaterial sheet, const MaterialLay& lay) {
+  std::vector<MaterialGroup> groups;
+  const Real most = modulus_of(lay.least_stretch, sheet.area_density);
+  sheet.stretch_warp = std::min(sheet.stretch_warp, most);
+  sheet.stretch_weft = std::min(sheet.stretch_weft, most);
+  const Real softer = std::min(sheet.stretch_warp, sheet.stretch_weft);
+  const Real stiffer = std::max(sheet.stretch_warp, sheet.stretch_weft);
+  const bool is_plate = sheet.poisson > 0 && stiffer <= alike * softer;
+  const Real strain = is_plate ? softer / (1 + sheet.poisson) : std::min(2 * sheet.shear, softer);
+  const auto add_fibres = [&](std::string_view name, Real stretch, Real angle) {
+    if (!(stretch > alike * strain)) return;
+    groups.push_back({name, FibreStrain{.direction = lay.direction,
+                                        .grain = lay.grain,
+                                        .angle = lay.angle + angle,
+                                        .stiffness = stretch - strain}});
+  };
+  if (!is_plate) {
+    add_fibres("warp", sheet.stretch_warp, 0);
+    add_fibres("weft", sheet.stretch_weft, 90);
+  }
+  groups.push_back({is_plate ? "stretch" : "shear", TriangleStrain{.stiffness = strain}});
+  if (is_plate) {
+    const Real nu = sheet.poisson;
+    groups.push_back({"width", TriangleArea{.stiffness = 2 * softer * nu / (1 - nu * nu)}});
+  }
+  groups.push_back({"bend", HingeBending{.stiffness = sheet.bending, .orientation = Orientation::signed_}});
+  return groups;
+}
+
+std::vector<MaterialGroup> solid_groups(const SolidMaterial& solid, const MaterialLay& lay) {
+  const Real nu = solid.poisson;
+  const Real strain = std::min(solid.young_modulus, modulus_of(lay.least_stretch, solid.density)) / (1 + nu);
+  std::vector<MaterialGroup> groups = {{"solid", TetrahedronStrain{.stiffness = strain}}};
+  if (nu > 0) groups.push_back({"volume", TetrahedronVolume{.stiffness = 3 * strain * nu / (1 - 2 * nu)}});
+  return groups;
+}
+
+}  // namespace
+
+std::vector<MaterialGroup> material_groups(const Material& material, const MaterialLay& lay) {
+  if (const auto* sheet = std::get_if<SheetMaterial>(&material.of)) return sheet_groups(*sheet, lay);
+  return solid_groups(std::get<SolidMaterial>(material.of), lay);
+}
+
+Mass mass_of(const Material& material) {
+  if (const auto* sheet = std::get_if<SheetMaterial>(&material.of)) return Mass::area_density(sheet->area_density);
+  return Mass::density(std::get<SolidMaterial>(material.of).density);
+}
+
+std::string misfit(const Material& material, const Mesh& mesh) {
+  const std::string name = printable(material.name);
+  if (material.is_sheet() && mesh.triangles.empty()) {
+    return fmt::format("'{}' is a sheet, and the mesh has no triangles; give {}", name,
+                       mesh.tetrahedra.empty() ? "constraints by themselves" : "a solid, such as 'foam'");
+  }
+  if (!material.is_sheet() && mesh.tetrahedra.empty()) {
+    return fmt::format("'{}' is a solid, and the mesh has no tetrahedra; give a sheet, such as 'cotton'", name);
+  }
+  return "";
+}
+
+std::vector<GroupId> add_material(Simulation& simulation, BodyId id, const Material& material, const MaterialLay& lay) {
+  const std::string body = simulation.body(id).name;
+  if (const std::string reason = misfit(material, simulation.body(id).mesh); !reason.empty()) {
+    fail_input(fmt::format("body '{}': {}", printable(body), reason));
+  }
+  const std::string name_of_material = fmt::format("material '{}'", printable(material.name));
+  std::visit([&](const auto& of) { check_options(name_of_material, of); }, material.of);
+  check_options(name_of_material, material.surface);
+  std::vector<GroupId> ids;
+  for (const MaterialGroup& group : material_groups(material, lay)) {
+    const std::string name = fmt::format("{}.{}", body, group.name);
+    ids.push_back(std::visit([&](const auto& options) { return simulation.add(id, options, name); }, group.options));
+  }
+  BodyContact contact = simulation.body(id).contact;
+  if (!contact.friction) {
+    contact.friction = material.surface.friction;
+    simulation.set_contact(id, contact);
+  }
+  return ids;
+}
+
+}  // namespace pliant

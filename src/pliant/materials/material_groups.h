@@ -1,0 +1,63 @@
+#pragma once
+// From a material to the mass and the constraints of a body.
+#include <vector>
+
+#include "pliant/constraints/builtin.h"
+#include "pliant/materials/material.h"
+#include "pliant/simulation/simulation.h"
+
+namespace pliant {
+
+/// How a body has its material.
+struct MaterialLay {
+  /// Of the warp at rest, and what it follows from without: see FibreStrain.
+  Points direction{};
+  Grain grain = Grain::automatic;
+  /// From there to the warp [degrees]; 45: cut on the bias.
+  Real angle = 0;
+  /// By how much a meter of it that hangs is longer at least, ≥ 0; 0: as measured. Cloth stretches by a tenth of that,
+  /// which nobody sees, and needs many times as many iterations to do so.
+  Real least_stretch = 1e-3;
+
+  template <class Self, class Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field(OptionInfo{"direction", "", "of the warp, at rest; it is laid into the plane of each triangle"},
+          self.direction);
+    field(OptionInfo{"grain", "", "where no direction is given: see `fibre_strain`"}, self.grain);
+    field(OptionInfo{"angle", "degrees", "from there to the warp; 45: cut on the bias"}, self.angle);
+    field(OptionInfo{"least_stretch", "",
+                     "by how much a meter of it that hangs is longer at least; 0: as measured, which needs many more "
+                     "iterations",
+                     not_negative},
+          self.least_stretch);
+  }
+};
+
+/// One group of constraints that a material is expressed by.
+struct MaterialGroup {
+  std::string_view name;  ///< "warp", "weft", "shear", "width", "bend"; "solid", "volume"
+  std::variant<FibreStrain, TriangleStrain, TriangleArea, HingeBending, TetrahedronStrain, TetrahedronVolume> options;
+};
+
+/// The groups of a sheet or a solid, those that would do nothing left out. Moduli of stretch and shear, not of bending,
+/// are no more than what gives `least_stretch`.
+///
+/// A sheet with threads: fibres along warp and weft, a triangle strain of twice the shear modulus, of which the fibres
+/// have that much less. A sheet with Poisson's ratio ν whose warp and weft are alike, as an isotropic plate in plane
+/// stress: strain E t/(1 + ν), area 2 E t ν/(1 − ν²). A solid: strain E/(1 + ν), volume 3 E ν/((1 + ν)(1 − 2ν)).
+std::vector<MaterialGroup> material_groups(const Material& material, const MaterialLay& lay = {});
+
+/// Mass per area or volume.
+Mass mass_of(const Material& material);
+
+/// Why this mesh cannot be made of this material, and what to do; empty where it can: a sheet wants triangles, a solid
+/// tetrahedra.
+std::string misfit(const Material& material, const Mesh& mesh);
+
+/// Adds these groups to a body, each named "BODY.warp" and so on, and gives the body the friction of the material
+/// unless it has its own. Throws Error(input) where the mesh cannot be made of it, and as the builders of the groups
+/// do. The damping is one of SolverSettings, for all bodies: it is left to the caller.
+std::vector<GroupId> add_material(Simulation& simulation, BodyId body, const Material& material,
+                                  const MaterialLay& lay = {});
+
+}  // namespace pliant
