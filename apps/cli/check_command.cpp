@@ -271,7 +271,9 @@ void print_bodies(const Json& json) {
                size[1].get<Real>(), size[2].get<Real>());
     for (const Json& group : json["groups"]) {
       if (group["body"] != body["name"]) continue;
-      fmt::print("  {}: {} {}", text_of(group["name"]), group["constraints"].get<Index>(), text_of(group["type"]));
+      fmt::print("  {}: {} ", text_of(group["name"]), group["constraints"].get<Index>());
+      const bool is_tied = group.contains("other");
+      fmt::print("{}", is_tied ? "ties to " + text_of(group["other"]) : text_of(group["type"]));
       if (group["skipped"] != 0) fmt::print(", {} left out", group["skipped"].get<Index>());
       fmt::print("\n");
     }

@@ -146,6 +146,7 @@ TEST_CASE("the tables list every option") {
   check_rows<SteadyAnimation>("\n### Animation\n");
   check_rows<FrameAnimation>("\n### Animation\n");
   check_types("\n## Constraints\n", static_cast<BuiltinConstraints*>(nullptr));
+  check_types("\n## Attachments\n", static_cast<std::tuple<Attachment>*>(nullptr));
   check_types("\n## Forces\n", static_cast<BuiltinForces*>(nullptr));
   check_types("\n## Colliders\n", static_cast<BuiltinColliders*>(nullptr));
   check_rows<ContactSettings>("\n### `contact`\n");

@@ -1,5 +1,5 @@
 #pragma once
-// The samples of triangles and tetrahedra.
+// The samples of triangles, tetrahedra and ties.
 #include <Eigen/SVD>
 
 #include "projection_samples.h"
@@ -69,5 +69,15 @@ template <>
 struct Samples<pliant::TriangleAreaProjection> : ProductSamples<2> {};
 template <>
 struct Samples<pliant::TetrahedronVolumeProjection> : ProductSamples<3> {};
+
+template <>
+struct Samples<pliant::AttachmentProjection> : ShellSamples {
+  static Fields fields(Random& random) {
+    const Real length = random.index(3) == 0 ? 0 : random.uniform(0.2, 2);
+    return {length, length, length, 0, 0};
+  }
+  static Eigen::RowVector3d member(Random& random, const Fields& f) { return member_of(random, 0, f[0]); }
+  static Real distance(const Fields& f, const Eigen::RowVector3d& p) { return distance_from(0, f[0], p); }
+};
 
 }  // namespace pliant_tests

@@ -2,8 +2,7 @@
 // The one loop over stencils. A constraint type is a struct with
 //     static constexpr std::string_view name;
 //     static constexpr int vertices;                  // n, or dynamic_vertices: then every batch has an n of its own
-//     static constexpr int rows;                      // k
-//     static constexpr int fields;                    // numbers of rest data a constraint
+//     static constexpr int rows, fields;              // k; numbers of rest data a constraint
 //     static constexpr bool translation_invariant;    // every row of every A sums to zero
 //     static void project(const Real* fields, const Real* z, Real* p);   // z, p: k × 3
 // and, where it needs them,
@@ -14,6 +13,7 @@
 //     static constexpr bool limits_stretches = true;  // z is a stretch or F, and p has stretches between limits
 //     static constexpr bool is_difference = true;     // A is (−1, 1), which its kernel need not read
 //     static void begin_step(const Positions& q, std::span<const Index> stencil, Real* fields);
+//     static void go_to(Real time, Real* fields);     // to the end of a step: numbers that follow from the time alone
 #include <array>
 #include <cmath>
 #include <string>
@@ -100,12 +100,11 @@ class Batch final : public ConstraintGroup {
   bool freezes_shape() const override { return has_begin_step; }
   bool is_rotation_invariant() const override { return rotates_along; }
   bool limits_stretches() const override { return has_stretches; }
-  void begin_step(const StateView& state, Real) override {
-    if constexpr (has_begin_step) {
-      const auto n = static_cast<std::size_t>(vertices());
-      for (std::size_t i = 0; i < rest_measure_.size(); ++i) {
-        Type::begin_step(state.positions, std::span<const Index>(stencil_).subspan(i * n, n), field(i));
-      }
+  void begin_step(const StateView& state, [[maybe_unused]] Real time_step) override {
+    const auto n = static_cast<std::size_t>(vertices());
+    for (std::size_t i = 0; (has_begin_step || goes_with_time) && i < rest_measure_.size(); ++i) {
+      if constexpr (goes_with_time) Type::go_to(state.time + time_step, field(i));
+      if constexpr (has_begin_step) Type::begin_step(state.positions, std::span(stencil_).subspan(i * n, n), field(i));
     }
   }
 
@@ -130,6 +129,7 @@ class Batch final : public ConstraintGroup {
   static constexpr bool rotates_along = requires { Type::rotation_invariant; };
   static constexpr bool has_stretches = requires { Type::limits_stretches; };
   static constexpr bool has_begin_step = requires { &Type::begin_step; };
+  static constexpr bool goes_with_time = requires { &Type::go_to; };
 
   /// Writes w (p − z) of constraint i; returns its energy.
   Real project_one(const Real* positions, std::size_t i, Real* to) const {

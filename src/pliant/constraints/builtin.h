@@ -3,6 +3,7 @@
 // written over it. A new type is its pair of files and a line in each of the two lists.
 #include <tuple>
 
+#include "pliant/constraints/attachment.h"
 #include "pliant/constraints/bending.h"
 #include "pliant/constraints/curvature.h"
 #include "pliant/constraints/drag.h"
@@ -61,7 +62,8 @@ using BuiltinProjections = std::tuple<
     TriangleAreaProjection,
     TetrahedronStrainProjection,
     TetrahedronVolumeProjection,
-    DragProjection>;
+    DragProjection,
+    AttachmentProjection>;
 
 // clang-format on
 

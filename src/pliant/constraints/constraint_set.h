@@ -26,6 +26,7 @@ struct BodyView {
   Positions start;     ///< where the vertices are when the constraint is added, m × 3 [m]
   Index first_vertex;  ///< of this body among all vertices of the simulation
   std::string_view name;
+  Real time = 0;  ///< [s]
 };
 
 /// What a builder returns: one group for people, in batches for the solver (one for each valence, say).

@@ -69,6 +69,8 @@ class Colliders {
   Real contact_distance(BodyId id) const;  ///< r of its vertices [m]
 
  protected:
+  /// What is left out of contact has changed: which surfaces cross is found out anew.
+  void join_anew();
   static void check_projection(const SolverSettings& settings, bool has_colliders);
   /// Refuses a state of contact that is not of these colliders and so many vertices.
   void check_contact(const ContactState& contact) const;

@@ -118,6 +118,7 @@ GroupId Simulation::add_group(Group added) {
   const auto placed = groups_.emplace(id, std::move(added));
   group_index_.add(id, placed.first->second);
   groups_changed_ = true;
+  if (placed.first->second.other) join_anew();
   return id;
 }
 
@@ -164,6 +165,7 @@ void Simulation::remove(GroupId id) {
     fail_input("group " + std::to_string(static_cast<Index>(id)) +
                " does not exist; give one that was added and not removed");
   group_index_.remove(id, found->second);
+  if (found->second.other) join_anew();
   if (transaction_ != nullptr) transaction_->save(id, std::move(found->second));
   groups_.erase(found);
   groups_changed_ = true;
@@ -234,6 +236,7 @@ void Simulation::release(GroupId id, std::span<const Index> vertices) {
 void Simulation::exchange_group(GroupId id, Group renewed) {
   Group& group = groups_.at(id);
   group_index_.remove(id, group);
+  if (group.other || renewed.other) join_anew();
   if (transaction_ != nullptr) transaction_->save(id, std::move(group));
   group = std::move(renewed);
   group_index_.add(id, group);

@@ -146,12 +146,14 @@ const Group& group_with(const Simulation& simulation, GroupId id) {
 /// Calls f with the options that a group was made of; false where they are not of a built-in type.
 bool with_options(const Group& group, auto&& f) {
   bool is_built_in = false;
-  for_each_type(static_cast<BuiltinConstraints*>(nullptr), [&](auto* type) {
+  const auto try_type = [&](auto* type) {
     const auto* options = options_in<std::remove_pointer_t<decltype(type)>>(group);
     if (options == nullptr) return;
     is_built_in = true;
     f(*options);
-  });
+  };
+  for_each_type(static_cast<BuiltinConstraints*>(nullptr), try_type);
+  try_type(static_cast<Attachment*>(nullptr));
   return is_built_in;
 }
 

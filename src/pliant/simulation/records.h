@@ -1,5 +1,6 @@
 #pragma once
 // What a simulation is made of: bodies, and groups of constraints on them.
+#include <concepts>
 #include <memory>
 #include <optional>
 #include <string>
@@ -56,7 +57,7 @@ const Options* options_in(const Record& record) {
   return source == nullptr ? nullptr : &source->options;
 }
 
-/// Constraints of one type on one body, as a user sees them.
+/// Constraints of one type on one body, or between two, as a user sees them.
 struct Group {
   std::string name;
   std::string type;
@@ -66,7 +67,28 @@ struct Group {
   ConstraintSet set;
   std::vector<Index> points{};  ///< of each target a number, which it keeps when others come and go; at first 0, 1, ...
   Index next_point = 0;         ///< the number of the next new target
+  std::optional<BodyId> other{};  ///< that it ties `body` to, which may be the same; none: it is on `body` alone
 };
+
+/// Constraints that tie a body to another one.
+template <class Constraint>
+concept between_bodies = requires(const Constraint& options) {
+  { options.to } -> std::same_as<const BodyId&>;
+};
+
+/// A group on a body, or between that and another one, given how to see a body.
+template <class Constraint, class View>
+Group group_of(BodyId id, const Constraint& options, std::string name, View&& view) {
+  check_options(Constraint::info.name, options);
+  Group group{std::move(name), std::string(Constraint::info.name), id, source_of(options), {}};
+  if constexpr (between_bodies<Constraint>) {
+    group.set = build(view(id), view(options.to), options);
+    group.other = options.to;
+  } else {
+    group.set = build(view(id), options);
+  }
+  return group;
+}
 
 /// The option of a constraint that says where targets or origins are; null for a type without.
 template <class Constraint>

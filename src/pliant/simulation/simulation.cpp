@@ -251,7 +251,7 @@ int Simulation::thread_count() const {
 BodyView Simulation::view(BodyId id) const {
   const Body& owner = body(id);
   return {owner.mesh, state_.positions.middleRows(owner.first_vertex, owner.mesh.vertex_count()), owner.first_vertex,
-          owner.name};
+          owner.name, state_.time};
 }
 
 }  // namespace pliant

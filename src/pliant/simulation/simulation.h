@@ -37,7 +37,8 @@ class Simulation : public Colliders {
   /// Checks the mesh (check_mesh) and the masses (vertex_masses).
   BodyId add_body(Mesh mesh, const Mass& mass, BodyOptions options = {});
 
-  /// Adds a built-in constraint type, or any other with `info`, `visit` and a `build(BodyView, options)`.
+  /// Adds a built-in constraint type, or any other with `info`, `visit` and a `build(BodyView, options)`; or an
+  /// Attachment, which ties the body to another, `options.to`, and has a `build(BodyView, BodyView, options)`.
   template <class Constraint>
   requires(!describes_force<Constraint>) GroupId add(BodyId id, const Constraint& options, std::string name = {}) {
     return add_group(make_group(id, options, std::move(name)));
@@ -166,8 +167,7 @@ class Simulation : public Colliders {
   void warn_of(const Group& added);
   template <class Constraint>
   Group make_group(BodyId id, const Constraint& options, std::string name) {
-    check_options(Constraint::info.name, options);
-    return {std::move(name), std::string(Constraint::info.name), id, source_of(options), build(view(id), options)};
+    return group_of(id, options, std::move(name), [this](BodyId body) { return view(body); });
   }
   GroupId add_group(Group added);
   void replace_group(GroupId id, Group renewed, Anchors anchors);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "pliant/collision/crossings.h"
+#include "pliant/constraints/attachment.h"
 #include "pliant/mesh/topology.h"
 #include "pliant/simulation/transaction.h"
 #include "pliant/solver/solver.h"
@@ -55,6 +56,20 @@ struct IgnoringGroups {
   }
 };
 
+/// What the ties of a group join: those that end up shorter than r [m], which contact would otherwise hold open.
+void add_joints(const Group& group, Real r, std::vector<Joint>& joints) {
+  for (const auto& batch : group.set.batches) {
+    const auto* ties = dynamic_cast<const Batch<AttachmentProjection>*>(batch.get());
+    if (ties == nullptr) continue;
+    const auto size = static_cast<std::size_t>(ties->shape().vertices);
+    for (std::size_t i = 0; i < at(ties->shape().count); ++i) {
+      if (!(AttachmentProjection::end_length(&ties->fields()[i * AttachmentProjection::fields]) < r)) continue;
+      const std::span<const Index> stencil = ties->stencil().subspan(i * size, size);
+      for (const Index corner : stencil.subspan(1)) joints.push_back({stencil[0], corner, size == 2});
+    }
+  }
+}
+
 }  // namespace
 
 const Body& Colliders::body(BodyId id) const {
@@ -63,6 +78,13 @@ const Body& Colliders::body(BodyId id) const {
     fail_input("body " + std::to_string(i) + " does not exist; there are " + std::to_string(bodies_.size()));
   }
   return bodies_[i];
+}
+
+void Colliders::join_anew() {
+  if (transaction_ != nullptr) transaction_->save_colliders();
+  state_.contact.let_go.is_known = false;
+  colliders_changed_ = true;
+  surfaces_changed_ = true;
 }
 
 void Colliders::set_contact(BodyId id, const BodyContact& contact) {
@@ -79,10 +101,7 @@ void Colliders::set_contact(BodyId id, const BodyContact& contact) {
   }
   if (transaction_ != nullptr) transaction_->save_body_contacts();
   BodyContact& present = bodies_[static_cast<std::size_t>(id)].contact;
-  if (contact.self != present.self || contact.ignores != present.ignores) {
-    if (transaction_ != nullptr) transaction_->save_colliders();
-    state_.contact.let_go.is_known = false;
-  }
+  if (contact.self != present.self || contact.ignores != present.ignores) join_anew();
   present = contact;
   colliders_changed_ = true;
   surfaces_changed_ = true;
@@ -155,6 +174,10 @@ void Simulation::update_surfaces() {
       surfaces.rest.middleRows(body.first_vertex, count) = body.mesh.vertices;
       surfaces.frictions.own.push_back(body.contact.friction);
     }
+  }
+  for (const auto& [id, group] : groups_) {
+    if (!contact_.surfaces || !group.other) continue;
+    add_joints(group, (contact_distance(group.body) + contact_distance(*group.other)) / 2, surfaces.joints);
   }
   solver_->set_surfaces(std::move(surfaces));
   surfaces_changed_ = false;

@@ -79,7 +79,9 @@ bool Transaction::roll_back_bodies() {
 void Transaction::roll_back() {
   Simulation& s = simulation_;
   for (auto& [id, group] : groups_) {
+    if (group && group->other) s.colliders_changed_ = s.surfaces_changed_ = true;
     if (const auto now = s.groups_.find(id); now != s.groups_.end()) {
+      if (now->second.other) s.colliders_changed_ = s.surfaces_changed_ = true;
       s.group_index_.remove(id, now->second);
       s.groups_.erase(now);
     }

@@ -69,6 +69,11 @@ void ContactSolver::lay_out_surfaces(const System& system) {
   system.order().gather(surfaces_.rest, rest);
   Surface surface(surfaces_.parts, system.vertex_count(), places);
   surface.ignored = surfaces_.ignored;
+  std::vector<Joint> joints = surfaces_.joints;
+  if (!places.empty()) {
+    for (Joint& each : joints) each = {places[at(each.a)], places[at(each.b)], each.is_alone};
+  }
+  surface.joined = JoinedVertices(joints, system.vertex_count());
   pairs_.set_surface(std::move(surface), rest, surfaces_.frictions, local_radii_);
   is_laid_out_ = true;
 }

@@ -26,6 +26,7 @@ struct SolverSurfaces {
   Positions rest;                  ///< m × 3 [m]
   SurfaceFrictions frictions;      ///< of the parts
   std::vector<char> ignored;       ///< which of their groups ignore each other, see Surface::ignored
+  std::vector<Joint> joints;       ///< what is sewn together
 };
 
 class ContactSolver {

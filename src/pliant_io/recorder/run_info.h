@@ -47,6 +47,7 @@ void describe_group(const Simulation& simulation, const Group& group, Field&& fi
   field("name", group.name);
   field("type", group.type);
   field("body", simulation.body(group.body).name);
+  if (group.other) field("other", simulation.body(*group.other).name);
   field("constraints", group.set.count);
   field("skipped", group.set.skipped);
 }

@@ -13,9 +13,9 @@
 namespace pliant {
 namespace {
 
-const std::vector<std::string_view> top_keys = {"pliant", "name",   "description", "settings",  "steps",    "gravity",
-                                                "bodies", "forces", "contact",     "colliders", "moves",    "events",
-                                                "output", "view",   "include",     "$schema",   "materials"};
+const std::vector<std::string_view> top_keys = {
+    "pliant",  "name",      "description", "settings", "steps",  "gravity", "bodies",  "attachments", "forces",
+    "contact", "colliders", "moves",       "events",   "output", "view",    "include", "$schema",     "materials"};
 
 /// The names there are, and behind them those that come later, each once.
 std::vector<std::string> all_names(std::vector<std::string> names, std::vector<std::string> later) {
@@ -93,6 +93,7 @@ void read_simulation(const Node& root, Scene& scene) {
   for (const auto& [id, material] : reader.material_of) scene.materials.emplace(id, material.name);
   Index body = 0;
   for_each_entry(root, "bodies", [&](const Node& node) { reader.read_body_contact(node, BodyId{body++}); });
+  for_each_entry(root, "attachments", [&](const Node& node) { reader.add_attachment(node); });
   reader.read_gravity(root.find("gravity"));
   for_each_entry(root, "forces", [&](const Node& node) { reader.read_force(node); });
   if (const auto contact = root.find("contact")) reader.read_contact(*contact);

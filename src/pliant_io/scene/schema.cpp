@@ -7,11 +7,6 @@
 namespace pliant {
 namespace {
 
-SchemaJson described(SchemaJson schema, std::string_view description) {
-  schema["description"] = description;
-  return schema;
-}
-
 SchemaJson definitions() {
   const SchemaJson coordinate = {{"type", "number"}, {"minimum", -max_coordinate}, {"maximum", max_coordinate}};
   const SchemaJson share = {{"type", "number"}, {"minimum", 0}, {"maximum", 1}};
@@ -130,6 +125,9 @@ SchemaJson root_properties() {
       {"gravity", {{"anyOf", {schema_reference("vector"), {{"type", "null"}}}}, {"description", "[m/s²]; null: none"}}},
       {"materials", described(materials_schema(), "of one's own, by name")},
       {"bodies", list_schema(body_schema())},
+      {"attachments",
+       list_schema(described(SchemaJson{{"$ref", "#/$defs/attachment"}, {"unevaluatedProperties", false}},
+                             "what ties bodies to each other"))},
       {"forces", list_schema(schema_reference("force"))},
       {"contact", schema_reference("contact")},
       {"colliders", list_schema(schema_reference("collider"))},

@@ -273,6 +273,23 @@ void MeetingItems::drop_far(PairKind kind, const FarPairs& far, ThreadPool& pool
   });
 }
 
+void MeetingItems::drop_joined(PairKind kind, const Surface& surface, ThreadPool& pool) {
+  const auto are_joined = [&](const Hit& hit) {
+    const JoinedVertices& joined = surface.joined;
+    const std::span<const Index> vertex(&surface.vertices[at(kind == PairKind::edge_edge ? 0 : hit.first)], 1);
+    if (kind == PairKind::vertex_triangle) return joined.are_joined(vertex, surface.triangles[at(hit.second)]);
+    if (kind == PairKind::vertex_edge) {
+      return joined.are_joined(vertex, surface.edges[at(surface.loose_begin + hit.second)]);
+    }
+    return joined.are_joined(surface.edges[at(hit.first)], surface.edges[at(hit.second)]);
+  };
+  pool.parallel_for(static_cast<Index>(tasks_.size()), [&](Index t) {
+    Task& task = tasks_[at(t)];
+    const auto end = task.hits.begin() + static_cast<std::ptrdiff_t>(task.count);
+    task.count = static_cast<std::size_t>(std::remove_if(task.hits.begin(), end, are_joined) - task.hits.begin());
+  });
+}
+
 void MeetingItems::sort(Index first_count, ThreadPool& pool) {
   const std::size_t items = at(first_count);
   const Index parts = std::min(pool.active(), most_parts);

@@ -61,6 +61,8 @@ class MeetingItems {
 
   /// Leaves out pairs that are far apart.
   void drop_far(PairKind kind, const FarPairs& far, ThreadPool& pool);
+  /// Leaves out pairs that are sewn together.
+  void drop_joined(PairKind kind, const Surface& surface, ThreadPool& pool);
   /// Puts the pairs in order: first those of item 0 of a, in the order of the items of b, then those of item 1 and so
   /// on. Of one tree the smaller item is the first.
   void sort(Index first_count, ThreadPool& pool);

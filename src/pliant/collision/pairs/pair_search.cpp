@@ -191,6 +191,7 @@ bool PairSearch::try_find(const Positions& begin, const Positions& end, std::spa
       return false;
     }
     if (far != nullptr) meeting_[k].drop_far(kind, *far, pool);
+    if (!surface_->joined.is_empty()) meeting_[k].drop_joined(kind, *surface_, pool);
     offsets[k + 1] = offsets[k] + meeting_[k].count();
   }
   pairs_.resize(static_cast<std::size_t>(offsets.back()));

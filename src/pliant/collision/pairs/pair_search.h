@@ -14,8 +14,8 @@ namespace pliant {
 /// outward: a pair is missed only if its features, anywhere on their straight ways, are farther apart along some axis
 /// than the pads of a vertex of the one and of one of the other together.
 ///
-/// Left out are pairs of one body with meets_itself false, of groups that ignore each other, and those of which no
-/// vertex moves freely.
+/// Left out are pairs of one body with meets_itself false, of groups that ignore each other, those of which no vertex
+/// moves freely, and those that are sewn together.
 class PairSearch {
  public:
   /// 28 bytes each, and as much again for finding them and putting them in order.

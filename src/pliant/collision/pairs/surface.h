@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "pliant/collision/pairs/joined_vertices.h"
 #include "pliant/mesh/mesh.h"
 
 namespace pliant {
@@ -43,6 +44,8 @@ struct Surface {
   /// Group × group, symmetric, for the groups from 0 to the largest that a part has: not 0 where bodies of the two
   /// ignore each other. Empty at first: none does. Within one body meets_itself alone counts.
   std::vector<char> ignored;
+  /// What is sewn together.
+  JoinedVertices joined;
 
   /// Whether pairs of the two parts are of interest.
   bool may_meet(Index part_a, Index part_b) const;

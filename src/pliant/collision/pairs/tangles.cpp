@@ -94,6 +94,7 @@ void Tangles::find(const Positions& q, std::span<const Triangle> triangles, std:
     const Index a = surface_->body[at(crossing.edge[0])];
     const Index b = surface_->body[at(triangle[0])];
     if (!surface_->may_meet(a, b) || crossings_.size() == most_crossings) return;
+    if (!surface_->joined.is_empty() && surface_->joined.are_joined(crossing.edge, triangle)) return;
     if (a == b && goes_as_told(crossing.edge) && goes_as_told(triangle)) return;
     crossings_.push_back({crossing.edge, triangle, crossing.point});
   });

@@ -36,13 +36,14 @@ void read_changed_options(const Node& node, std::vector<std::string_view> more_k
                           ConstraintOptions& options) {
   const auto change = [&](auto& of_type) {
     const bool has_new_places = node.has("on") || node.has("stencils");
-    if (has_new_places) {
+    constexpr bool is_between_bodies = between_bodies<std::remove_cvref_t<decltype(of_type)>>;
+    if (has_new_places && !is_between_bodies) {
       if constexpr (requires { of_type.on; }) of_type.on = {};
-      of_type.stencils = {};
+      if constexpr (requires { of_type.stencils; }) of_type.stencils = {};
       if constexpr (requires { of_type.targets; }) of_type.targets = {};
       if constexpr (requires { of_type.origin; }) of_type.origin = {};
     }
-    read_options(node, of_type, std::move(more_keys), &body);
+    read_options(node, of_type, std::move(more_keys), is_between_bodies ? nullptr : &body);
     node.locate([&] { check_options(of_type.info.name, of_type); });
   };
   std::visit(change, options);

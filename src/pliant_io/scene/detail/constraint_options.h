@@ -8,13 +8,13 @@
 
 namespace pliant {
 
-template <class List>
+template <class List, class... More>
 struct VariantOf;
-template <class... Types>
-struct VariantOf<std::tuple<Types...>> {
-  using Type = std::variant<Types...>;
+template <class... Types, class... More>
+struct VariantOf<std::tuple<Types...>, More...> {
+  using Type = std::variant<Types..., More...>;
 };
-using ConstraintOptions = VariantOf<BuiltinConstraints>::Type;
+using ConstraintOptions = VariantOf<BuiltinConstraints, Attachment>::Type;
 
 /// The options of the type that the key "type" names. Other keys than theirs and `more_keys` are refused.
 ConstraintOptions read_constraint_options(const Node& node, std::vector<std::string_view> more_keys,

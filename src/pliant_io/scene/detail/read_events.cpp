@@ -278,13 +278,13 @@ Timeline::Edit EventReader::read_add(const Node& value) {
     scene_.later_colliders.push_back(name);
     return [name, collider](Simulation& simulation, Timeline&) { add(simulation, collider, name); };
   }
-  const BodyId body = scene_.read_body_name(value);
-  ConstraintOptions options = read_constraint_options(value, {"name", "body"}, scene_.body(body));
-  added_group_ = scene_.group_name(value, body, type_of(options));
-  scene_.groups.emplace(added_group_, GroupEntry{body, options});
+  const GroupEntry entry = scene_.read_added_group(value);
+  added_group_ = scene_.group_name(value, entry.body, type_of(entry.options));
+  scene_.groups.emplace(added_group_, entry);
   scene_.later_groups.push_back(added_group_);
-  return
-      [name = added_group_, body, options](Simulation& simulation, Timeline&) { add(simulation, body, options, name); };
+  return [name = added_group_, entry](Simulation& simulation, Timeline&) {
+    add(simulation, entry.body, entry.options, name);
+  };
 }
 
 void EventReader::check_added() const {

@@ -86,7 +86,7 @@ bool merge_objects(std::string_view, Target base, Target over) {
 /// A list or an object at the top of a scene that goes on from the included scenes to the one that includes them.
 bool merge_top_key(const Document& base_document, const Document& over_document, std::string_view key, Target base,
                    Target over) {
-  constexpr std::array<std::string_view, 5> lists = {"bodies", "forces", "colliders", "moves", "events"};
+  constexpr std::array<std::string_view, 6> lists = {"bodies", "attachments", "forces", "colliders", "moves", "events"};
   constexpr std::array<std::string_view, 5> objects = {"settings", "contact", "output", "view", "materials"};
   for (const Document* document : {&base_document, &over_document}) {
     const Node node = Node(*document).require(key);

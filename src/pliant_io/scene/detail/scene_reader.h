@@ -57,6 +57,11 @@ struct SceneReader {
   /// The bodies that a body's contact ignores.
   std::vector<BodyId> read_ignored(const Node& names, BodyId id) const;
   void read_collider(const Node& node);
+  /// An entry of the list of attachments, after all bodies.
+  GroupEntry read_attachment(const Node& node, std::vector<std::string_view> more_keys = {}) const;
+  void add_attachment(const Node& node);
+  /// What an event adds: an attachment, or a constraint with its body beside it.
+  GroupEntry read_added_group(const Node& node) const;
   /// The lists "moves" and "events". They are read in the order in which they act, each as what its predecessors leave,
   /// and tried out; the simulation is as before then. `root`: the scene.
   void read_events(const Node& root);

@@ -17,6 +17,11 @@ inline SchemaJson schema_reference(std::string_view definition) {
   return {{"$ref", "#/$defs/" + std::string(definition)}};
 }
 
+inline SchemaJson described(SchemaJson schema, std::string_view description) {
+  schema["description"] = description;
+  return schema;
+}
+
 /// An object of which these keys are known; what refers to it says whether there may be others.
 SchemaJson open_object_schema(SchemaJson properties, std::vector<std::string_view> required = {});
 

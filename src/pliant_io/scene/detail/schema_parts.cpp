@@ -168,6 +168,7 @@ SchemaJson change_schema() {
   add(options_properties<RampOptions>());
   const SchemaJson constraints = constraint_choices(static_cast<BuiltinConstraints*>(nullptr));
   for (const SchemaJson& type : constraints) add(type["properties"]);
+  add(options_properties<Attachment>());
   for (const SchemaJson& type : force_choices()) add(type["properties"]);
   for (const SchemaJson& type : collider_choices()) add(type["properties"]);
   SchemaJson schema = timed_schema("change", text_schema("name of a group, a force or a collider"));
@@ -202,7 +203,10 @@ SchemaJson body_contact_event_schema() {
 
 SchemaJson add_schema() {
   const SchemaJson body = {{"body", text_schema("name of the body; default: the only one")}};
-  return {{"oneOf", {closed_reference("constraint", body), schema_reference("force"), schema_reference("collider")}}};
+  const SchemaJson attachment = {{"type", {{"const", Attachment::info.name}}}};
+  return {{"oneOf",
+           {closed_reference("constraint", body), closed_reference("attachment", attachment), schema_reference("force"),
+            schema_reference("collider")}}};
 }
 
 SchemaJson follow_schema() {
@@ -251,6 +255,17 @@ SchemaJson mass_schema() {
 
 namespace {
 
+SchemaJson attachment_schema() {
+  const SchemaJson side =
+      object_schema({{"body", text_schema("name of the body")}, {"on", schema_reference("selection")}}, {"body"});
+  const SchemaJson properties = {{"name", text_schema("what events refer to it by")},
+                                 {"from", described(side, "vertices that are tied")},
+                                 {"to", described(side, "what they are tied to, which may be of the same body")}};
+  SchemaJson schema = open_object_schema(joined(properties, options_properties<Attachment>()), {"from", "to"});
+  schema["description"] = std::string(Attachment::info.energy);
+  return schema;
+}
+
 /// The numbers of materials; none has a default, since they are those of the material that is named.
 SchemaJson material_numbers() {
   SchemaJson properties = options_properties<SheetMaterial>();
@@ -289,6 +304,7 @@ SchemaJson part_definitions() {
   return {{"mesh", mesh_choices()},
           {"mesh_part", closed_reference("mesh", part)},
           {"constraint", {{"oneOf", constraint_choices(static_cast<BuiltinConstraints*>(nullptr))}}},
+          {"attachment", attachment_schema()},
           {"force", {{"oneOf", force_choices()}}},
           {"contact", object_schema(options_properties<ContactSettings>())},
           {"body_contact", body_contact_schema()},
