@@ -54,7 +54,7 @@ struct Attachment {
   AttachmentMode mode = AttachmentMode::nearest_vertex;
   /// Of seams.
   SeamDirection direction = SeamDirection::nearest;
-  /// k [N/m] of each tie, of a seam [N/m²]: for each metre, however many vertices it has. Default: 1e3, of a seam 1e5.
+  /// k [N/m] of each tie, of a seam [N/m²]: for each meter, however many vertices it has. Default: 1e3, of a seam 1e5.
   Values stiffness{};
   /// L [m], ≥ 0.
   Real length = 0;
@@ -69,7 +69,7 @@ struct Attachment {
     field(OptionInfo{"mode", "", "what a vertex is tied to: see the page of attachments"}, self.mode);
     field(OptionInfo{"direction", "", "of a seam: `nearest` brings its points nearer, `opposite` is the other way"},
           self.direction);
-    field(OptionInfo{"stiffness", "N/m or N/m²", "of each tie; of seams for each metre. Default: 1e3, of seams 1e5",
+    field(OptionInfo{"stiffness", "N/m or N/m²", "of each tie; of seams for each meter. Default: 1e3, of seams 1e5",
                      positive},
           self.stiffness);
     field(OptionInfo{"length", "m", "up to which a tie is slack; 0: the points are joined", not_negative}, self.length);
