@@ -20,7 +20,7 @@ using pliant_tests::TemporaryFolder;
 
 namespace {
 
-const MaterialLay as_measured{.direction = Vec3(0, 1, 0), .least_stretch = 0};
+const MaterialPlacement as_measured{.direction = Vec3(0, 1, 0), .least_stretch = 0};
 
 /// The elastic energy of a mesh of this material, deformed by A, over the square of a small number and its measure.
 Real energy_density(const Material& material, const Mesh& mesh, Real measure, const Mat3& strain) {

@@ -86,8 +86,8 @@ TEST_CASE("numbers may differ from those of the name, and materials of a scene f
 }
 
 TEST_CASE("the grain of a material is that of its fibres") {
-  const auto reduction = [](const std::string& lay) {
-    const Scene scene = sheet_scene(R"("material": {"name": "cotton")" + lay + "}");
+  const auto reduction = [](const std::string& placement) {
+    const Scene scene = sheet_scene(R"("material": {"name": "cotton")" + placement + "}");
     const auto numbers = scene.simulation.groups().begin()->second.set.batches[0]->reduction();
     return std::vector<Real>(numbers.begin(), numbers.end());
   };

@@ -130,7 +130,7 @@ std::vector<Vec2> warp_directions(std::string_view type, const BodyView& body, c
     if (const std::optional<Vec2> along_v = texture.direction_of_v(triangles[i], frame)) return *along_v;
     if (grain == Grain::automatic) return along_best_axis(axes, frame);
     fail_input(
-        fmt::format("{}: the texture coordinates of triangle {} are missing or have no area; mend them, or give "
+        fmt::format("{}: the texture coordinates of triangle {} are missing or have no area; fix them, or give "
                     "a direction",
                     place, i));
   };

@@ -19,9 +19,9 @@ Real modulus_of(Real stretch, Real density) {
   return stretch > 0 ? density * gravity / stretch : std::numeric_limits<Real>::max();
 }
 
-std::vector<MaterialGroup> sheet_groups(SheetMaterial sheet, const MaterialLay& lay) {
+std::vector<MaterialGroup> sheet_groups(SheetMaterial sheet, const MaterialPlacement& placement) {
   std::vector<MaterialGroup> groups;
-  const Real most = modulus_of(lay.least_stretch, sheet.area_density);
+  const Real most = modulus_of(placement.least_stretch, sheet.area_density);
   sheet.stretch_warp = std::min(sheet.stretch_warp, most);
   sheet.stretch_weft = std::min(sheet.stretch_weft, most);
   const Real softer = std::min(sheet.stretch_warp, sheet.stretch_weft);
@@ -30,9 +30,9 @@ std::vector<MaterialGroup> sheet_groups(SheetMaterial sheet, const MaterialLay& 
   const Real strain = is_plate ? softer / (1 + sheet.poisson) : std::min(2 * sheet.shear, softer);
   const auto add_fibres = [&](std::string_view name, Real stretch, Real angle) {
     if (!(stretch > alike * strain)) return;
-    groups.push_back({name, FibreStrain{.direction = lay.direction,
-                                        .grain = lay.grain,
-                                        .angle = lay.angle + angle,
+    groups.push_back({name, FibreStrain{.direction = placement.direction,
+                                        .grain = placement.grain,
+                                        .angle = placement.angle + angle,
                                         .stiffness = stretch - strain}});
   };
   if (!is_plate) {
@@ -48,9 +48,9 @@ std::vector<MaterialGroup> sheet_groups(SheetMaterial sheet, const MaterialLay& 
   return groups;
 }
 
-std::vector<MaterialGroup> solid_groups(const SolidMaterial& solid, const MaterialLay& lay) {
+std::vector<MaterialGroup> solid_groups(const SolidMaterial& solid, const MaterialPlacement& placement) {
   const Real nu = solid.poisson;
-  const Real strain = std::min(solid.young_modulus, modulus_of(lay.least_stretch, solid.density)) / (1 + nu);
+  const Real strain = std::min(solid.young_modulus, modulus_of(placement.least_stretch, solid.density)) / (1 + nu);
   std::vector<MaterialGroup> groups = {{"solid", TetrahedronStrain{.stiffness = strain}}};
   if (nu > 0) groups.push_back({"volume", TetrahedronVolume{.stiffness = 3 * strain * nu / (1 - 2 * nu)}});
   return groups;
@@ -58,9 +58,9 @@ std::vector<MaterialGroup> solid_groups(const SolidMaterial& solid, const Materi
 
 }  // namespace
 
-std::vector<MaterialGroup> material_groups(const Material& material, const MaterialLay& lay) {
-  if (const auto* sheet = std::get_if<SheetMaterial>(&material.of)) return sheet_groups(*sheet, lay);
-  return solid_groups(std::get<SolidMaterial>(material.of), lay);
+std::vector<MaterialGroup> material_groups(const Material& material, const MaterialPlacement& placement) {
+  if (const auto* sheet = std::get_if<SheetMaterial>(&material.of)) return sheet_groups(*sheet, placement);
+  return solid_groups(std::get<SolidMaterial>(material.of), placement);
 }
 
 Mass mass_of(const Material& material) {
@@ -80,7 +80,8 @@ std::string misfit(const Material& material, const Mesh& mesh) {
   return "";
 }
 
-std::vector<GroupId> add_material(Simulation& simulation, BodyId id, const Material& material, const MaterialLay& lay) {
+std::vector<GroupId> add_material(Simulation& simulation, BodyId id, const Material& material,
+                                  const MaterialPlacement& placement) {
   const std::string body = simulation.body(id).name;
   if (const std::string reason = misfit(material, simulation.body(id).mesh); !reason.empty()) {
     fail_input(fmt::format("body '{}': {}", printable(body), reason));
@@ -89,7 +90,7 @@ std::vector<GroupId> add_material(Simulation& simulation, BodyId id, const Mater
   std::visit([&](const auto& of) { check_options(name_of_material, of); }, material.of);
   check_options(name_of_material, material.surface);
   std::vector<GroupId> ids;
-  for (const MaterialGroup& group : material_groups(material, lay)) {
+  for (const MaterialGroup& group : material_groups(material, placement)) {
     const std::string name = fmt::format("{}.{}", body, group.name);
     ids.push_back(std::visit([&](const auto& options) { return simulation.add(id, options, name); }, group.options));
   }

@@ -9,7 +9,7 @@
 namespace pliant {
 
 /// How a body has its material.
-struct MaterialLay {
+struct MaterialPlacement {
   /// Of the warp at rest, and what it follows from without: see FibreStrain.
   Points direction{};
   Grain grain = Grain::automatic;
@@ -46,7 +46,7 @@ struct MaterialGroup {
 /// A sheet with threads: fibres along warp and weft, a triangle strain of twice the shear modulus, of which the fibres
 /// have that much less. A sheet with Poisson's ratio ν whose warp and weft are alike, as an isotropic plate in plane
 /// stress: strain E t/(1 + ν), area 2 E t ν/(1 − ν²). A solid: strain E/(1 + ν), volume 3 E ν/((1 + ν)(1 − 2ν)).
-std::vector<MaterialGroup> material_groups(const Material& material, const MaterialLay& lay = {});
+std::vector<MaterialGroup> material_groups(const Material& material, const MaterialPlacement& placement = {});
 
 /// Mass per area or volume.
 Mass mass_of(const Material& material);
@@ -59,6 +59,6 @@ std::string misfit(const Material& material, const Mesh& mesh);
 /// unless it has its own. Throws Error(input) where the mesh cannot be made of it, and as the builders of the groups
 /// do. The damping is one of SolverSettings, for all bodies: it is left to the caller.
 std::vector<GroupId> add_material(Simulation& simulation, BodyId body, const Material& material,
-                                  const MaterialLay& lay = {});
+                                  const MaterialPlacement& placement = {});
 
 }  // namespace pliant

@@ -99,7 +99,7 @@ void SceneReader::read_body(const Node& node) {
 }
 
 void SceneReader::add_material(const Node& node, BodyId id, const BodyMaterial& given) {
-  for (const MaterialGroup& group : material_groups(given.material, given.lay)) {
+  for (const MaterialGroup& group : material_groups(given.material, given.placement)) {
     const std::string name = free_name(fmt::format("{}.{}", simulation.body(id).name, group.name));
     ConstraintOptions options = std::visit([](const auto& of) { return ConstraintOptions(of); }, group.options);
     node.locate([&] { add(simulation, id, options, name); });

@@ -82,9 +82,9 @@ BodyMaterial read_body_material(const Node& node, const OwnMaterials& own) {
   if (!node.is_object()) node.fail_type("the name of a material, or an object with its 'name'");
   BodyMaterial made{named_material(node.require("name"), own), {}};
   std::vector<std::string_view> keys = {"name"};
-  add_keys<MaterialLay>(keys);
+  add_keys<MaterialPlacement>(keys);
   read_numbers(node, keys, made.material);
-  MaterialLay::visit(made.lay, OptionReader{node});
+  MaterialPlacement::visit(made.placement, OptionReader{node});
   return made;
 }
 

@@ -18,7 +18,7 @@ OwnMaterials read_materials(const Node& node);
 /// What a body is made of, and how it lies.
 struct BodyMaterial {
   Material material;
-  MaterialLay lay;
+  MaterialPlacement placement;
 };
 
 /// A name, or an object with the name, numbers that differ, and how the material lies.

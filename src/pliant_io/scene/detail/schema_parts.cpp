@@ -280,7 +280,7 @@ SchemaJson material_numbers() {
 SchemaJson body_material_schema() {
   const SchemaJson name = text_schema("of a material: `pliant materials` lists them");
   SchemaJson properties = {{"name", name}};
-  properties.update(options_properties<MaterialLay>());
+  properties.update(options_properties<MaterialPlacement>());
   properties.update(material_numbers());
   return {{"anyOf", {name, object_schema(std::move(properties), {"name"})}}};
 }
