@@ -105,6 +105,7 @@ class OneWriter(unittest.TestCase):
         while time.monotonic() < deadline and not (self.out / "frames.npy").exists():
             time.sleep(0.005)
         os.kill(first.pid, signal.SIGSTOP)
+        os.waitpid(first.pid, os.WUNTRACED)  # stopped, no write under way
         before = {path.name: path.read_bytes() for path in self.out.iterdir()}
         for words in (["run", self.scene, "--out", self.out], ["resume", self.out]):
             self.assertIn(f"process {first.pid} ", self.pliant(*words, expect=4).stderr)
