@@ -11,6 +11,7 @@
 #include "commands.h"
 #include "crossing_texts.h"
 #include "import_options.h"
+#include "motion_advice.h"
 #include "pliant/core/printable.h"
 #include "pliant/mesh/geometry.h"
 #include "pliant/solver/integration/integrator.h"
@@ -32,6 +33,7 @@ using pliant::SystemInfo;
 
 struct CheckOptions : SceneArguments {
   bool as_json = false;   ///< print one JSON object in place of the text
+  bool is_still = false;  ///< take no steps
   bool as_scene = false;  ///< print the scene file made for a mesh, and nothing else
 };
 
@@ -106,14 +108,6 @@ std::string frequency_text(const SystemInfo& info, const Simulation& simulation)
                         std::numbers::ln2 / settings.damping);
   }
   return text;
-}
-
-std::string steps_text(const pliant::SolverSettings& settings) {
-  const std::string iterations = fmt::format("{} iterations each", settings.iterations);
-  const std::string substeps =
-      settings.substeps > 1 ? fmt::format("{} substeps of ", settings.substeps) : std::string();
-  const std::string integrator = settings.integrator == pliant::Integrator::bdf2 ? ", BDF2" : "";
-  return substeps + iterations + integrator;
 }
 
 /// What neither constraints nor, below it, colliders and pinned surfaces hold.
@@ -211,6 +205,7 @@ Json describe(Scene& scene) {
   const SystemInfo info = pliant::at_place(scene.place(), [&] { return simulation.system_info(); });
   const pliant::SolverSettings& settings = simulation.settings();
   const Real time_step = settings.time_step;
+  const bool is_automatic = settings.iterations == pliant::automatic_iterations;
   Json forces = Json::array();
   for (const auto& [id, force] : simulation.forces()) forces.push_back(force->type());
   Json files = Json::array();
@@ -225,7 +220,7 @@ Json describe(Scene& scene) {
       {"integrator", choice_names(settings.integrator)[static_cast<std::size_t>(settings.integrator)]},
       {"substeps", settings.substeps},
       {"step_text", steps_text(settings)},
-      {"iterations", simulation.settings().iterations},
+      {"iterations", is_automatic ? Json("automatic") : Json(settings.iterations)},
       {"backend", simulation.backend()},
       {"bodies", describe_bodies(scene)},
       {"constraints", pliant::count_constraints(simulation)},
@@ -312,12 +307,19 @@ void print_contact(const Json& contact, bool has_colliders) {
   }
 }
 
+void print_motion(const Json& motion) {
+  if (motion.is_null()) return;
+  fmt::print("its first {} steps, taken to see:\n", motion["steps"].get<std::int64_t>());
+  for (const Json& line : motion["text"]) fmt::print("  {}\n", line.get<std::string>());
+}
+
 void print_text(const Json& json) {
   const auto megabytes = [](const Json& bytes) { return bytes.get<Real>() * 1e-6; };
   fmt::print("{}: {}\n", text_of(json["scene"]), text_of(json["description"]));
   fmt::print("{} steps of {:.4g} s = {:.4g} s, {}\n", json["steps"].get<std::int64_t>(), json["time_step"].get<Real>(),
              json["seconds"].get<Real>(), text_of(json["step_text"]));
   print_bodies(json);
+  print_motion(json["motion"]);
   fmt::print("forces:");
   for (const Json& force : json["forces"]) fmt::print(" {}", text_of(force));
   fmt::print("{}; events: {}\n", json["forces"].empty() ? " none" : "", json["events"].get<std::size_t>());
@@ -343,7 +345,12 @@ void check_scene(const CheckOptions& options) {
   print_warnings(scene);
   if (options.as_scene) return fmt::print("{}\n", scene.source.texts.front().text);
   const std::string assumptions = assumptions_text(options, scene);
-  const Json json = describe(scene);
+  Json json = describe(scene);
+  json["motion"] = options.is_still ? Json() : describe_motion(scene);
+  if (const std::string warning = json["motion"].is_null() ? "" : json["motion"].value("warning", "");
+      !warning.empty()) {
+    json["warnings"].push_back(warning);
+  }
   if (options.as_json) {
     fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
   } else {
@@ -364,6 +371,7 @@ void add_check_command(CLI::App& program) {
   command->add_flag("--json", options->as_json, "As JSON, for programs");
   command->add_flag("--scene", options->as_scene,
                     "Print the scene file alone: of a built-in scene, or the one made for a mesh");
+  command->add_flag("--still", options->is_still, "Take no steps to see how it moves");
   command->footer(
       "Examples:\n"
       "  pliant check my_scene.json --set settings.time_step=0.002\n"

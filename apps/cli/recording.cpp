@@ -10,6 +10,7 @@
 
 #include "commands.h"
 #include "interrupts.h"
+#include "motion_advice.h"
 #include "number_option.h"
 #include "pliant/core/printable.h"
 #include "pliant_io/checkpoint/checkpoint.h"
@@ -87,7 +88,31 @@ void print_missed(const pliant::MissedTolerance& missed) {
 struct RunEnd {
   pliant::RunInfo& info;
   double contact_seconds = 0;
+  std::string far_from_converged{};  ///< what to say of the worst step; empty: nothing
 };
+
+/// Whether it is looked at how far the next step ends from where it should: seldom, since it takes many iterations.
+bool looks_at_step(std::int64_t step) {
+  std::int64_t looked_at = 30;
+  while (looked_at < step) looked_at *= 10;
+  return step == looked_at;
+}
+
+/// False when it was given up after an interrupt.
+bool look_at_step(Scene& scene, RunEnd& end) {
+  std::optional<pliant::StepError> error;
+  try {
+    error = find_step_error(scene.simulation);
+  } catch (const pliant::Error& given_up) {
+    if (given_up.kind() == pliant::ErrorKind::interrupted) return false;
+    throw;
+  }
+  if (!error || (end.info.worst_step && end.info.worst_step->share >= error->share)) return true;
+  end.info.worst_step = pliant::WorstStep{scene.simulation.state().step, scene.simulation.body(error->body).name,
+                                          error->distance, error->share};
+  end.far_from_converged = far_from_converged_text(scene.simulation, *error);
+  return true;
+}
 
 void simulate(Scene& scene, pliant::Recorder& recorder, const fs::path& checkpoint, const RecordingOptions& options,
               RunEnd& end) {
@@ -107,6 +132,7 @@ void simulate(Scene& scene, pliant::Recorder& recorder, const fs::path& checkpoi
     if (every > 0 && step % every == 0 && step < scene.steps) pliant::write_checkpoint(checkpoint, scene);
     warnings.print(scene.simulation, progress);
     progress.update(step, recorder.residual());
+    if (step < scene.steps && looks_at_step(step) && !look_at_step(scene, end)) break;
   }
   pliant::write_checkpoint(checkpoint, scene);
 }
@@ -220,6 +246,7 @@ int record_scene(Scene& scene, const fs::path& folder, pliant::RunInfo info, con
   pliant::end_run(folder, info, scene.simulation);
   if (!options.quiet) print_summary(scene, end, folder);
   print_missed(info.missed_tolerance);
+  if (!end.far_from_converged.empty()) print_to_stderr("warning: " + end.far_from_converged + "\n");
   return interrupted ? exit_interrupted : 0;
 }
 

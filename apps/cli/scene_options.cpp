@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "commands.h"
+#include "motion_advice.h"
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
 #include "pliant/mesh/geometry.h"
@@ -106,8 +107,7 @@ std::string assumptions_text(const SceneArguments& arguments, const pliant::Scen
     text += fmt::format("  material  {}\n", pliant::printable(material));
   text += groups_text(simulation);
   text += fmt::format("  forces    {}\n", forces_text(simulation));
-  text += fmt::format("  steps     {} of {:.4g} s, {} iterations each\n", scene.steps, settings.time_step,
-                      settings.iterations);
+  text += fmt::format("  steps     {} of {:.4g} s, {}\n", scene.steps, settings.time_step, steps_text(settings));
   return text + fmt::format("  --set changes this; `pliant check {} --scene` prints it as a scene file\n", name);
 }
 

@@ -9,5 +9,6 @@
 #include "pliant/mesh/shapes.h"
 #include "pliant/mesh/topology.h"
 #include "pliant/simulation/simulation.h"
+#include "pliant/simulation/step_error.h"
 #include "pliant/timeline/animated_body.h"
 #include "pliant/timeline/timeline.h"

@@ -104,6 +104,27 @@ class Run(unittest.TestCase):
         self.assertEqual(done.stderr, "")
         self.assertEqual(self.run_info()["missed_tolerance"], {"steps": 0, "worst_residual": 0})
 
+    def test_far_from_converged_is_told_with_what_helps(self):
+        cloth = {"mesh": {"shape": "grid", "columns": 20, "rows": 20, "plane": "xy"}, "material": "denim",
+                 "constraints": [{"type": "position", "on": [380, 399]}]}
+        scene = {"pliant": 1, "steps": 40,
+                 "settings": {"integrator": "implicit_euler", "acceleration": "none", "iterations": 2},
+                 "bodies": [cloth]}
+        path = self.folder / "cloth.json"
+        path.write_text(json.dumps(scene))
+        done = self.pliant("run", path, "--out", self.out, "--quiet")
+        self.assertRegex(done.stderr, r"^warning: far from converged: 2 iterations leave 'body 0' .* mm from where a step "
+                         r"ends, .*; give --set settings.acceleration=lbfgs\n$")
+        worst = self.run_info()["worst_step"]
+        self.assertEqual((worst["step"], worst["body"]), (30, "body 0"))
+        self.assertGreater(worst["share"], 0.5)
+        done = self.pliant("run", path, "--out", self.out, "--quiet", "--set", "settings.acceleration=lbfgs", "--set",
+                           "settings.iterations=automatic")
+        self.assertEqual(done.stderr, "")
+        info = self.run_info()
+        self.assertLess(info["worst_step"]["share"], 0.5)
+        self.assertEqual(info["settings"]["iterations"], "automatic")
+
     def test_two_runs_give_the_same_frames_and_replace_each_other(self):
         scene = self.write_scene()
         self.pliant("run", scene, "--out", self.out)

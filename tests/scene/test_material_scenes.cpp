@@ -59,6 +59,30 @@ TEST_CASE("a name is enough: mass, constraints, friction and damping follow") {
   CHECK(scene.simulation.settings().damping == doctest::Approx(2.1).epsilon(1e-12));
 }
 
+TEST_CASE("a scene of materials moves as they look right, but for what it says itself") {
+  const SolverSettings all = sheet_scene(R"("material": "cotton")").simulation.settings();
+  CHECK(all.integrator == Integrator::bdf2);
+  CHECK(all.acceleration == Acceleration::lbfgs);
+  CHECK(all.iterations == 20);
+  const Scene own = sheet_scene(R"("material": "cotton")", R"(, "settings": {"integrator": "implicit_euler"})");
+  CHECK(own.simulation.settings().integrator == Integrator::implicit_euler);
+  CHECK(own.simulation.settings().iterations == 20);
+  const Scene few = sheet_scene(R"("material": "cotton")", R"(, "settings": {"iterations": 3, "damping": 0})");
+  CHECK(few.simulation.settings().iterations == 3);
+  CHECK(few.simulation.settings().damping == 0);
+  CHECK(few.simulation.settings().integrator == Integrator::bdf2);
+  const SolverSettings plain = sheet_scene(R"("mass": {"total": 1})").simulation.settings();
+  CHECK(plain == SolverSettings{});
+}
+
+TEST_CASE("an explicit spring keeps a scene of materials with implicit Euler, which it needs") {
+  const Scene scene = sheet_scene(R"("material": "cotton")",
+                                  R"(, "forces": [{"type": "mouse_spring", "body": "sheet", "vertex": 0,
+                                      "anchor": [0, 0, 1], "stiffness": 10}])");
+  CHECK(scene.simulation.settings().integrator == Integrator::implicit_euler);
+  CHECK(scene.simulation.settings().acceleration == Acceleration::lbfgs);
+}
+
 TEST_CASE("what the scene says itself stays") {
   const Scene scene = sheet_scene(R"("material": "cotton", "mass": {"total": 2}, "contact": {"friction": 0.1},
     "constraints": [{"type": "position", "on": [0]}])",

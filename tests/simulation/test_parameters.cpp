@@ -105,7 +105,7 @@ TEST_CASE("every number, choice and vector of every type is a parameter") {
   };
   const Simulation simulation = make();
   std::size_t count = options_of(simulation, {}).size();
-  CHECK(count == 13);
+  CHECK(count == 15);
   for (const auto& [id, group] : simulation.groups()) {
     const std::string& group_type = group.type;  // a lambda of clang 14 captures no structured binding
     CAPTURE(group_type);

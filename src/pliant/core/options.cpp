@@ -8,6 +8,7 @@ namespace pliant {
 
 std::optional<std::string> range_error(const OptionInfo& info, Real number) {
   const Range& range = info.range;
+  if (!info.word.empty() && number == info.number_of_word) return std::nullopt;
   const bool above = range.excludes_min ? number > range.min : number >= range.min;
   if (std::isfinite(number) && above && number <= range.max) return std::nullopt;
   std::ostringstream message;
@@ -15,6 +16,7 @@ std::optional<std::string> range_error(const OptionInfo& info, Real number) {
   message << number << " is out of range; give a finite number";
   if (range.min > any_number.min) message << (range.excludes_min ? " above " : " from ") << range.min;
   if (range.max < any_number.max) message << " up to " << range.max;
+  if (!info.word.empty()) message << ", or `" << info.word << '`';
   if (!info.unit.empty()) message << " [" << info.unit << ']';
   return message.str();
 }

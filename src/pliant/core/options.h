@@ -115,6 +115,8 @@ struct OptionInfo {
   std::string_view unit;
   std::string_view doc;
   Range range = any_number;
+  std::string_view word = {};  ///< that scene files may have in place of a whole number; it stands for `number_of_word`
+  int number_of_word = 0;
 };
 
 /// What is wrong with a number that is not finite or out of its range, and what to give: "-1 is out of range; give a

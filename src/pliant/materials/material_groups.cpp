@@ -102,4 +102,12 @@ std::vector<GroupId> add_material(Simulation& simulation, BodyId id, const Mater
   return ids;
 }
 
+SolverSettings settings_for_materials() {
+  SolverSettings settings;
+  settings.integrator = Integrator::bdf2;
+  settings.acceleration = Acceleration::lbfgs;
+  settings.iterations = 20;
+  return settings;
+}
+
 }  // namespace pliant

@@ -61,4 +61,8 @@ std::string misfit(const Material& material, const Mesh& mesh);
 std::vector<GroupId> add_material(Simulation& simulation, BodyId body, const Material& material,
                                   const MaterialPlacement& placement = {});
 
+/// With which bodies of materials look right in steps of 1/60 s: BDF2, 20 iterations of L-BFGS. Damping is that of a
+/// material, SurfaceMaterial::damping. benchmarks/NOTES.md has what was tried.
+SolverSettings settings_for_materials();
+
 }  // namespace pliant

@@ -158,7 +158,9 @@ bool with_options(const Group& group, auto&& f) {
 }
 
 void list_settings(const Simulation& simulation, std::vector<Parameter>& list) {
-  SolverSettings::visit(simulation.settings(), ParameterLister{{}, "", "", list});
+  SolverSettings settings = simulation.settings();
+  settings.iterations = iterations_of(settings, simulation.state().iterations);
+  SolverSettings::visit(settings, ParameterLister{{}, "", "", list});
 }
 
 void list_group(const Simulation& simulation, GroupId id, std::vector<Parameter>& list) {

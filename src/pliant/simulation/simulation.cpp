@@ -6,6 +6,7 @@
 #include "pliant/mesh/geometry.h"
 #include "pliant/simulation/divergence_message.h"
 #include "pliant/simulation/let_go_message.h"
+#include "pliant/simulation/step_error.h"
 #include "pliant/simulation/transaction.h"
 #include "pliant/solver/solver.h"
 
@@ -135,6 +136,7 @@ void Simulation::set_stop(std::function<bool()> stop) {
 }
 
 StepReport Simulation::step() {
+  if (settings_.iterations == automatic_iterations && finds_iterations(state_.step)) find_iterations(*this);
   update_problem();
   StepReport report;
   try {
@@ -210,7 +212,7 @@ void Simulation::restore(const State& state) {
   check_rows(state.positions, state_.vertex_count(), "restore: positions");
   check_rows(state.velocities, state_.vertex_count(), "restore: velocities");
   if (state.masses != state_.masses) fail_input("restore: the masses differ; make the simulation of the same bodies");
-  if (state.step < 0 || !std::isfinite(state.time) || !std::isfinite(state.time_excess)) {
+  if (state.step < 0 || state.iterations < 0 || !std::isfinite(state.time) || !std::isfinite(state.time_excess)) {
     fail_input("restore: step " + std::to_string(state.step) + ", time " + std::to_string(state.time) +
                " s: not a state of a simulation; give one that state() has returned");
   }

@@ -1,5 +1,6 @@
 #pragma once
 // Everything about the solver that a user chooses. All of it may be changed between steps.
+#include <algorithm>
 #include <array>
 
 #include "pliant/core/options.h"
@@ -47,6 +48,11 @@ constexpr std::array<std::string_view, 2> choice_names(Precision) {
   return {"double", "mixed"};
 }
 
+/// In place of a number of iterations: as many as a step needs, see SolverSettings::step_error.
+inline constexpr Index automatic_iterations = -1;
+/// How many of those are taken before any have been found.
+inline constexpr Index first_iterations = 20;
+
 struct SolverSettings {
   /// h [s], > 0: a larger one is as stable, with more damping.
   Real time_step = 1.0 / 60;
@@ -54,8 +60,13 @@ struct SolverSettings {
   Integrator integrator = Integrator::implicit_euler;
   /// 1 to 1e6: a step is taken in so many parts, each with its iterations; more damp less, at their cost.
   Index substeps = 1;
-  /// 1 to 1e9: local and global steps in each (sub)step; more are stiffer and livelier.
+  /// 1 to 1e9: local and global steps in each (sub)step; more are stiffer and livelier. `automatic_iterations`: as many
+  /// as bring steps nearer to their end than `step_error`, found anew every now and then (simulation/step_error.h).
   Index iterations = 10;
+  /// > 0: how far automatic iterations may leave a step from its end, as StepError::share.
+  Real step_error = 0.25;
+  /// 5 to 1e6: of automatic iterations no more than so many.
+  Index most_iterations = 100;
   /// `lbfgs` is far nearer to convergence after the same number of iterations, each 1.2 to 1.4 times as slow.
   Acceleration acceleration = Acceleration::automatic;
   /// c [1/s], ≥ 0: the amplitude of vibrations decays as e^(−ct); flight and turning of a body are left alone.
@@ -88,9 +99,18 @@ struct SolverSettings {
                      "a step is taken in so many parts, each with its iterations; more damp less, at their cost",
                      Range{1, 1e6}},
           self.substeps);
-    field(OptionInfo{"iterations", "", "local and global steps in each step; more are stiffer and livelier",
-                     Range{1, 1e9}},
+    field(OptionInfo{"iterations", "",
+                     "local and global steps in each step; more are stiffer and livelier; `automatic`: as many as "
+                     "`step_error` needs",
+                     Range{1, 1e9}, "automatic", automatic_iterations},
           self.iterations);
+    field(OptionInfo{"step_error", "",
+                     "how far automatic iterations may leave a step from its end: as far as so much of the gravity of "
+                     "the earth moves a body in a step",
+                     positive},
+          self.step_error);
+    field(OptionInfo{"most_iterations", "", "of automatic iterations no more than so many", Range{5, 1e6}},
+          self.most_iterations);
     field(OptionInfo{"acceleration", "",
                      "`none`: the plain algorithm; `lbfgs`: L-BFGS, which is far nearer to convergence after the "
                      "same number of iterations, each of them 1.2 to 1.4 times as slow; `automatic`: `lbfgs` where "
@@ -133,5 +153,11 @@ struct SolverSettings {
         self.threads);
   }
 };
+
+/// Those of a step: as given, or as they have been found (0: not yet).
+inline Index iterations_of(const SolverSettings& settings, Index found) {
+  if (settings.iterations != automatic_iterations) return settings.iterations;
+  return std::min(found > 0 ? found : first_iterations, settings.most_iterations);
+}
 
 }  // namespace pliant

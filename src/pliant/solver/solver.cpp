@@ -22,7 +22,9 @@ void Solver::set_settings(const SolverSettings& settings) {
   if (other) system_.set_factorization(std::move(other));
   if (settings.precision != settings_.precision) system_.forget_factor();
   settings_ = settings;
-  history_.reserve(std::min(history_limit, static_cast<std::size_t>(settings_.iterations)));
+  const bool is_automatic = settings_.iterations == automatic_iterations;
+  const Index most = is_automatic ? settings_.most_iterations : settings_.iterations;
+  history_.reserve(std::min(history_limit, static_cast<std::size_t>(most)));
 }
 
 void Solver::set_groups(Index vertex_count, std::vector<ConstraintGroup*> groups) {

@@ -69,6 +69,8 @@ class Solver {
   int thread_count() const { return threads_.active(); }
 
  private:
+  /// In each substep: given, or found for this state.
+  Index iterations(const State& state) const { return iterations_of(settings_, state.iterations); }
   Real substep() const { return settings_.time_step / static_cast<Real>(settings_.substeps); }
   bool projects_energy() const { return settings_.energy_projection > 0; }
   StepContext context(const State& state);

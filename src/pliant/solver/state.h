@@ -21,6 +21,9 @@ struct State {
   Positions previous_velocities{};
   Real previous_time_step = 0;  ///< [s]
 
+  /// Of the next steps, where the settings leave them to be found; 0: none have been found yet.
+  Index iterations = 0;
+
   /// What energy projection has let components have too much and does not give them back, at one vertex of each, m
   /// numbers [J]; empty: nothing.
   std::vector<Real> energy_surplus{};

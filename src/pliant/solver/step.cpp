@@ -36,7 +36,7 @@ void Solver::take_substep(State& state, StepReport& report) {
   if (contact_.is_active()) begin_contact(state);                 //     and nothing inside a collider
   descent_.begin(context(state));                                 //
   bool reached_tolerance = false;                                 //
-  for (Index i = 0; i < settings_.iterations; ++i) {              // 4
+  for (Index i = 0; i < iterations(state); ++i) {                 // 4
     const LocalResult local = local_step(state, i, report);       // 5   r = M/η² (s − q) + Σ w SᵀAᵀ (p − z)
     reached_tolerance = local.residual <= settings_.tolerance;    //
     if (reached_tolerance && i > 0) break;                        //     at least one iteration a step
@@ -129,7 +129,7 @@ LocalResult Solver::local_step(const State& state, Index iteration, StepReport& 
   threads_.begin_iteration();
   const Stopwatch watch;
   LocalResult local = descent_.local_step(context(state), work_, report);
-  if (contact_.is_refresh_due(iteration, settings_.iterations, local.residual <= settings_.tolerance)) {
+  if (contact_.is_refresh_due(iteration, iterations(state), local.residual <= settings_.tolerance)) {
     descent_.settle(context(state), work_, local);
     const bool touches = local.contact > 0;
     contact_.refresh(work_, local, threads_.pool());

@@ -336,6 +336,10 @@ State read_state(const Node& node, const State& fresh) {
     for (Positions* rows : {&state.previous_positions, &state.previous_velocities}) rows->resizeLike(state.positions);
     read_rows(*previous, state.previous_positions, state.previous_velocities);
   }
+  if (const auto iterations = node.find("iterations")) {
+    read(*iterations, state.iterations);
+    if (state.iterations < 1) iterations->fail("not 1 or more; take another checkpoint");
+  }
   if (const auto contact = node.find("contact")) state.contact = read_contact(*contact, fresh);
   if (const auto surplus = node.find("energy_surplus")) {
     state.energy_surplus.resize(state.masses.size());

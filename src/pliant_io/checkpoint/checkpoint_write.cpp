@@ -143,6 +143,7 @@ Json write_state(const State& state) {
                         {"positions", bytes_of(state.previous_positions)},
                         {"velocities", bytes_of(state.previous_velocities)}};
   }
+  if (state.iterations > 0) json["iterations"] = state.iterations;
   if (!state.contact.is_empty()) json["contact"] = write_contact(state.contact);
   if (!state.energy_surplus.empty()) json["energy_surplus"] = bytes_of(state.energy_surplus);
   return json;

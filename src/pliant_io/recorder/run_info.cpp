@@ -22,6 +22,9 @@ struct OptionWriter {
   void operator()(const OptionInfo& info, const Option& option) const {
     if constexpr (std::is_enum_v<Option>) {
       json[std::string(info.name)] = choice_names(option)[static_cast<std::size_t>(option)];
+    } else if constexpr (std::is_same_v<Option, Index>) {
+      const bool is_word = !info.word.empty() && option == info.number_of_word;
+      json[std::string(info.name)] = is_word ? OrderedJson(info.word) : OrderedJson(option);
     } else {
       json[std::string(info.name)] = option;
     }
@@ -105,6 +108,12 @@ void write_run_info(const std::filesystem::path& path, const RunInfo& info, cons
   if (info.last_frame) json["totals"]["last_frame_crc32"] = *info.last_frame;
   json["missed_tolerance"] = {{"steps", info.missed_tolerance.steps},
                               {"worst_residual", info.missed_tolerance.worst_residual}};
+  if (info.worst_step) {
+    json["worst_step"] = {{"step", info.worst_step->step},
+                          {"body", info.worst_step->body},
+                          {"distance", info.worst_step->distance},
+                          {"share", info.worst_step->share}};
+  }
   // Names may hold bytes that are not UTF-8, such as a path's; they must not cost the file.
   write_file_atomically(path, json.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + '\n');
 }

@@ -22,6 +22,14 @@ struct MissedTolerance {
   double worst_residual = 0;  ///< largest force left on a vertex in any of them [N], before its last iteration
 };
 
+/// How far the iterations left a step from its end (StepError), of the steps that were looked at the worst.
+struct WorstStep {
+  std::int64_t step = 0;
+  std::string body;
+  double distance = 0;  ///< [m]
+  double share = 0;
+};
+
 /// What the simulation does not know about its run.
 struct RunInfo {
   std::string scene;         ///< its name
@@ -33,7 +41,8 @@ struct RunInfo {
   std::optional<std::int64_t> resumed_from;  ///< step at which this run went on
   std::optional<std::uint32_t> last_frame;   ///< its checksum (frame_checksum); none: no frame was recorded
   double wall_seconds = 0;
-  MissedTolerance missed_tolerance;  ///< since the start of the run, or since it was resumed
+  MissedTolerance missed_tolerance;     ///< since the start of the run, or since it was resumed
+  std::optional<WorstStep> worst_step;  ///< of those that were looked at, since the start or since it was resumed
   Outcome outcome = Outcome::running;
   std::string error;  ///< the message when it did not end well
 };

@@ -174,20 +174,15 @@ Scene make_mesh_scene(const std::filesystem::path& file, const ImportOptions& im
   MeshSceneJson mesh_json = {{"file", file.filename().string()}, {"scale", scale}, {"up", up}};
   if (import.drop_loose) mesh_json["drop_loose"] = true;
   MeshSceneJson body = {{"name", file.stem().string()}, {"mesh", std::move(mesh_json)}};
-  MeshSceneJson settings = {{"iterations", 20}};
+  const MeshSceneJson settings = {{"integrator", "bdf2"}, {"iterations", 20}, {"acceleration", "lbfgs"}};
   const bool is_cloth = kind == MeshKind::cloth;
-  if (is_cloth) {
-    body["material"] = "cotton";
-    settings = {{"integrator", "bdf2"}, {"iterations", 20}, {"acceleration", "lbfgs"}};
-  }
+  if (is_cloth) body["material"] = "cotton";
   if (!is_cloth || has_lower_elements_alone(mesh)) body["mass"] = mass_json(mesh, material, scale / import.scale);
   body["constraints"] = constraints_json(mesh, kind, material, pins);
   const std::string description =
       fmt::format("{} of {} vertices, pinned at {}{}", material.text, mesh.vertex_count(), pins.text, remark);
-  const MeshSceneJson scene = {{"pliant", 1},
-                               {"description", description},
-                               {"settings", std::move(settings)},
-                               {"bodies", MeshSceneJson::array({body})}};
+  const MeshSceneJson scene = {
+      {"pliant", 1}, {"description", description}, {"settings", settings}, {"bodies", MeshSceneJson::array({body})}};
   std::string text;
   try {
     text = scene.dump(2);

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "pliant/core/printable.h"
+#include "pliant/materials/material_groups.h"
 #include "pliant_io/files/read_file.h"
 #include "pliant_io/scene/detail/option_reader.h"
 #include "pliant_io/scene/detail/resolve_scene.h"
@@ -75,6 +76,23 @@ void for_each_entry(const Node& root, std::string_view key, auto&& f) {
   for (std::size_t i = 0; i < list->size(); ++i) f((*list)[i]);
 }
 
+/// What a scene of materials leaves open is as they look right, unless a force refuses it.
+void choose_settings_of_materials(const Node& root, std::optional<Real> damping, Simulation& simulation) {
+  if (!damping) return;
+  const auto given = root.find("settings");
+  const auto is_open = [&](const char* key) { return !given || !given->has(key); };
+  const auto is_explicit = [](const auto& entry) { return entry.second->is_explicit_spring(); };
+  const SolverSettings good = settings_for_materials();
+  SolverSettings settings = simulation.settings();
+  if (is_open("damping")) settings.damping = *damping;
+  if (is_open("integrator") && std::ranges::none_of(simulation.forces(), is_explicit)) {
+    settings.integrator = good.integrator;
+  }
+  if (is_open("acceleration")) settings.acceleration = good.acceleration;
+  if (is_open("iterations")) settings.iterations = good.iterations;
+  simulation.set_settings(settings);
+}
+
 void read_simulation(const Node& root, Scene& scene) {
   SolverSettings settings;
   read_group_of_options(root, "settings", settings);
@@ -85,11 +103,6 @@ void read_simulation(const Node& root, Scene& scene) {
   SceneReader reader(scene.simulation, scene.timeline);
   if (const auto materials = root.find("materials")) reader.materials = read_materials(*materials);
   for_each_entry(root, "bodies", [&](const Node& node) { reader.read_body(node); });
-  const auto given = root.find("settings");
-  if (const auto damping = reader.damping_of_materials(); damping && !(given && given->has("damping"))) {
-    settings.damping = *damping;
-    scene.simulation.set_settings(settings);
-  }
   for (const auto& [id, material] : reader.material_of) scene.materials.emplace(id, material.name);
   Index body = 0;
   for_each_entry(root, "bodies", [&](const Node& node) { reader.read_body_contact(node, BodyId{body++}); });
@@ -98,6 +111,7 @@ void read_simulation(const Node& root, Scene& scene) {
   for_each_entry(root, "forces", [&](const Node& node) { reader.read_force(node); });
   if (const auto contact = root.find("contact")) reader.read_contact(*contact);
   for_each_entry(root, "colliders", [&](const Node& node) { reader.read_collider(node); });
+  choose_settings_of_materials(root, reader.damping_of_materials(), scene.simulation);
   reader.read_events(root);
   scene.has_surfaces = scene.simulation.contact().surfaces || reader.has_later_surfaces;
   std::ranges::move(reader.warnings, std::back_inserter(scene.warnings));

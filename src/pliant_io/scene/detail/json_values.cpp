@@ -149,7 +149,10 @@ void read(const Node& node, Color& color) {
 
 void check_range(const Node& value, const OptionInfo& info) {
   if (value.is_number()) {
-    if (const auto error = range_error(info, value.number())) value.fail(*error);
+    const bool is_of_word = !info.word.empty() && value.number() == info.number_of_word;  // which must be written
+    OptionInfo known = info;
+    if (is_of_word) known.word = {};
+    if (const auto error = range_error(known, value.number())) value.fail(*error);
   } else if (value.is_list()) {
     for (std::size_t i = 0; i < value.size(); ++i) check_range(value[i], info);
   }

@@ -1,5 +1,7 @@
 #pragma once
 // Options from JSON, written once over the list that every type makes of its options (core/options.h).
+#include <fmt/format.h>
+
 #include "pliant_io/scene/detail/json_values.h"
 #include "pliant_io/scene/detail/read_map.h"
 #include "pliant_io/scene/detail/selection.h"
@@ -40,9 +42,17 @@ struct OptionReader {
       if constexpr (std::is_same_v<Option, Values>) {
         if (value.is_object() && body != nullptr) return read_map_option(info, value, option);
       }
+      if constexpr (std::is_same_v<Option, Index>) {
+        if (!info.word.empty() && value.is_text()) return read_word(info, value, option);
+      }
       read(value, option);
       check_range(value, info);
     }
+  }
+
+  static void read_word(const OptionInfo& info, const Node& value, Index& option) {
+    if (value.text() != info.word) value.fail(fmt::format("give a whole number, or \"{}\"", info.word));
+    option = info.number_of_word;
   }
 
   void read_map_option(const OptionInfo& info, const Node& value, Values& option) const {

@@ -36,6 +36,12 @@ SchemaJson choice_schema(std::span<const std::string_view> names) {
   return {{"enum", std::move(list)}};
 }
 
+SchemaJson value_schema(const OptionInfo& info, const Index&) {
+  const SchemaJson number = number_schema("integer", info.range);
+  if (info.word.empty()) return number;
+  return {{"anyOf", {number, {{"const", info.word}}}}};
+}
+
 SchemaJson value_schema(const OptionInfo& info, const Values&) {
   SchemaJson list = list_schema(number_schema("number", info.range));
   list["minItems"] = 1;

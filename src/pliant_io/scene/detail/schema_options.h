@@ -40,9 +40,7 @@ SchemaJson choice_schema(std::span<const std::string_view> names);
 inline SchemaJson value_schema(const OptionInfo& info, const Real&) {
   return number_schema("number", info.range);
 }
-inline SchemaJson value_schema(const OptionInfo& info, const Index&) {
-  return number_schema("integer", info.range);
-}
+SchemaJson value_schema(const OptionInfo& info, const Index&);
 inline SchemaJson value_schema(const OptionInfo& info, const std::int64_t&) {
   return number_schema("integer", info.range);
 }

@@ -1,0 +1,37 @@
+#pragma once
+// How far the iterations of a step leave it from where it should end, and how many are enough.
+#include "pliant/simulation/simulation.h"
+
+namespace pliant {
+
+/// How far a step ends from where it would with a great many iterations, of the body in which that is farthest. What
+/// matters is what it does to a motion: bodies are then accelerated by e/h² too much or too little, so that cloth falls
+/// slowly, stands off its own folds and does not swing.
+struct StepError {
+  BodyId body{};
+  Real distance = 0;      ///< e, the root of the mean square over the mass of the body [m]
+  Real acceleration = 0;  ///< e/h² [m/s²]
+  /// Of that the share in the gravity of the earth, or in how strongly the step accelerates the body, if that is more.
+  Real share = 0;
+};
+
+inline constexpr Real standard_gravity = 9.80665;  ///< [m/s²]
+
+/// From here on it shows.
+inline constexpr Real far_from_converged = 0.5;
+
+/// Takes the coming step twice, with the iterations that it will have and with eight times as many and L-BFGS, at least
+/// 160, and leaves the state as it was: steps to come have the same bits either way. Costs as many iterations. What
+/// contacts(), evaluate() and objective_history() tell is not of the last step then. Nothing where the step diverges.
+/// @throws Error (interrupted) when it is given up (Simulation::set_stop)
+std::optional<StepError> find_step_error(Simulation& simulation);
+
+/// Whether automatic iterations are to be found before this step: 10, 30, 90, and each 180th.
+bool finds_iterations(std::int64_t step);
+
+/// Finds iterations for the coming steps, as StepError of the coming one tells, and puts them into the state. Half as
+/// many more are tried until their error is no larger than the setting, and a third fewer where it is less than half of
+/// that. Throws as find_step_error().
+void find_iterations(Simulation& simulation);
+
+}  // namespace pliant
