@@ -51,7 +51,7 @@ struct OptionReader {
   }
 
   static void read_word(const OptionInfo& info, const Node& value, Index& option) {
-    if (value.text() != info.word) value.fail(fmt::format("give a whole number, or \"{}\"", info.word));
+    if (value.text() != info.word) value.fail(fmt::format("found a string; give a whole number, or \"{}\"", info.word));
     option = info.number_of_word;
   }
 
