@@ -7,7 +7,7 @@ Without --only: a dress of panels, a skirt, a curtain, a flag, a towel and a soc
 that is, as given and subdivided once and twice. Each finer level has half the edge length. Scenes, meshes, runs, pictures and
 `garments.csv` (stretch past the limits at most and at the end, mean speed in the last second, smallest gap, crossings of a body
 with itself at the end, median time a step) are in FOLDER, default out/garments. --material makes all of them of one material; --materials one garment (the first of --only, a skirt by default) of
-each. --strip draws five moments of each in a row, in place of its end. Needs python3-numpy and python3-pil.
+each. --strip draws six moments of each, in place of its end. Needs python3-numpy and python3-pil.
 """
 import argparse
 import copy
@@ -256,7 +256,7 @@ class Studio:
         self.table.append(row)
         print(" ".join(f"{key}={value}" for key, value in row.items()), flush=True)
         picture = folder / ("strip.png" if self.is_strip else "end.png")
-        more = ["--size", "1800x360", "--frames", "5", "--sheet"] if self.is_strip else ["--size", "480x480"]
+        more = ["--size", "1260x1260", "--frames", "6", "--sheet"] if self.is_strip else ["--size", "480x480"]
         subprocess.run([self.pliant, "render", run, "--out", picture, "--quiet", *more], check=True, capture_output=True)
         return picture, f"{garment}, {material}, {row['vertices']} vertices"
 
