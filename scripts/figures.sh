@@ -34,6 +34,7 @@ picture pillow pillow --steps 150 --color energy
 picture net net --steps 200
 picture towel towel
 picture dancer dancer --steps 240
+"$pliant" render dress_from_panels --out "$out/sewn_dress.png" --size 960x1000 --frames 8 --sheet --quiet
 "$pliant" render torus --out "$out/torus.png" --size 960x540 --steps 140 --frames 6 --sheet --wireframe --quiet
 
 # Of the report on the torus, the last three pictures: jumps of 1 m without bending, with absolute, with signed bending.

@@ -49,7 +49,9 @@ def numeric_options(text):
 
 
 # Defaults that the tables tell in words.
-POINTS = {("tube", "points"): [[0, 0, 0], [0, 0, 1]]}
+POINTS = {("tube", "points"): [[0, 0, 0], [0, 0, 1]],
+          ("panel", "bottom"): [[0, 0, 0], [1, 0, 0]], ("panel", "top"): [[0, 0, 1], [1, 0, 1]],
+          ("panel", "left"): [[0, 0, 0.5]], ("panel", "right"): [[1, 0, 0.5]]}
 
 
 def shapes():

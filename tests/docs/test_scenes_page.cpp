@@ -128,6 +128,7 @@ TEST_CASE("the tables list every option") {
   check_rows<Camera>();
   check_rows<ImportOptions>();
   check_shape<GridOptions>();
+  check_shape<PanelOptions>();
   check_shape<NetOptions>();
   check_shape<PillowOptions>();
   check_shape<TorusOptions>();

@@ -432,6 +432,7 @@ TEST_CASE("shapes too large for memory are refused, not tried") {
   };
   refused([] { grid({.columns = huge, .rows = huge}); },
           "grid: columns and rows ask for 4.61e+18 vertices; stay under");
+  refused([] { panel({.columns = huge, .rows = huge}); }, "panel: columns and rows ask for 4.61e+18 vertices");
   refused([] { net({.columns = huge, .rows = huge}); }, "net: columns and rows ask for 4.61e+18 vertices");
   refused([] { pillow({.columns = huge, .rows = huge}); }, "pillow: columns and rows ask for 9.22e+18 vertices");
   refused([] { torus({.major_segments = huge, .minor_segments = huge}); }, "ask for 4.61e+18 vertices");

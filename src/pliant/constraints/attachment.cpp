@@ -218,7 +218,7 @@ class AttachmentBuilder {
     const bool is_as_it_is = options_.keep_distance || now <= rounding_;
     const Real end = is_as_it_is ? std::max(now, options_.length) : options_.length;
     std::array<Real, 5> fields = {end, end, std::max(now, end), from_.time, options_.closing_time};
-    AttachmentProjection::go_to(from_.time, fields.data());
+    fields[0] = AttachmentProjection::length_at(from_.time, fields.data());
     batch.add(stencil, reduction, measure, fields);
   }
 

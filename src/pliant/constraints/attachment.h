@@ -94,11 +94,15 @@ struct AttachmentProjection {
     for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = scale * z[axis];
   }
   static Real end_length(const Real* field) { return field[1]; }
-  /// L as it is at a time [s].
-  static void go_to(Real time, Real* field) {
+  static Real length_at(Real time, const Real* field) {
     const Real elapsed = time - field[3];
     const bool is_closed = elapsed >= field[4] * (1 - 1e-9);
-    field[0] = is_closed ? field[1] : field[2] + (field[1] - field[2]) * (std::max<Real>(elapsed, 0) / field[4]);
+    return is_closed ? field[1] : field[2] + (field[1] - field[2]) * (std::max<Real>(elapsed, 0) / field[4]);
+  }
+  /// L as it is at the end of a step, from one time to another [s]; whether it has been another one at the beginning.
+  static bool go_to(Real from, Real to, Real* field) {
+    field[0] = length_at(to, field);
+    return field[0] != length_at(from, field);
   }
 };
 

@@ -13,7 +13,7 @@
 //     static constexpr bool limits_stretches = true;  // z is a stretch or F, and p has stretches between limits
 //     static constexpr bool is_difference = true;     // A is (−1, 1), which its kernel need not read
 //     static void begin_step(const Positions& q, std::span<const Index> stencil, Real* fields);
-//     static void go_to(Real time, Real* fields);     // to the end of a step: numbers that follow from the time alone
+//     static bool go_to(Real from, Real to, Real* fields);   // what follows from the time alone; whether it changes
 #include <array>
 #include <cmath>
 #include <string>
@@ -102,10 +102,12 @@ class Batch final : public ConstraintGroup {
   bool limits_stretches() const override { return has_stretches; }
   void begin_step(const StateView& state, [[maybe_unused]] Real time_step) override {
     const auto n = static_cast<std::size_t>(vertices());
+    bool is_driven = false;
     for (std::size_t i = 0; (has_begin_step || goes_with_time) && i < rest_measure_.size(); ++i) {
-      if constexpr (goes_with_time) Type::go_to(state.time + time_step, field(i));
+      if constexpr (goes_with_time) is_driven |= Type::go_to(state.time, state.time + time_step, field(i));
       if constexpr (has_begin_step) Type::begin_step(state.positions, std::span(stencil_).subspan(i * n, n), field(i));
     }
+    set_driven(is_driven);
   }
 
   Real project(const Positions& positions, std::span<Real> out, Index begin, Index end) const override {
@@ -133,8 +135,7 @@ class Batch final : public ConstraintGroup {
 
   /// Writes w (p − z) of constraint i; returns its energy.
   Real project_one(const Real* positions, std::size_t i, Real* to) const {
-    std::array<Real, size> z;
-    std::array<Real, size> p;
+    std::array<Real, size> z, p;
     const auto n = static_cast<std::size_t>(vertices());
     sum_stencil<Type::rows, Type::translation_invariant>(positions, std::span<const Index>(stencil_).subspan(i * n, n),
                                                          reduction_.data() + i * n * Type::rows, z.data());
@@ -148,7 +149,6 @@ class Batch final : public ConstraintGroup {
     }
     return weight / 2 * squared;
   }
-
   /// What the kernel of the type writes, and for what that leaves the same, one by one.
   Real project_together(const Positions& positions, std::span<Real> out, Index begin, Index end) const {
     static_assert(Type::translation_invariant);
@@ -180,8 +180,8 @@ class Batch final : public ConstraintGroup {
     if constexpr (requires { Type::is_difference; }) {
       if (reduction[0] != -1 || reduction[1] != 1) fail_input(std::string(type_) + ": its coefficients are -1, 1");
     }
-    if (!Type::translation_invariant) return;
-    for (std::size_t row = 0; row < Type::rows; ++row) check_sum_of_row(type_, reduction.subspan(row * n, n));
+    for (std::size_t row = 0; Type::translation_invariant && row < Type::rows; ++row)
+      check_sum_of_row(type_, reduction.subspan(row * n, n));
   }
 
   int vertices() const { return Type::vertices == dynamic_vertices ? vertices_ : Type::vertices; }

@@ -65,6 +65,7 @@ std::unique_ptr<ConstraintGroup> ConstraintGroup::reordered(std::span<const Inde
 
 void ConstraintGroup::sync_parameters(const ConstraintGroup& from, std::span<const Index>) {
   stiffness_ = from.stiffness_;
+  is_driven_ = from.is_driven_;
 }
 
 namespace {

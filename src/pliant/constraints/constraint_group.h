@@ -66,6 +66,9 @@ class ConstraintGroup {
   /// its forces, and none of its energy as elastic energy. So do groups with targets (soft pins, drags), and those that
   /// a force brings.
   virtual bool is_external();
+  /// The same of this step alone: true of external groups too, and of ties that are drawn together, whose length goes
+  /// with the time. begin_step() has found out.
+  bool works_from_outside() { return is_driven_ || is_external(); }
 
   /// Whether z of its constraints is a stretch or a gradient made of stretches, and ‖z − p‖ how far these are past
   /// their limits.
@@ -103,10 +106,12 @@ class ConstraintGroup {
  protected:
   explicit ConstraintGroup(Real stiffness = 1) { set_stiffness(stiffness); }
   void changed() { ++revision_; }
+  void set_driven(bool is_driven) { is_driven_ = is_driven; }
 
  private:
   Real stiffness_ = 1;
   std::uint64_t revision_ = 0;
+  bool is_driven_ = false;
 };
 
 /// Rows of a constraint that are turned into forces at once.

@@ -98,7 +98,7 @@ void ContactEnergy::mark_driven(const System& system, const WorkingState& work) 
     if (moves) is_driven_[at(component_of_vertex[at(v)])] = 1;
   }
   for (ConstraintGroup* group : system.groups()) {
-    if (!group->is_external()) continue;
+    if (!group->works_from_outside()) continue;
     for (const Index v : group->stencil()) is_driven_[at(component_of_vertex[at(v)])] = 1;
   }
 }

@@ -55,7 +55,7 @@ void EnergyProjection::evaluate_elastic(const StepContext& step, const Positions
 /// What external groups do counts as from outside: their V is left out, so their forces are too.
 void EnergyProjection::add_external_groups(const System& system, const Positions& q) {
   for (ConstraintGroup* group : system.groups()) {
-    if (!group->is_external()) continue;
+    if (!group->works_from_outside()) continue;
     const auto rows = static_cast<std::size_t>(group->shape().rows);
     slots_.resize(3 * rows);
     for (Index i = 0; i < group->shape().count; ++i) {

@@ -262,7 +262,7 @@ void LocalStep::elastic_energies(const Positions& q, std::span<Real> of_componen
   for (std::size_t c = 0; c < chunks_.size(); ++c) {
     const Chunk& chunk = chunks_[c];
     ConstraintGroup& group = *groups_[chunk.group];
-    if (group.is_external()) continue;
+    if (group.works_from_outside()) continue;
     if (chunk.component != mixed) {
       of_components[static_cast<std::size_t>(chunk.component)] += chunk_energies_[c];
       continue;

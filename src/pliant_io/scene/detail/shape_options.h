@@ -6,11 +6,14 @@
 
 namespace pliant {
 
-using Shapes = std::tuple<GridOptions, NetOptions, PillowOptions, TorusOptions, SphereOptions, CylinderOptions,
-                          CapsuleOptions, TubeOptions, BarOptions, ChainOptions>;
+using Shapes = std::tuple<GridOptions, PanelOptions, NetOptions, PillowOptions, TorusOptions, SphereOptions,
+                          CylinderOptions, CapsuleOptions, TubeOptions, BarOptions, ChainOptions>;
 
 inline Mesh make_shape(const GridOptions& options) {
   return grid(options);
+}
+inline Mesh make_shape(const PanelOptions& options) {
+  return panel(options);
 }
 inline Mesh make_shape(const NetOptions& options) {
   return net(options);
