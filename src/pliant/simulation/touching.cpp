@@ -21,7 +21,8 @@ constexpr Real distance_without_edges = 0.005;
 
 Real contact_distance_of(const Mesh& mesh) {
   std::vector<Real> lengths;
-  for (const Edge& edge : unique_edges(mesh)) {
+  const bool is_carried = !mesh.embedding.is_empty();  // its edges are then those of the surface, not of the lattice
+  for (const Edge& edge : is_carried ? edge_triangles(mesh).edges : unique_edges(mesh)) {
     const Real length = (mesh.vertices.row(edge[0]) - mesh.vertices.row(edge[1])).norm();
     if (length > 0) lengths.push_back(length);
   }
