@@ -155,7 +155,9 @@ Json describe_bodies(const Scene& scene) {
   const Simulation& simulation = scene.simulation;
   Json bodies = Json::array();
   for (Index id = 0; const Body& body : simulation.bodies()) {
-    const pliant::BoundingBox box = pliant::bounding_box(body.mesh.vertices);
+    const Index carried = body.mesh.embedding.carried_count();  // what the lattice sticks out by is not the body
+    const pliant::BoundingBox box =
+        pliant::bounding_box(body.mesh.vertices.topRows(carried > 0 ? carried : body.mesh.vertex_count()));
     const pliant::Vec3 size = box.max - box.min;
     bodies.push_back({{"name", body.name},
                       {"vertices", body.mesh.vertex_count()},

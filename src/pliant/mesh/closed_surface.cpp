@@ -27,14 +27,16 @@ void require_triangles_alone(const Mesh& mesh, std::string_view name) {
     fail_input(fmt::format("{}: the mesh has no triangles; a solid is made of a closed surface", name));
   }
   if (!mesh.edges.empty()) {
-    fail_input(fmt::format("{}: the mesh has {} edge elements, such as ({}, {}), beside its triangles; make a body of "
-                           "its own of them",
-                           name, mesh.edges.size(), mesh.edges[0][0], mesh.edges[0][1]));
+    fail_input(
+        fmt::format("{}: the mesh has {} edge elements, such as ({}, {}), beside its triangles; make a body of "
+                    "its own of them",
+                    name, mesh.edges.size(), mesh.edges[0][0], mesh.edges[0][1]));
   }
   if (const std::vector<Index> loose = loose_vertices(mesh); !loose.empty()) {
-    fail_input(fmt::format("{}: vertex {} is in no triangle, of {} such; leave them out: \"drop_loose\": true with the "
-                           "file",
-                           name, loose.front(), loose.size()));
+    fail_input(
+        fmt::format("{}: vertex {} is in no triangle, of {} such; leave them out: \"drop_loose\": true with the "
+                    "file",
+                    name, loose.front(), loose.size()));
   }
 }
 
@@ -51,11 +53,12 @@ void require_triangles_alone(const Mesh& mesh, std::string_view name) {
   constexpr std::size_t shown = 5;
   const std::span first(loop.data(), std::min(loop.size(), shown));
   const std::string others = loops.size() == 1 ? "" : fmt::format(", and {} more such", loops.size() - 1);
-  fail_input(fmt::format(
-      "{}: the surface is open: a loop of {} edges, {:.3g} m long, about ({:.3g}, {:.3g}, {:.3g}), with the vertices {}{}"
-      "{}; close it, or merge vertices that lie on each other",
-      name, loop.size(), length, middle[0], middle[1], middle[2], fmt::join(first, ", "),
-      loop.size() > shown ? ", ..." : "", others));
+  fail_input(
+      fmt::format("{}: the surface is open: a loop of {} edges, {:.3g} m long, about ({:.3g}, {:.3g}, {:.3g}), with "
+                  "the vertices {}{}"
+                  "{}; close it, or merge vertices that lie on each other",
+                  name, loop.size(), length, middle[0], middle[1], middle[2], fmt::join(first, ", "),
+                  loop.size() > shown ? ", ..." : "", others));
 }
 
 /// Joins triangles across edges, each of which must have two.
@@ -66,9 +69,10 @@ TurnedSheets sheets_of(const Mesh& mesh, std::string_view name) {
     const Edge edge = {uses[0].low, uses[0].high};
     if (uses.size() == 1) boundary.push_back(edge);
     if (uses.size() > 2) {
-      fail_input(fmt::format("{}: the edge between vertices {} and {} has {} triangles, and the surface of a solid has "
-                             "two at each; take inner walls out, or give parts that touch vertices of their own",
-                             name, edge[0], edge[1], uses.size()));
+      fail_input(
+          fmt::format("{}: the edge between vertices {} and {} has {} triangles, and the surface of a solid has "
+                      "two at each; take inner walls out, or give parts that touch vertices of their own",
+                      name, edge[0], edge[1], uses.size()));
     }
     if (uses.size() == 2) {
       sheets.join(uses[0].triangle(), uses[1].triangle(), uses[0].is_reversed() != uses[1].is_reversed());
@@ -90,9 +94,10 @@ void take_parts(const Mesh& mesh, std::string_view name, ClosedSurface& made) {
   for (Index t = 0; t < count_of(mesh.triangles); ++t) {
     const auto [lowest, is_turned] = sheets.find(t);
     if (sheets.is_unorientable(lowest)) {
-      fail_input(fmt::format("{}: the part of triangle {} has one side only, as a Klein bottle, and so no inside; make "
-                             "it of another surface",
-                             name, lowest));
+      fail_input(
+          fmt::format("{}: the part of triangle {} has one side only, as a Klein bottle, and so no inside; make "
+                      "it of another surface",
+                      name, lowest));
     }
     if (number_of[at(lowest)] < 0) number_of[at(lowest)] = made.part_count++;
     made.part.push_back(number_of[at(lowest)]);

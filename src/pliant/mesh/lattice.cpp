@@ -33,17 +33,18 @@ Real cubes_for(const Vec3& size, Real spacing) {
 
 void check_spacing(const Vec3& size, Real spacing, std::string_view name) {
   if (spacing > size.maxCoeff()) {
-    fail_input(fmt::format("{}: the spacing of {:.4g} m is more than the body's largest side, {:.4g} m; give at most "
-                           "half of its thickness",
-                           name, spacing, size.maxCoeff()));
+    fail_input(
+        fmt::format("{}: the spacing of {:.4g} m is more than the body's largest side, {:.4g} m; give at most "
+                    "half of its thickness",
+                    name, spacing, size.maxCoeff()));
   }
   if (cubes_for(size, spacing) <= max_lattice_cubes) return;
   Real allowed = spacing;
   while (cubes_for(size, allowed) > max_lattice_cubes) allowed *= 1.02;
-  fail_input(fmt::format("{}: a spacing of {:.4g} m asks for {:.3g} cubes of the lattice in the box of {:.3g} x {:.3g} "
-                         "x {:.3g} m around the surface, and {:.3g} are allowed; give {:.2g} m or more",
-                         name, spacing, cubes_for(size, spacing), size[0], size[1], size[2], max_lattice_cubes,
-                         allowed));
+  fail_input(
+      fmt::format("{}: a spacing of {:.4g} m asks for {:.3g} cubes of the lattice in the box of {:.3g} x {:.3g} "
+                  "x {:.3g} m around the surface, and {:.3g} are allowed; give {:.2g} m or more",
+                  name, spacing, cubes_for(size, spacing), size[0], size[1], size[2], max_lattice_cubes, allowed));
 }
 
 /// The middle of the box is a corner of cubes, so that what is symmetric stays so.

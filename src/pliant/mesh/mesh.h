@@ -46,7 +46,7 @@ struct Embedding {
   std::vector<std::array<Real, 4>> weights;  ///< of its corners, from 0 to 1, summing to 1
   std::vector<Real> filled;                  ///< share of each tetrahedron that is inside the surface, above 0 to 1
   Real spacing = 0;                          ///< side of the lattice's cubes [m]
-  std::vector<Real> volumes;                 ///< of each vertex of the mesh [m³], > 0, in all what the surface encloses
+  std::vector<Real> volumes;  ///< of each vertex of the mesh [m³], > 0, in all what the surface encloses
 
   bool is_empty() const { return filled.empty(); }
   Index carried_count() const { return static_cast<Index>(tetrahedra.size()); }
@@ -64,7 +64,7 @@ struct Mesh {
   std::vector<VertexGroup> vertex_groups;       ///< names differ
   std::vector<std::string> material_libraries;  ///< files that define the materials (OBJ `mtllib`), kept unread
   std::vector<VertexMap> maps;                  ///< names differ
-  Embedding embedding;             ///< empty unless tetrahedra carry the triangles
+  Embedding embedding;                          ///< empty unless tetrahedra carry the triangles
   Index collapsed_face_count = 0;  ///< facets of an STL file left out, two of their corners being one vertex
 
   Index vertex_count() const { return static_cast<Index>(vertices.rows()); }

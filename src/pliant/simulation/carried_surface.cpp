@@ -50,9 +50,10 @@ GroupId carry_surface(Simulation& simulation, BodyId id, Real stiffness, std::st
     fail_input(fmt::format("body '{}' carries no surface; make its mesh by lattice_solid", body.name));
   }
   if (!(stiffness >= 0) || !std::isfinite(stiffness)) {
-    fail_input(fmt::format("body '{}': ties have stiffness {}; give one that is finite and above 0, or 0 for {} times "
-                           "that of the body",
-                           body.name, stiffness, tie_ratio));
+    fail_input(
+        fmt::format("body '{}': ties have stiffness {}; give one that is finite and above 0, or 0 for {} times "
+                    "that of the body",
+                    body.name, stiffness, tie_ratio));
   }
   if (stiffness == 0) stiffness = tie_ratio * tetrahedron_stiffness(simulation, id);
   if (stiffness == 0) stiffness = usual_tie_stiffness;

@@ -178,8 +178,8 @@ class LineFilling {
       Real length = 0, moment = 0, from = begin;
       Index winding = walker.go_to(origin_x_ + begin * grid_.side());
       while (true) {
-        const bool is_last = walker.next == walker.crossings.size() ||
-                             walker.crossings[walker.next].x > origin_x_ + end * grid_.side();
+        const bool is_last =
+            walker.next == walker.crossings.size() || walker.crossings[walker.next].x > origin_x_ + end * grid_.side();
         const Real to =
             is_last ? end : std::clamp((walker.crossings[walker.next].x - origin_x_) / grid_.side(), from, end);
         if (winding > 0) length += to - from, moment += (to - from) * (to + from) / 2;
@@ -197,8 +197,8 @@ class LineFilling {
   /// equal parts.
   void add(const std::array<Index, 3>& cube, const Vec3& from_center, Real share) {
     const Vec3 size = from_center.cwiseAbs();
-    const bool is_between = std::abs(size[0] - size[1]) < tie || std::abs(size[1] - size[2]) < tie ||
-                            std::abs(size[2] - size[0]) < tie;
+    const bool is_between =
+        std::abs(size[0] - size[1]) < tie || std::abs(size[1] - size[2]) < tie || std::abs(size[2] - size[0]) < tie;
     if (!is_between) return add(grid_.locate(cube, from_center), share, 1);
     std::array<Eigen::Index, 3> order = {0, 1, 2};
     do {
@@ -263,9 +263,10 @@ LatticeFilling fill_lattice(const LatticeGrid& grid, const Positions& x, const C
     const bool is_last = 2 * fineness > last_fineness || lines_of_one * (4 * fineness * fineness) > most_lines;
     if (error <= good_error || (is_last && error <= largest_error)) return filling.take(surface.volume);
     if (!is_last) continue;
-    fail_input(fmt::format("{}: walls of the surface are too thin for a spacing of {:.4g} m: their volume of {:.3g} m³ "
-                           "is measured wrong by {:.0f} %; give a smaller spacing",
-                           name, grid.side(), surface.volume, 100 * error));
+    fail_input(
+        fmt::format("{}: walls of the surface are too thin for a spacing of {:.4g} m: their volume of {:.3g} m³ "
+                    "is measured wrong by {:.0f} %; give a smaller spacing",
+                    name, grid.side(), surface.volume, 100 * error));
   }
 }
 

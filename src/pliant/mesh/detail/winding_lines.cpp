@@ -51,8 +51,7 @@ void WindingLines::visit_crossings(const Positions& x, std::span<const Triangle>
         if ((at_a > 0) != (area > 0) || (at_b > 0) != (area > 0) || (at_c > 0) != (area > 0)) continue;
         // On an edge a share is what the moved line has; the place along x is that of the edge to the grid's rounding.
         const Real wa = static_cast<Real>(at_a), wb = static_cast<Real>(at_b), wc = static_cast<Real>(at_c);
-        const Real along =
-            (wa * x(triangle[0], 0) + wb * x(triangle[1], 0) + wc * x(triangle[2], 0)) / (wa + wb + wc);
+        const Real along = (wa * x(triangle[0], 0) + wb * x(triangle[1], 0) + wc * x(triangle[2], 0)) / (wa + wb + wc);
         visit(static_cast<std::size_t>(column) * static_cast<std::size_t>(rows_) + static_cast<std::size_t>(row),
               WindingCrossing{along, area > 0 ? -1 : 1});
       }

@@ -1,9 +1,9 @@
 #pragma once
 // Where parallel lines pass through a closed surface: the winding number along them changes by one there.
 //
-// The winding number tells what is inside of surfaces that touch, overlap or pass through themselves. Coordinates across
-// the lines are rounded to a fine grid between whose places the lines lie, so that on which side of an edge a line
-// passes is decided exactly, and for both triangles of the edge alike: no line slips through.
+// The winding number tells what is inside of surfaces that touch, overlap or pass through themselves. Coordinates
+// across the lines are rounded to a fine grid between whose places the lines lie, so that on which side of an edge a
+// line passes is decided exactly, and for both triangles of the edge alike: no line slips through.
 #include <span>
 #include <vector>
 
@@ -25,8 +25,8 @@ class WindingLines {
 
   /// By rising x.
   std::span<const WindingCrossing> at(Index row, Index column) const {
-    const std::size_t line = static_cast<std::size_t>(column) * static_cast<std::size_t>(rows_) +
-                             static_cast<std::size_t>(row);
+    const std::size_t line =
+        static_cast<std::size_t>(column) * static_cast<std::size_t>(rows_) + static_cast<std::size_t>(row);
     return std::span(crossings_).subspan(begins_[line], begins_[line + 1] - begins_[line]);
   }
 

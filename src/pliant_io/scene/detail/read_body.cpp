@@ -25,8 +25,8 @@ Positions read_velocities(const Node& node, const Mesh& mesh) {
   return completed_rows(mesh, std::move(velocities), Positions::Zero(mesh.vertex_count(), 3));
 }
 
-/// Refuses a list of other than one row a vertex, which the simulation would take for "not given" when empty. Of a solid
-/// made from its surface there may be as many as that has.
+/// Refuses a list of other than one row a vertex, which the simulation would take for "not given" when empty. Of a
+/// solid made from its surface there may be as many as that has.
 void check_rows(const Node& node, std::string_view key, const Mesh& mesh) {
   const auto rows = node.find(key);
   if (!rows || (rows->is_list() && !rows->empty() && count_of(*rows) == mesh.embedding.carried_count())) return;

@@ -46,8 +46,8 @@ void read_solid(const Node& node, const Node& body, const std::string& name, Mes
   Index turned = 0;
   for (std::size_t t = 0; t < before.size(); ++t) turned += before[t] == mesh.triangles[t] ? 0 : 1;
   if (turned > 0) {
-    warnings.push_back(node.at(fmt::format("{} of {} triangles were turned, so that all normals point outward", turned,
-                                           before.size())));
+    warnings.push_back(node.at(
+        fmt::format("{} of {} triangles were turned, so that all normals point outward", turned, before.size())));
   }
   Real longest = 0;
   for (const Real length : edge_lengths(mesh.vertices, edge_triangles(mesh).edges)) longest = std::max(longest, length);
