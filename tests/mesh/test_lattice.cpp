@@ -111,7 +111,7 @@ TEST_CASE("each vertex of the surface is in its tetrahedron, at its place") {
 }
 
 TEST_CASE("all tetrahedra are alike, and their edges go evenly in the directions of the cubic lattice") {
-  const Real a = 0.1;
+  const Real a = 0.097;
   const Mesh solid = lattice_solid(box({1, 1, 1}, 4), {.spacing = a}, "it");
   for (const Real volume : tetrahedron_volumes(solid.vertices, solid.tetrahedra)) {
     CHECK(volume == doctest::Approx(a * a * a / 12).epsilon(1e-10));

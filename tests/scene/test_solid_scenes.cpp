@@ -188,7 +188,7 @@ TEST_CASE("what cannot be made solid is refused at its place") {
   CHECK(says(refusal(R"("solid": {"spacing": 0.05}, "animation": {})"), "animated body"));
   CHECK(says(refusal(R"("solid": {"spacing": 0.05}, "material": "foam", "start_positions": [[0, 0, 0]])"),
              "start_positions"));
-  const Scene coarse = ball_scene(R"("solid": {"spacing": 0.02}, "material": "foam")");
+  const Scene coarse = ball_scene(R"("solid": {"spacing": 0.01}, "material": "foam")");
   REQUIRE(coarse.warnings.size() == 1);
   CHECK(says(coarse.warnings[0], "give a finer surface"));
 }
