@@ -14,6 +14,7 @@
 #include "motion_advice.h"
 #include "pliant/core/printable.h"
 #include "pliant/mesh/geometry.h"
+#include "pliant/mesh/lattice.h"
 #include "pliant/solver/integration/integrator.h"
 #include "pliant_io/recorder/run_info.h"
 #include "resting.h"
@@ -148,7 +149,9 @@ Json describe_bodies(const Scene& scene) {
   const Simulation& simulation = scene.simulation;
   Json bodies = Json::array();
   for (Index id = 0; const Body& body : simulation.bodies()) {
-    const pliant::BoundingBox box = pliant::bounding_box(body.mesh.vertices);
+    const Index carried = body.mesh.embedding.carried_count();  // what the lattice sticks out by is not the body
+    const pliant::BoundingBox box =
+        pliant::bounding_box(body.mesh.vertices.topRows(carried > 0 ? carried : body.mesh.vertex_count()));
     const pliant::Vec3 size = box.max - box.min;
     bodies.push_back({{"name", body.name},
                       {"vertices", body.mesh.vertex_count()},
@@ -157,6 +160,11 @@ Json describe_bodies(const Scene& scene) {
                       {"tetrahedra", body.mesh.tetrahedra.size()},
                       {"mass", mass_of(body, simulation)},
                       {"size", {size[0], size[1], size[2]}}});
+    if (const pliant::Embedding& lattice = body.mesh.embedding; !lattice.is_empty()) {
+      bodies.back()["lattice"] = {{"spacing", lattice.spacing},
+                                  {"surface_vertices", lattice.carried_count()},
+                                  {"filled", pliant::filled_share(body.mesh)}};
+    }
     const auto material = scene.materials.find(pliant::BodyId{id++});
     if (material != scene.materials.end()) bodies.back()["material"] = material->second;
   }
@@ -264,6 +272,12 @@ void print_bodies(const Json& json) {
     const Json& size = body["size"];
     fmt::print("; {:.4g} kg; {:.3g} x {:.3g} x {:.3g} m\n", body["mass"].get<Real>(), size[0].get<Real>(),
                size[1].get<Real>(), size[2].get<Real>());
+    if (body.contains("lattice")) {
+      const Json& lattice = body["lattice"];
+      fmt::print("  lattice: spacing {:.4g} m, {:.0f} % of it inside the surface, whose {} vertices it carries\n",
+                 lattice["spacing"].get<Real>(), 100 * lattice["filled"].get<Real>(),
+                 lattice["surface_vertices"].get<Index>());
+    }
     for (const Json& group : json["groups"]) {
       if (group["body"] != body["name"]) continue;
       fmt::print("  {}: {} ", text_of(group["name"]), group["constraints"].get<Index>());

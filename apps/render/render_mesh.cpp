@@ -38,7 +38,7 @@ RenderMesh make_render_mesh(const std::vector<pliant::Body>& bodies, std::span<c
     pliant::Mesh surface;
     surface.vertices = mesh.vertices;
     surface.triangles = mesh.triangles;
-    if (!mesh.tetrahedra.empty()) {
+    if (!mesh.tetrahedra.empty() && mesh.embedding.is_empty()) {
       const std::vector<pliant::Triangle> skin = pliant::boundary_triangles(mesh.tetrahedra);
       surface.triangles.insert(surface.triangles.end(), skin.begin(), skin.end());
     }

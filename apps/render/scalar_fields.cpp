@@ -32,6 +32,19 @@ std::vector<Rgb> through(std::span<const Rgb> stops) {
   return map;
 }
 
+/// What is seen of a solid made from its surface has what the lattice has there.
+void carry_values(const pliant::Body& body, std::span<float> values) {
+  const pliant::Embedding& embedding = body.mesh.embedding;
+  for (Index v = 0; v < embedding.carried_count(); ++v) {
+    const pliant::Tetrahedron& corners = body.mesh.tetrahedra[pliant::at(embedding.tetrahedra[pliant::at(v)])];
+    Real value = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      value += embedding.weights[pliant::at(v)][i] * static_cast<Real>(values[pliant::at(corners[i])]);
+    }
+    values[pliant::at(v)] = static_cast<float>(value);
+  }
+}
+
 /// Of values that are finite and above zero; `otherwise` where there are none.
 float median_above_zero(std::span<const float> values, float otherwise) {
   std::vector<float> counted;
@@ -76,6 +89,10 @@ std::vector<float> vertex_energy(const pliant::Simulation& simulation) {
         }
       }
     }
+  }
+  for (const pliant::Body& body : simulation.bodies()) {
+    carry_values(body,
+                 std::span(energies).subspan(pliant::at(body.first_vertex), pliant::at(body.mesh.vertex_count())));
   }
   return energies;
 }

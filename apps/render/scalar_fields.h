@@ -9,6 +9,7 @@ namespace pliant_render {
 std::vector<float> vertex_stretch(const RenderMesh& render_mesh, std::span<const Vec3f> positions);
 
 /// Elastic energy of the constraints [J] at the simulation's positions, split equally between their vertices.
+/// What a lattice carries has that of the lattice at its place.
 std::vector<float> vertex_energy(const pliant::Simulation& simulation);
 
 /// Norms of the velocities [m/s].

@@ -201,6 +201,35 @@ class Geometry(HostileTest):
         self.attack(run_scene_case(f"{name} in {what}", body_scene(MESHES[name][0], everything, MASSES[0], start, steps=5))
                     for name in shapes for what, start in starts(MESHES[name][0]["vertices"]))
 
+    def test_solids_of_every_shape(self):
+        def solid_scene(shape, solid, **more):
+            body = {"mass": {"density": 100}, "solid": solid} | more
+            return scene_of(shape, {"type": "tetrahedron_strain"}, body=body, steps=2)
+        # Of a mesh that nobody would call closed; what is closed may be done, whatever it is.
+        self.attack(run_scene_case(f"{name}, {spacing}", solid_scene(shape, {"spacing": spacing}),
+                                   expect=(INPUT,) if says or "tetrahedra" in shape or "triangles" not in shape else LEGAL)
+                    for name, (shape, says) in MESHES.items() for spacing in (0.3, 1e-4))
+        ball = {"shape": "sphere", "subdivisions": 2}
+        refused = {
+            "finer than memory": ({"spacing": 1e-9}, r"asks for 1e\+27 cubes .* 2e\+06 are allowed; give 0\.008\d m or more"),
+            "a denormal": ({"spacing": 1e-310}, "are allowed"), "nothing": ({"spacing": 0}, "out of range"),
+            "less than nothing": ({"spacing": -0.1}, "out of range"), "text": ({"spacing": "fine"}, "number"),
+            "larger than the body": ({"spacing": 1e30}, "largest side"), "no spacing": ({}, "spacing"), "a list": ([], "object"),
+            "a misspelt key": ({"spacing": 0.2, "spacings": 1}, "spacings"), "a number": (0.1, "object")}
+        self.attack(run_scene_case(name, solid_scene(ball, solid), expect=(INPUT,), says=says)
+                    for name, (solid, says) in refused.items())
+        self.attack([
+            run_scene_case("open", solid_scene({"shape": "cylinder"}, {"spacing": 0.1}), expect=(INPUT,),
+                           says=r"a loop of 24 edges, 1\.57 m long, about \(.*\), with the vertices 0, .* and 1 more such"),
+            run_scene_case("thin", solid_scene({"shape": "pillow"}, {"spacing": 0.5}), expect=(INPUT,)),
+            run_scene_case("by the vertex", solid_scene(ball, {"spacing": 0.2}, mass={"per_vertex": 1}), expect=(INPUT,),
+                           says="density"),
+            run_scene_case("animated", solid_scene(ball, {"spacing": 0.2}, animation={}), expect=(INPUT,), says="animated"),
+            run_scene_case("at a point", solid_scene(ball, {"spacing": 0.2}, start_positions=[[1, 1, 1]] * 162), expect=(DONE,)),
+            run_scene_case("turned inside out",
+                           solid_scene(mesh(TETRAHEDRON, [[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]]), {"spacing": 0.2}),
+                           expect=(DONE,))])
+
     def test_many_bodies_at_once(self):
         scene = scene_of({"shape": "grid"}, steps=1)
         scene["bodies"] = [{"mesh": shape, "mass": {"per_vertex": 0.1}} for name, (shape, says) in MESHES.items()

@@ -129,6 +129,24 @@ StiffnessSplit::StiffnessSplit(std::string_view type, const BodyView& body, cons
   check_given("stiffness", values_);
 }
 
+FilledShares::FilledShares(const Mesh& mesh) {
+  for (std::size_t t = 0; t < mesh.embedding.filled.size(); ++t) {
+    if (mesh.embedding.filled[t] == 1) continue;
+    Tetrahedron sorted = mesh.tetrahedra[t];
+    std::ranges::sort(sorted);
+    shares_.emplace(sorted, mesh.embedding.filled[t]);
+  }
+}
+
+Real FilledShares::of(std::span<const Index> stencil) const {
+  if (shares_.empty() || stencil.size() != 4) return 1;
+  Tetrahedron sorted{};
+  std::ranges::copy(stencil, sorted.begin());
+  std::ranges::sort(sorted);
+  const auto found = shares_.find(sorted);
+  return found == shares_.end() ? 1 : found->second;
+}
+
 Limits::Limits(std::string_view type, const BodyView& body, std::string_view of, const Values& min, const Values& max,
                const Stencils& stencils) {
   const std::string name_of_min = fmt::format("min_{}", of), name_of_max = fmt::format("max_{}", of);

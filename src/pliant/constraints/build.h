@@ -1,6 +1,7 @@
 #pragma once
 // Steps that the builders of several constraint types share.
 #include <functional>
+#include <map>
 
 #include "pliant/constraints/constraint_set.h"
 
@@ -42,6 +43,17 @@ class StiffnessSplit {
 
  private:
   Values values_;
+};
+
+/// How much of the tetrahedra of a mesh is inside the surface that they carry.
+class FilledShares {
+ public:
+  explicit FilledShares(const Mesh& mesh);
+  /// 1 of what is no tetrahedron of the mesh, and of all where they carry nothing. Vertices in any order.
+  Real of(std::span<const Index> stencil) const;
+
+ private:
+  std::map<Tetrahedron, Real> shares_;  ///< by vertices in rising order; those below 1
 };
 
 /// The smallest and the largest stretch, area or volume of each constraint.

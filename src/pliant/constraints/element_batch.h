@@ -17,7 +17,8 @@ struct ElementOptions {
   const Values& max;
 };
 
-/// A batch of the elements chosen, of weight stiffness × area or volume. Throws Error(input) on an element without
+/// A batch of the elements chosen, of weight stiffness × area or volume; of a tetrahedron of a lattice that carries a
+/// surface, the volume inside. Throws Error(input) on an element without
 /// positive measure, min above max, an index out of range, lists of the wrong length.
 template <class Projection>
 ConstraintSet build_elements(const BodyView& body, const ElementOptions& options) {
@@ -30,6 +31,7 @@ ConstraintSet build_elements(const BodyView& body, const ElementOptions& options
       choose_stencils(options.type, body, options.on, options.stencils, elements, Projection::vertices);
   const Limits limits(options.type, body, options.limited, options.min, options.max, chosen);
 
+  const FilledShares filled(body.rest);
   const StiffnessSplit stiffness(options.type, body, options.stiffness, chosen);
   auto batch = std::make_unique<Batch<Projection>>(stiffness.common());
   for (Index i = 0; i < chosen.size(); ++i) {
@@ -41,7 +43,8 @@ ConstraintSet build_elements(const BodyView& body, const ElementOptions& options
     check_rest_measure(
         options.type, body, i, rest.measure,
         is_triangle ? "area; leave it out, or fix its vertices" : "volume; swap two of its vertices if it is inverted");
-    batch->add(global_stencil(body, chosen[i]), rest.reduction, stiffness.of(i) * rest.measure, limits[i]);
+    batch->add(global_stencil(body, chosen[i]), rest.reduction, stiffness.of(i) * filled.of(chosen[i]) * rest.measure,
+               limits[i]);
   }
   return one_batch(std::move(batch));
 }

@@ -33,6 +33,7 @@ std::vector<Real> lumped_lengths(const Mesh& mesh) {
 }
 
 std::vector<Real> lumped_volumes(const Mesh& mesh) {
+  if (!mesh.embedding.is_empty()) return mesh.embedding.volumes;
   return lump(mesh.vertex_count(), mesh.tetrahedra, tetrahedron_volumes(mesh.vertices, mesh.tetrahedra));
 }
 

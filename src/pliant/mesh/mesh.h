@@ -40,6 +40,18 @@ struct VertexMap {
   std::vector<Real> values;  ///< one for each vertex, finite
 };
 
+/// How a lattice of tetrahedra carries a surface, see lattice.h. The first vertices of the mesh are the surface's.
+struct Embedding {
+  std::vector<Index> tetrahedra;             ///< that surface vertex i is in
+  std::vector<std::array<Real, 4>> weights;  ///< of its corners, from 0 to 1, summing to 1
+  std::vector<Real> filled;                  ///< share of each tetrahedron that is inside the surface, above 0 to 1
+  Real spacing = 0;                          ///< side of the lattice's cubes [m]
+  std::vector<Real> volumes;  ///< of each vertex of the mesh [m³], > 0, in all what the surface encloses
+
+  bool is_empty() const { return filled.empty(); }
+  Index carried_count() const { return static_cast<Index>(tetrahedra.size()); }
+};
+
 /// A mesh keeps the order and the count of the user's vertices; vertices without an element are allowed.
 struct Mesh {
   Positions vertices;                   ///< rest positions, m × 3 [m]
@@ -52,6 +64,7 @@ struct Mesh {
   std::vector<VertexGroup> vertex_groups;       ///< names differ
   std::vector<std::string> material_libraries;  ///< files that define the materials (OBJ `mtllib`), kept unread
   std::vector<VertexMap> maps;                  ///< names differ
+  Embedding embedding;                          ///< empty unless tetrahedra carry the triangles
   Index collapsed_face_count = 0;  ///< facets of an STL file left out, two of their corners being one vertex
 
   Index vertex_count() const { return static_cast<Index>(vertices.rows()); }

@@ -28,10 +28,9 @@ class NearestVertex {
     std::int64_t looked_at = 0;  ///< vertices on the way
   };
 
-  /// Of several at the same distance the first.
-  Index operator()(const Vec3& place) const {
-    return std::max(find(place, std::numeric_limits<Index>::max(), std::numeric_limits<Real>::infinity(), {}).vertex,
-                    0);
+  /// Of several at the same distance the first; of the vertices below `end`.
+  Index operator()(const Vec3& place, Index end = std::numeric_limits<Index>::max()) const {
+    return std::max(find(place, end, std::numeric_limits<Real>::infinity(), {}).vertex, 0);
   }
 
   /// The same among the vertices below `end` of which `left_out`, if not empty, has a 0, up to a distance [m].

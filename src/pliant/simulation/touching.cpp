@@ -21,7 +21,8 @@ constexpr Real distance_without_edges = 0.005;
 
 Real contact_distance_of(const Mesh& mesh) {
   std::vector<Real> lengths;
-  for (const Edge& edge : unique_edges(mesh)) {
+  const bool is_carried = !mesh.embedding.is_empty();  // its edges are then those of the surface, not of the lattice
+  for (const Edge& edge : is_carried ? edge_triangles(mesh).edges : unique_edges(mesh)) {
     const Real length = (mesh.vertices.row(edge[0]) - mesh.vertices.row(edge[1])).norm();
     if (length > 0) lengths.push_back(length);
   }
@@ -133,6 +134,7 @@ Wrench Simulation::wrench(ColliderId id) const {
 void Simulation::update_colliders() {
   std::vector<SolverCollider> colliders;
   std::vector<Real> radii, frictions;
+  std::vector<char> inner;  // vertices of lattices that carry a surface
   for (const auto& [id, record] : colliders_) {
     const Vec3 surface_velocity = record.pose.rotation.conjugate() * record.motion.surface_velocity;
     const std::optional<Real>& own = record.motion.friction;
@@ -146,9 +148,13 @@ void Simulation::update_colliders() {
     if (i == edge_distances_.size()) edge_distances_.push_back(contact_distance_of(bodies_[i].mesh));
     const std::size_t end = radii.size() + at(bodies_[i].mesh.vertex_count());
     radii.resize(end, contact_distance(BodyId{static_cast<Index>(i)}));
+    const Index carried = bodies_[i].mesh.embedding.carried_count();
+    if (carried == 0) continue;
+    inner.resize(at(state_.vertex_count()), 0);
+    std::fill(inner.begin() + bodies_[i].first_vertex + carried, inner.begin() + static_cast<std::ptrdiff_t>(end), 1);
     if (has_frictions) frictions.resize(end, bodies_[i].contact.friction.value_or(-1));
   }
-  solver_->set_colliders(std::move(colliders), std::move(radii), std::move(frictions));
+  solver_->set_colliders(std::move(colliders), std::move(radii), std::move(frictions), std::move(inner));
   if (surfaces_changed_) update_surfaces();
   colliders_changed_ = false;
 }

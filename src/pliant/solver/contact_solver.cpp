@@ -36,7 +36,9 @@ class AddedTime {
 
 }  // namespace
 
-void ContactSolver::set(std::vector<SolverCollider> colliders, std::vector<Real> radii, std::vector<Real> frictions) {
+void ContactSolver::set(std::vector<SolverCollider> colliders, std::vector<Real> radii, std::vector<Real> frictions,
+                        std::vector<char> inner) {
+  is_inner_ = std::move(inner);
   colliders_ = std::move(colliders);
   radii_ = std::move(radii);
   frictions_ = std::move(frictions);
@@ -115,7 +117,8 @@ void ContactSolver::begin_substep(const State& state, Real begin, Real end, Real
                          .is_pinned = system.is_pinned(),
                          .vertices = system.order().vertices(),
                          .time_step = h,
-                         .frictions = local_frictions_};
+                         .frictions = local_frictions_,
+                         .is_inner = is_inner_};
   if (has_pairs()) {
     lay_out_surfaces(system);
     start_with_loads(state, system, work);

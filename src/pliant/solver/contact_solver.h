@@ -32,8 +32,9 @@ struct SolverSurfaces {
 class ContactSolver {
  public:
   /// Colliders by number; of each vertex of the simulation r [m] and μ of its body, below 0 where it has none of its
-  /// own (empty: for all).
-  void set(std::vector<SolverCollider> colliders, std::vector<Real> radii, std::vector<Real> frictions);
+  /// own (empty: for all), and whether it touches nothing (empty: none does).
+  void set(std::vector<SolverCollider> colliders, std::vector<Real> radii, std::vector<Real> frictions,
+           std::vector<char> inner);
   /// Surfaces that touch each other and themselves; no parts: none do.
   void set_surfaces(SolverSurfaces surfaces);
   bool is_active() const { return contact_.is_active() || has_pairs(); }
@@ -108,6 +109,7 @@ class ContactSolver {
 
   std::vector<SolverCollider> colliders_;
   std::vector<Real> radii_, frictions_;              // in the order of the simulation
+  std::vector<char> is_inner_;                       // the same
   std::vector<Real> local_radii_, local_frictions_;  // in that of the solver
   std::vector<Pose> begin_, end_;                    // of the step
   Contact contact_;

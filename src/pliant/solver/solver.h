@@ -27,8 +27,9 @@ class Solver {
   void set_groups(Index vertex_count, std::vector<ConstraintGroup*> groups);
   void set_forces(std::vector<Force*> forces) { forces_.set(std::move(forces)); }
   /// Colliders by number, and how near to them each vertex comes to rest [m]. They cost nothing.
-  void set_colliders(std::vector<SolverCollider> colliders, std::vector<Real> radii, std::vector<Real> frictions) {
-    contact_.set(std::move(colliders), std::move(radii), std::move(frictions));
+  void set_colliders(std::vector<SolverCollider> colliders, std::vector<Real> radii, std::vector<Real> frictions,
+                     std::vector<char> inner) {
+    contact_.set(std::move(colliders), std::move(radii), std::move(frictions), std::move(inner));
   }
 
   /// What each vertex touched at the end of the last step; forgotten once the order of the vertices is another.

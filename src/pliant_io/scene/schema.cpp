@@ -95,7 +95,8 @@ SchemaJson body_schema() {
                                      {"velocities", list_schema(schema_reference("vector"))},
                                      {"constraints", list_schema(constraint_schema())},
                                      {"contact", schema_reference("body_contact")},
-                                     {"animation", schema_reference("animation")}},
+                                     {"animation", schema_reference("animation")},
+                                     {"solid", schema_reference("solid")}},
                                     {"mesh"});
   schema["anyOf"] = {{{"required", {"mass"}}}, {{"required", {"material"}}}, {{"required", {"animation"}}}};
   return schema;

@@ -139,7 +139,7 @@ void Contact::find_candidates(Chunk& chunk, Index begin, Index end, const Positi
     reference_.row(i) = q.row(i);
     Real& margin = margins_[at(i)];
     margin = std::numeric_limits<Real>::infinity();
-    if (step_->is_pinned[at(i)]) continue;
+    if (step_->is_pinned[at(i)] || is_inner(i)) continue;
     const Real radius = step_->radii[at(i)];
     const Vec3 from = row(step_->begin, i);
     const Vec3 to = row(q, i);

@@ -165,6 +165,7 @@ class Contact {
   void add_up_wrenches();
   ContactSums total() const;
   Index number_of(Index vertex) const { return step_->vertices.empty() ? vertex : step_->vertices[at(vertex)]; }
+  bool is_inner(Index vertex) const { return !step_->is_inner.empty() && step_->is_inner[at(number_of(vertex))] != 0; }
   /// Calls visit(chunk, first vertex, vertex behind the last).
   template <class Visit>
   void for_each_chunk(ThreadPool& threads, Visit&& visit) {

@@ -27,6 +27,7 @@ struct ContactStep {
   std::span<const Index> vertices;    ///< of the simulation; empty: the same
   Real time_step = 0;                 ///< h of the substep [s]
   std::span<const Real> frictions{};  ///< μ of each vertex' body, below 0 for none of its own; empty: none has
+  std::span<const char> is_inner{};   ///< by number in the simulation: it is no part of a surface, and touches nothing
 };
 
 }  // namespace pliant

@@ -1,30 +1,36 @@
 #include <numeric>
 
 #include "pliant/mesh/geometry.h"
+#include "pliant/simulation/carried_surface.h"
 #include "pliant/timeline/animated_body.h"
 #include "pliant_io/scene/detail/option_reader.h"
 #include "pliant_io/scene/detail/read_animation.h"
 #include "pliant_io/scene/detail/read_mesh.h"
+#include "pliant_io/scene/detail/read_solid.h"
 #include "pliant_io/scene/detail/scene_reader.h"
 
 namespace pliant {
 namespace {
 
-Positions read_velocities(const Node& node, Index vertex_count) {
+Positions read_velocities(const Node& node, const Mesh& mesh) {
   if (node.has("velocity") && node.has("velocities")) node.require_one_of({"velocity", "velocities"});
   Positions velocities;
   read_optional(node, "velocities", velocities);
   if (const auto common = node.find("velocity")) {
     Vec3 velocity;
     read(*common, velocity);
-    velocities = velocity.transpose().replicate(vertex_count, 1);
+    return velocity.transpose().replicate(mesh.vertex_count(), 1);
   }
-  return velocities;
+  if (mesh.embedding.is_empty()) return velocities;
+  return completed_rows(mesh, std::move(velocities), Positions::Zero(mesh.vertex_count(), 3));
 }
 
-/// Refuses a list of other than one row a vertex, which the simulation would take for "not given" when empty.
-void check_rows(const Node& node, std::string_view key, Index vertex_count) {
-  if (const auto rows = node.find(key)) rows->require_list(static_cast<std::size_t>(vertex_count), "(one a vertex)");
+/// Refuses a list of other than one row a vertex, which the simulation would take for "not given" when empty. Of a
+/// solid made from its surface there may be as many as that has.
+void check_rows(const Node& node, std::string_view key, const Mesh& mesh) {
+  const auto rows = node.find(key);
+  if (!rows || (rows->is_list() && !rows->empty() && count_of(*rows) == mesh.embedding.carried_count())) return;
+  rows->require_list(static_cast<std::size_t>(mesh.vertex_count()), "(one a vertex)");
 }
 
 /// What is animated goes where it is told, whatever it weighs: without a mass it has a kilogram.
@@ -46,7 +52,7 @@ Mass read_body_mass(const Node& body, const Mesh& mesh, const std::string& name,
 
 void SceneReader::read_body(const Node& node) {
   node.check_keys({"name", "mesh", "transform", "mass", "start_positions", "velocity", "velocities", "constraints",
-                   "contact", "animation", "material"});
+                   "contact", "animation", "material", "solid"});
   BodyOptions options;
   options.name = fmt::format("body {}", bodies.size());
   read_optional(node, "name", options.name);
@@ -64,6 +70,10 @@ void SceneReader::read_body(const Node& node) {
     apply_transform(*transform, mesh.vertices);
     transform->locate([&] { check_mesh(mesh, printable(options.name)); });
   }
+  if (const auto solid = node.find("solid")) {
+    if (untransformed.back().size() == 0) untransformed.back() = mesh.vertices;  // those of the lattice are no corners
+    read_solid(*solid, node, options.name, mesh, warnings);
+  }
   const Index vertex_count = mesh.vertex_count();
   const auto animation_node = node.find("animation");
   const auto material_node = node.find("material");
@@ -74,10 +84,11 @@ void SceneReader::read_body(const Node& node) {
     if (!reason.empty()) material_node->fail(reason);
   }
   const Mass mass = read_body_mass(node, mesh, options.name, material, warnings);
-  check_rows(node, "start_positions", vertex_count);
-  check_rows(node, "velocities", vertex_count);
+  check_rows(node, "start_positions", mesh);
+  check_rows(node, "velocities", mesh);
   read_optional(node, "start_positions", options.start);
-  options.velocities = read_velocities(node, vertex_count);
+  options.start = completed_rows(mesh, std::move(options.start), mesh.vertices);
+  options.velocities = read_velocities(node, mesh);
   BodyAnimation animation;
   if (animation_node) animation = read_animation(*animation_node, node, vertex_count);
   if (animation.begin) options.start = *std::move(animation.begin);
@@ -88,14 +99,15 @@ void SceneReader::read_body(const Node& node) {
   bodies_of[&node.origin()].push_back(id);
   if (animation_node) add_animation(*animation_node, id, std::move(animation.path));
   if (material) add_material(*material_node, id, *material);
-  const auto constraints = node.find("constraints");
-  if (!constraints) return;
-  constraints->require_list();
-  for (std::size_t i = 0; i < constraints->size(); ++i) {
-    const Node entry = (*constraints)[i];
-    entry.require_object();
-    add_group(entry, id, read_constraint_options(entry, {"name"}, body(id)));
+  if (const auto constraints = node.find("constraints")) {
+    constraints->require_list();
+    for (std::size_t i = 0; i < constraints->size(); ++i) {
+      const Node entry = (*constraints)[i];
+      entry.require_object();
+      add_group(entry, id, read_constraint_options(entry, {"name"}, body(id)));
+    }
   }
+  if (node.has("solid")) carry_surface(simulation, id, 0, free_name(name + ".surface"));
 }
 
 void SceneReader::add_material(const Node& node, BodyId id, const BodyMaterial& given) {

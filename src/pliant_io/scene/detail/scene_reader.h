@@ -25,8 +25,9 @@ struct SceneReader {
 
   Simulation& simulation;
   Timeline& timeline;
-  std::vector<Positions> untransformed = {};  ///< rest positions of each body before its transform; empty: it has none
-  OwnMaterials materials = {};                ///< of the scene
+  std::vector<Positions> untransformed = {};    ///< rest positions of each body, or of a solid's
+                                                ///< surface, before its transform; empty: it has none
+  OwnMaterials materials = {};                  ///< of the scene
   std::map<BodyId, Material> material_of = {};  ///< of the bodies that have one
   std::map<std::string, BodyId, std::less<>> bodies = {};
   std::map<const Origin*, std::vector<BodyId>> bodies_of = {};  ///< by the text that they stand in

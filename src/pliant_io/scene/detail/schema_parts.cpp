@@ -5,6 +5,7 @@
 #include "pliant/constraints/builtin.h"
 #include "pliant/forces/builtin.h"
 #include "pliant/materials/material_groups.h"
+#include "pliant/mesh/lattice.h"
 #include "pliant_io/mesh/mesh_file.h"
 #include "pliant_io/scene/animation_options.h"
 #include "pliant_io/scene/detail/collider_options.h"
@@ -296,6 +297,14 @@ SchemaJson materials_schema() {
   return {{"type", "object"}, {"additionalProperties", std::move(material)}};
 }
 
+SchemaJson solid_schema() {
+  SchemaJson properties = options_properties<LatticeOptions>();
+  properties["spacing"].erase("default");
+  SchemaJson schema = object_schema(std::move(properties), {"spacing"});
+  schema["description"] = "fills the closed surface of the mesh with tetrahedra that carry it";
+  return schema;
+}
+
 SchemaJson part_definitions() {
   const SchemaJson count = {{"type", "integer"}, {"minimum", 1}, {"maximum", 10000}};
   const SchemaJson part = {{"name", text_schema("of the group of its vertices")},
@@ -309,6 +318,7 @@ SchemaJson part_definitions() {
           {"contact", object_schema(options_properties<ContactSettings>())},
           {"body_contact", body_contact_schema()},
           {"animation", animation_schema()},
+          {"solid", solid_schema()},
           {"collider", {{"oneOf", collider_choices()}}}};
 }
 

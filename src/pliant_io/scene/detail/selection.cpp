@@ -77,7 +77,11 @@ std::vector<Index> nearest(const Node& node, const SceneBody& body) {
   Points points;
   read(node, points);
   std::vector<Index> chosen;
-  for (const Vec3& point : points.list()) chosen.push_back(body.places()(point));
+  const Index carried = body.mesh.embedding.carried_count();
+  for (const Vec3& point : points.list()) {
+    const Index end = carried > 0 ? carried : body.mesh.vertex_count();  // those of a lattice are nobody's choice
+    chosen.push_back(body.places()(point, end));
+  }
   return chosen;
 }
 

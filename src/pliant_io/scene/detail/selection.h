@@ -9,7 +9,7 @@ namespace pliant {
 /// A body as selections and options see it.
 struct SceneBody {
   const Mesh& mesh;                     ///< at rest, after the transform
-  const Positions& untransformed;       ///< the same vertices before it, m × 3 [m]
+  const Positions& untransformed;       ///< the same vertices before it [m]; of a solid its surface's
   std::optional<NearestVertex>& index;  ///< of mesh.vertices, made when it is first asked for
 
   const NearestVertex& places() const {
