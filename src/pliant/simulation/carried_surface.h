@@ -10,8 +10,8 @@
 namespace pliant {
 
 /// Of ties, in units of what the body resists strain with: under a pressure of a hundredth of that modulus, vertices
-/// depart from their places by a ten-thousandth of the spacing.
-inline constexpr Real tie_ratio = 100;
+/// depart from their places by a thousandth of the spacing.
+inline constexpr Real tie_ratio = 10;
 /// Of ties of a body whose tetrahedra resist nothing [Pa].
 inline constexpr Real usual_tie_stiffness = 1e6;
 
