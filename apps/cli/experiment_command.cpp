@@ -30,6 +30,7 @@ struct ExperimentArguments {
   std::vector<std::string> names;  ///< of experiments, or "all"; empty: they are listed
   fs::path out = "report";         ///< folder of the report
   bool without_pictures = false;   ///< leave out what needs OpenGL
+  unsigned seed = 0;               ///< of what is random
   bool quiet = false;              ///< print warnings and errors only
 };
 
@@ -125,7 +126,7 @@ pliant_report::Chapter run_or_fail(const Experiment& experiment, const pliant_ex
 
 pliant_report::Chapter run_one(const Experiment& experiment, const ExperimentArguments& arguments, bool draws) {
   const pliant_experiments::ExperimentContext context(
-      {draws, [&](std::string_view what) { show(arguments, fmt::format("{}: {} ...", experiment.name, what)); },
+      {draws, arguments.seed, [&](std::string_view what) { show(arguments, fmt::format("{}: {} ...", experiment.name, what)); },
        was_interrupted});
   const pliant::Stopwatch watch;
   pliant_report::Chapter chapter = run_or_fail(experiment, context);
@@ -180,6 +181,7 @@ int run_experiments(const ExperimentArguments& arguments) {
       "hold "
       "is said not to.";
   report.facts = facts();
+  report.facts.emplace_back("Seed", std::to_string(arguments.seed));
   try {
     for (const Experiment& experiment : chosen) {
       report.chapters.push_back(run_one(experiment, arguments, draws));
@@ -210,6 +212,10 @@ void add_experiment_command(CLI::App& program, int& exit_code) {
   command->add_option("experiments", arguments->names, "all, or some by name; without any, they are listed");
   command->add_option("--out", arguments->out, "Folder for index.html and report.json, default report")
       ->type_name("FOLDER");
+  command->add_option("--seed", arguments->seed,
+                      "Other random jumps, and starts that are moved by a millionth of a meter: verdicts should not "
+                      "change; default 0, none")
+      ->type_name("NUMBER");
   command->add_flag("--no-pictures", arguments->without_pictures, "Leave out what needs OpenGL");
   command->add_flag("--quiet", arguments->quiet, "No progress and no verdicts, only the summary");
   command->footer(

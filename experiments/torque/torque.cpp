@@ -69,6 +69,7 @@ Turn turn(const ExperimentContext& context, double stiffness, pliant::Index iter
   const double inertia = (rest.rowwise() - rest.colwise().mean()).squaredNorm();  // of 1 kg a vertex
   const double arm = (rest.row(handles[1]) - rest.row(handles[0])).norm();
   simulation.add_force(std::make_unique<Couple>(acceleration * inertia / arm));
+  context.disturb(scene);
   double turned = 0;
   for (int frame = 0; frame < frames; ++frame) {
     context.step(scene);

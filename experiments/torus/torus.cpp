@@ -29,6 +29,7 @@ constexpr std::int64_t home = 300;
 pliant::Scene scene_of(const ExperimentContext& context, Bend bend) {
   pliant::Scene scene = context.scene("torus/torus");
   add_bending(scene, bend, bending);
+  context.disturb(scene);
   return scene;
 }
 
@@ -128,7 +129,7 @@ Series jerk_all(const ExperimentContext& context, Chapter& chapter, double jump,
   for (unsigned seed = 1; seed <= seeds; ++seed) {
     context.say(fmt::format("jumps of {} m, {}, run {} of {}", jump, name_of(bend), seed, seeds));
     pliant::Scene scene = scene_of(context, bend);
-    const ReturnError run = jerk(context, scene, jump, seed);
+    const ReturnError run = jerk(context, scene, jump, context.seed() * seeds + seed);
     series.runs.push_back(run);
     extremes.shortest = std::min(extremes.shortest, run.shortest);
     extremes.longest = std::max(extremes.longest, run.longest);
