@@ -31,8 +31,8 @@ class ExperimentContext {
   /// The same for a built-in scene.
   pliant::Scene builtin_scene(std::string_view name, const Sets& sets = {}) const;
 
-  /// The same without colliders, contact between surfaces and, if asked, winds, and without what moves or changes these;
-  /// with 10 iterations where it has no number of its own.
+  /// The same without colliders, contact between surfaces and, if asked, winds, and without what moves or changes
+  /// these; with 10 iterations where it has no number of its own.
   pliant::Scene builtin_scene_without_contact(std::string_view name, Winds winds, const Sets& sets = {}) const;
 
   /// Takes one step. @throws pliant::Error (interrupted) when the experiments are to end
@@ -46,8 +46,8 @@ class ExperimentContext {
   /// 0: scenes begin as they are written, and what is random is as it has always been. Another number: both are others,
   /// by disturb() too little to be seen. Verdicts should be the same.
   unsigned seed() const { return options_.seed; }
-  /// Moves every vertex that no hard pin holds by up to a millionth of a meter in each direction, by chance, as seed and
-  /// repeat have it; leaves the scene as it is where both are 0.
+  /// Moves every vertex that no hard pin holds by up to a millionth of a meter in each direction, by chance, as seed
+  /// and repeat have it; leaves the scene as it is where both are 0.
   void disturb(pliant::Scene& scene, unsigned repeat = 0) const;
 
   /// Reports what is under way.

@@ -141,14 +141,14 @@ void measure_contact_cost(const ExperimentContext& context, Chapter& chapter) {
     return cost;
   };
   const auto judge = [&](Situation situation, const Cost& cost) {
-    chapter.claims.push_back(
-        at_most(fmt::format("At 10,000 vertices a step with colliders takes at most 1.3 times as long as one without: a "
-                            "cloth that {}",
-                            name_of(situation)),
-                cost.ratio, 1.3,
-                fmt::format("{:.2f} times, L-BFGS in both, with {:.1f} backtracks and {:.1f} refactorizations a step{}",
-                            cost.ratio.middle, cost.backtracks, cost.refactorizations,
-                            has_equal_iterations ? "" : "; some steps with fewer iterations than the others")));
+    chapter.claims.push_back(at_most(
+        fmt::format("At 10,000 vertices a step with colliders takes at most 1.3 times as long as one without: a "
+                    "cloth that {}",
+                    name_of(situation)),
+        cost.ratio, 1.3,
+        fmt::format("{:.2f} times, L-BFGS in both, with {:.1f} backtracks and {:.1f} refactorizations a step{}",
+                    cost.ratio.middle, cost.backtracks, cost.refactorizations,
+                    has_equal_iterations ? "" : "; some steps with fewer iterations than the others")));
     if (!has_equal_iterations) chapter.claims.back().verdict = pliant_report::Verdict::fails;
   };
   for (const Index side : cloth_sides) {

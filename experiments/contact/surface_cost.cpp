@@ -25,7 +25,7 @@ constexpr int steps_of_round = 2;
 struct CostOfSurfaces {
   double surfaces = 0, colliders = 0, plain = 0;
   Spread to_colliders{}, to_plain{};  // of the quotients within a round
-  Index pairs = 0;                        // nearer than twice the distance, at the end
+  Index pairs = 0;                    // nearer than twice the distance, at the end
 };
 
 pliant::Scene cloth_above_ball(Index side, Acceleration acceleration, bool has_ball, bool touches) {
@@ -90,7 +90,8 @@ void measure_surface_cost(const ExperimentContext& context, Chapter& chapter) {
     const CostOfSurfaces cost = surface_cost_of(context, side);
     table.rows.push_back({std::to_string(side * side), std::to_string(cost.pairs), fmt::format("{:.2f}", cost.surfaces),
                           fmt::format("{:.2f}", cost.colliders), fmt::format("{:.2f}", cost.plain),
-                          fmt::format("{:.2f}", cost.to_colliders.middle), fmt::format("{:.2f}", cost.to_plain.middle)});
+                          fmt::format("{:.2f}", cost.to_colliders.middle),
+                          fmt::format("{:.2f}", cost.to_plain.middle)});
     at_last = cost.to_plain;
   }
   chapter.claims.push_back(

@@ -152,7 +152,8 @@ Plot over_time(const std::vector<const Case*>& cases) {
 
 Table costs(const std::vector<const Case*>& cases) {
   Table table{
-      "What is paid once, and what in each iteration, on one thread, the least of repeats. Projective Dynamics factorizes an m × m matrix "
+      "What is paid once, and what in each iteration, on one thread, the least of repeats. Projective Dynamics "
+      "factorizes an m × m matrix "
       "once; Newton's method one of 3m × 3m in each iteration (sparse Cholesky of Eigen).",
       {"sheet", "PD: set-up [ms]", "PD: iteration [ms]", "Newton: analysis [ms]", "Newton: iteration [ms]",
        "of it factorization", "PD iterations in one of Newton's", "entries of Newton's factor"}};
@@ -180,7 +181,8 @@ std::string milliseconds_under(const Descent& descent, double error) {
 
 Table efforts(const std::vector<const Case*>& cases) {
   Table table{
-      "Iterations and time, the least of repeats, until the objective's error is under a bound for the first time, among "
+      "Iterations and time, the least of repeats, until the objective's error is under a bound for the first time, "
+      "among "
       "the numbers of iterations that were tried. –: not reached.",
       {"sheet", "error under", "PD: iterations", "Newton: iterations", "PD [ms]", "Newton [ms]"}};
   for (const Case* of : cases) {

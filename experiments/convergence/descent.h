@@ -33,8 +33,8 @@ Problem problem_after(const ExperimentContext& context, pliant::Scene scene, int
 /// Errors after some numbers of iterations, ascending, and the time that these took.
 struct Descent {
   std::vector<int> iterations;
-  std::vector<double> seconds;      ///< the least of the repeats
-  std::vector<double> most_seconds; ///< the longest of them
+  std::vector<double> seconds;       ///< the least of the repeats
+  std::vector<double> most_seconds;  ///< the longest of them
   std::vector<double> objective_errors;
   std::vector<double> position_errors;
 

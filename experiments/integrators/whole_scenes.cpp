@@ -302,16 +302,16 @@ void measure_builtin_scenes(const ExperimentContext& context, Chapter& chapter) 
       "BDF2 is stable on every built-in scene; those with contact run without it", "", stable == count,
       fmt::format("{} of {} scenes run to their ends with at most {:.0f} times the kinetic energy of implicit Euler",
                   stable, count, most_times)));
-  chapter.claims.push_back(
-      claim("With energy projection no built-in scene diverges, in either integrator; those with contact run without it",
-            "",
-            projected == count, fmt::format("{} of {} scenes run to their ends", projected, count)));
+  chapter.claims.push_back(claim(
+      "With energy projection no built-in scene diverges, in either integrator; those with contact run without it", "",
+      projected == count, fmt::format("{} of {} scenes run to their ends", projected, count)));
   chapter.blocks.emplace_back(std::move(table));
 }
 
 void measure_energy_gains(const ExperimentContext& context, Chapter& chapter) {
   Table table{
-      "All built-in scenes, without their winds, those with contact without it. Gain: by what T + V + P − ΣF·Δx exceeds its value "
+      "All built-in scenes, without their winds, those with contact without it. Gain: by what T + V + P − ΣF·Δx "
+      "exceeds its value "
       "at the start, or "
       "since pins last moved, beyond the noted surplus, which later steps are not given back; both in percent of the "
       "largest "

@@ -156,9 +156,9 @@ void compare_stretch(const ExperimentContext& context, Chapter& chapter) {
 struct Limits {
   std::array<double, rises.size()> rise{};  // the strongest of rising winds that the curtain stands [N/m²]
   double gust = 0;                          // of one that sets in at once
-  StrongWind overflow;    // 1e6 N/m² on the current area
-  StrongWind at_rest;     // 1e6 N/m² on the area at rest
-  StrongWind far_beyond;  // 1e9 N/m² on the area at rest
+  StrongWind overflow;                      // 1e6 N/m² on the current area
+  StrongWind at_rest;                       // 1e6 N/m² on the area at rest
+  StrongWind far_beyond;                    // 1e9 N/m² on the area at rest
 
   bool is_bounded() const { return !at_rest.refused_step && !far_beyond.refused_step; }
 };
@@ -220,7 +220,8 @@ void measure_limits(const ExperimentContext& context, Chapter& chapter) {
   limits.rows.push_back({"sets in at once, 1000 steps"});
   for (const Limits& each : found) limits.rows.back().push_back(fmt::format("{:.3f}", ratio(each.gust)));
   Table table{
-      "At which step the printed wind of 1e6 N/m² is refused, and the largest stretch with the area at rest in place of "
+      "At which step the printed wind of 1e6 N/m² is refused, and the largest stretch with the area at rest in place "
+      "of "
       "the current one.",
       {"h", "W = 1e6: refused step", "at rest, W = 1e6", "at rest, W = 1e9"},
       {}};
