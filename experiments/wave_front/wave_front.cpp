@@ -103,11 +103,13 @@ struct Waves {
 
 Plot front_plot(const Waves& waves) {
   Plot plot{.title = fmt::format("The wave after a release, k = {:.0e} N/m", soft),
-            .caption = fmt::format("The ring of vertices about the middle, an edge apart each, that has been moved by "
-                                   "more than {:.0f} mm, over the frames since the release; the border is ring {}. "
-                                   "Medians of {} runs whose starts differ by a millionth of a meter, bands from the "
-                                   "least to the largest. After the right half of Fig. 6.7 of the thesis.",
-                                   1e3 * front, rings_to_border, repeats_of_bands),
+            .caption =
+                fmt::format("The ring of vertices about the middle, an edge apart each, that has been moved by "
+                            "more than {:.0f} mm, over the frames since the release; the border is ring {}. "
+                            "Medians of {} runs whose starts differ by a millionth of a meter, bands from the "
+                            "least to the largest; curves that are not seen lie under the one that is. After the right "
+                            "half of Fig. 6.7 of the thesis.",
+                            1e3 * front, rings_to_border, repeats_of_bands),
             .x = {.label = "frames since the release"},
             .y = {.label = "ring reached", .min = 0, .max = rings_to_border + 1.0},
             .series = {},
