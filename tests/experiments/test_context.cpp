@@ -5,6 +5,7 @@
 #include "experiments/experiment_context.h"
 #include "experiments/support/claims.h"
 #include "pliant/simulation/held.h"
+#include "pliant_io/scene/builtin_scenes.h"
 
 namespace test_context {
 
@@ -15,11 +16,14 @@ TEST_CASE("every built-in scene can be had without contact and winds, and takes 
   const ExperimentContext context({});
   bool has_colliders = false;
   for (const pliant::BuiltinScene& builtin : pliant::builtin_scenes()) {
-    CAPTURE(std::string(builtin.name));
+    const std::string name(builtin.name);
+    CAPTURE(name);
     has_colliders = has_colliders || !context.builtin_scene(builtin.name).simulation.colliders().empty();
     pliant::Scene scene = context.builtin_scene_without_contact(builtin.name, Winds::left_out);
     CHECK(scene.simulation.colliders().empty());
-    for (const auto& [id, force] : scene.simulation.forces()) CHECK(force->type() != "wind");
+    for (const auto& [id, force] : scene.simulation.forces()) {
+      CHECK(force->type() != "wind");
+    }
     CHECK(context.step(scene).contact.contacts == 0);
     CHECK(context.builtin_scene_without_contact(builtin.name, Winds::kept).simulation.bodies().size() ==
           scene.simulation.bodies().size());

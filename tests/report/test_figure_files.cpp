@@ -1,4 +1,7 @@
 // Figures as files, bands about lines, and what the page says of its sources and of wide tables.
+#include <algorithm>
+#include <cmath>
+
 #include <doctest/doctest.h>
 
 #include "report/curves.h"
@@ -61,7 +64,9 @@ TEST_CASE("a band goes from low to high, has room on the axis and ends at the pl
   layout = plot_layout(plot);
   curve = curve_of(plot, 0, layout);
   REQUIRE(curve.bands.size() == 1);
-  for (const Point& p : curve.bands[0]) CHECK(p.y >= layout.area.top - 1e-9);
+  for (const Point& p : curve.bands[0]) {
+    CHECK(p.y >= layout.area.top - 1e-9);
+  }
 
   plot.series[0].low.clear();
   CHECK(curve_of(plot, 0, layout).bands.empty());
