@@ -24,7 +24,7 @@ using pliant_report::Series;
 constexpr std::array<EdgeReduction, 2> reductions = {EdgeReduction::difference, EdgeReduction::identity};
 constexpr std::array<Index, 5> counts_of_spread = {1, 2, 3, 5, 8};
 constexpr std::array<Index, 12> counts_of_error = {1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000};
-constexpr Index until_the_limit = 30000;
+constexpr Index until_the_limit = 10000;
 constexpr double same_limit = 1e-9;  // [m]
 constexpr double moved = 1e-13;      // [m]: far above rounding of positions of a meter
 constexpr double bound = 0.1;        // of the way of the step
