@@ -186,8 +186,8 @@ void measure_errors(const ExperimentContext& context, Chapter& chapter) {
     }
     plot.series.push_back(std::move(series));
   }
-  const Index with_difference = needed.at(EdgeReduction::difference);
-  const Index with_identity = needed.at(EdgeReduction::identity);
+  const Index with_difference = needed[EdgeReduction::difference];
+  const Index with_identity = needed[EdgeReduction::identity];
   chapter.claims.push_back(claim("What they converge to is the same", "", difference < same_limit,
                                  fmt::format("after {} iterations of one step no vertex is farther than {:.1g} m from "
                                              "where it is with the other (asked for: {:.0e} m)",
