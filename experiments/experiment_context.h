@@ -13,10 +13,13 @@ namespace pliant_experiments {
 
 using Sets = std::vector<std::string>;  ///< "PATH=VALUE" each, as `pliant run --set` takes them
 
+enum class Winds { kept, left_out };
+
 class ExperimentContext {
  public:
   struct Options {
     bool draws = true;                                                         ///< whether pictures are drawn
+    unsigned seed = 0;                                                         ///< see seed()
     std::function<void(std::string_view)> progress = [](std::string_view) {};  ///< told what is under way
     std::function<bool()> stop = [] { return false; };                         ///< asked between steps whether to end
   };
@@ -28,6 +31,10 @@ class ExperimentContext {
   /// The same for a built-in scene.
   pliant::Scene builtin_scene(std::string_view name, const Sets& sets = {}) const;
 
+  /// The same without colliders, contact between surfaces and, if asked, winds, and without what moves or changes
+  /// these; with 10 iterations where it has no number of its own.
+  pliant::Scene builtin_scene_without_contact(std::string_view name, Winds winds, const Sets& sets = {}) const;
+
   /// Takes one step. @throws pliant::Error (interrupted) when the experiments are to end
   pliant::StepReport step(pliant::Scene& scene) const;
   void step(pliant::Scene& scene, std::int64_t count) const {
@@ -35,6 +42,13 @@ class ExperimentContext {
   }
   /// The same; returns false if the scene diverges on the way.
   bool try_steps(pliant::Scene& scene, std::int64_t count) const;
+
+  /// 0: scenes begin as they are written, and what is random is as it has always been. Another number: both are others,
+  /// by disturb() too little to be seen. Verdicts should be the same.
+  unsigned seed() const { return options_.seed; }
+  /// Moves every vertex that no hard pin holds by up to a millionth of a meter in each direction, by chance, as seed
+  /// and repeat have it; leaves the scene as it is where both are 0.
+  void disturb(pliant::Scene& scene, unsigned repeat = 0) const;
 
   /// Reports what is under way.
   void say(std::string_view what) const { options_.progress(what); }

@@ -1,6 +1,9 @@
 #pragma once
 // The experiments: chapter 6 of the thesis, the comparisons of the paper, and what goes beyond both.
 #include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "experiment_context.h"
 
@@ -13,6 +16,9 @@ struct Experiment {
   /// the caller.
   pliant_report::Chapter (*run)(const ExperimentContext& context);
 };
+
+/// What claims say who has made them, and what that is: "thesis", "Bouaziz et al. 2014".
+std::vector<std::pair<std::string, std::string>> sources();
 
 /// In the order of the report.
 std::span<const Experiment> experiments();

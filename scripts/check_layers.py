@@ -46,7 +46,7 @@ THIRD_PARTY = {
     "Eigen/": ["src", "apps", "examples", "experiments", "python", "tests", "web"],
     "unsupported/Eigen/": [],
     "fmt/": ["src", "apps", "experiments", "tests"],
-    "nlohmann/": ["src/pliant_io", "apps", "tests"],
+    "nlohmann/": ["src/pliant_io", "apps", "experiments", "tests"],
     "CLI/": ["apps", "tests/pairs"],
     "zlib": ["src/pliant_io/files"],
     "pugixml": ["src/pliant_io/mesh"],

@@ -12,7 +12,8 @@ packages=(
   pkg-config libepoxy-dev libegl-dev libglfw3-dev libgl1 libgl1-mesa-dri libimgui-dev libstb-dev fonts-inter ffmpeg
   python3 python3-numpy python3-jsonschema assimp-utils xvfb xauth xdotool
 )
-dev_packages=(ccache man-db groff mandoc zsh fish clang clang-format clang-tidy git libclang-rt-14-dev libtinyobjloader-dev)
+dev_packages=(ccache man-db groff mandoc zsh fish clang clang-format clang-tidy git libclang-rt-14-dev libtinyobjloader-dev
+  librsvg2-bin)
 # Whoever has them from elsewhere could not install Debian's beside them.
 command -v node >/dev/null || dev_packages+=(nodejs)
 command -v npm >/dev/null || dev_packages+=(npm)

@@ -16,6 +16,7 @@
 #include "pliant_io/scene/nearest_names.h"
 #include "render/offscreen_context.h"
 #include "report/report.h"
+#include "report_files.h"
 #include "terminal.h"
 
 namespace pliant_cli {
@@ -30,6 +31,7 @@ struct ExperimentArguments {
   std::vector<std::string> names;  ///< of experiments, or "all"; empty: they are listed
   fs::path out = "report";         ///< folder of the report
   bool without_pictures = false;   ///< leave out what needs OpenGL
+  unsigned seed = 0;               ///< of what is random
   bool quiet = false;              ///< print warnings and errors only
 };
 
@@ -125,7 +127,8 @@ pliant_report::Chapter run_or_fail(const Experiment& experiment, const pliant_ex
 
 pliant_report::Chapter run_one(const Experiment& experiment, const ExperimentArguments& arguments, bool draws) {
   const pliant_experiments::ExperimentContext context(
-      {draws, [&](std::string_view what) { show(arguments, fmt::format("{}: {} ...", experiment.name, what)); },
+      {draws, arguments.seed,
+       [&](std::string_view what) { show(arguments, fmt::format("{}: {} ...", experiment.name, what)); },
        was_interrupted});
   const pliant::Stopwatch watch;
   pliant_report::Chapter chapter = run_or_fail(experiment, context);
@@ -137,12 +140,6 @@ pliant_report::Chapter run_one(const Experiment& experiment, const ExperimentArg
   return chapter;
 }
 
-/// Whole files of what is there so far, so that a long run that is ended leaves what it has.
-void write(const Report& report, const fs::path& folder) {
-  pliant::write_file_atomically(folder / "index.html", to_html(report));
-  pliant::write_file_atomically(folder / "report.json", to_json(report));
-}
-
 /// Says so to who waits, and to who reads the report.
 void note_interrupt(Report& report, std::size_t asked, const fs::path& folder) {
   if (report.chapters.empty()) {
@@ -151,7 +148,7 @@ void note_interrupt(Report& report, std::size_t asked, const fs::path& folder) {
   }
   const std::string what = fmt::format("{} of {} experiments are in the report", report.chapters.size(), asked);
   report.introduction += fmt::format(" This run was interrupted: {} that were asked for.", what);
-  write(report, folder);
+  write_report(report, folder);
   print_to_stderr(fmt::format("interrupted: {}\n", what));
 }
 
@@ -175,15 +172,18 @@ int run_experiments(const ExperimentArguments& arguments) {
   report.title = "Projective Dynamics: the experiments";
   report.introduction =
       "The experiments of chapter 6 of T. Kenneweg's thesis (2014), the comparisons of Bouaziz et al. (2014), and what "
-      "goes "
-      "beyond both, as this machine has measured them. Each claim is followed by what was found; a claim that does not "
-      "hold "
-      "is said not to.";
+      "goes beyond both, as this machine has measured them. Each claim is followed by what was found; a claim that "
+      "does "
+      "not hold is said not to.\n\nEvery figure is a file in the folder figures as well: plots as SVG with their "
+      "numbers "
+      "as CSV, pictures as PNG. The second figure of the chapter on damping is figures/damping-2.";
+  report.sources = pliant_experiments::sources();
   report.facts = facts();
+  report.facts.emplace_back("Seed", std::to_string(arguments.seed));
   try {
     for (const Experiment& experiment : chosen) {
       report.chapters.push_back(run_one(experiment, arguments, draws));
-      write(report, arguments.out);
+      write_report(report, arguments.out);
     }
   } catch (const pliant::Error& error) {
     show(arguments, "");
@@ -191,6 +191,7 @@ int run_experiments(const ExperimentArguments& arguments) {
     note_interrupt(report, chosen.size(), arguments.out);
     return exit_interrupted;
   }
+  write_pdfs(report, arguments.out);
   print_summary(report, arguments.out);
   return 0;
 }
@@ -210,6 +211,11 @@ void add_experiment_command(CLI::App& program, int& exit_code) {
   command->add_option("experiments", arguments->names, "all, or some by name; without any, they are listed");
   command->add_option("--out", arguments->out, "Folder for index.html and report.json, default report")
       ->type_name("FOLDER");
+  command
+      ->add_option("--seed", arguments->seed,
+                   "Other random jumps, and starts that are moved by a millionth of a meter: verdicts should not "
+                   "change; default 0, none")
+      ->type_name("NUMBER");
   command->add_flag("--no-pictures", arguments->without_pictures, "Leave out what needs OpenGL");
   command->add_flag("--quiet", arguments->quiet, "No progress and no verdicts, only the summary");
   command->footer(

@@ -36,6 +36,57 @@ std::vector<Run> runs_of(const Series& series, const PlotLayout& layout) {
   return runs;
 }
 
+/// What is left of a polygon on one side of a line across the figure: where `depth` is not negative.
+template <class Depth>
+Run cut(const Run& polygon, Depth&& depth) {
+  Run kept;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Point& a = polygon[i];
+    const Point& b = polygon[(i + 1) % polygon.size()];
+    const double at_a = depth(a);
+    const double at_b = depth(b);
+    if (at_a >= 0) kept.push_back(a);
+    if ((at_a >= 0) == (at_b >= 0)) continue;
+    const double share = at_a / (at_a - at_b);
+    kept.push_back({a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)});
+  }
+  return kept;
+}
+
+/// The area between low and high, within the plotting area.
+std::vector<Run> bands_of(const Series& series, const PlotLayout& layout) {
+  if (series.low.size() != series.y.size() || series.high.size() != series.y.size()) return {};
+  std::vector<Run> bands;
+  Run upper, lower;
+  const auto close = [&] {
+    if (upper.size() > 1) {
+      Run outline = thinned(upper);
+      const Run back = thinned(lower);
+      outline.insert(outline.end(), back.rbegin(), back.rend());
+      const Box& area = layout.area;
+      outline = cut(outline, [&](const Point& p) { return p.x - area.left; });
+      outline = cut(outline, [&](const Point& p) { return area.right - p.x; });
+      outline = cut(outline, [&](const Point& p) { return p.y - area.top; });
+      outline = cut(outline, [&](const Point& p) { return area.bottom - p.y; });
+      if (outline.size() > 2) bands.push_back(std::move(outline));
+    }
+    upper.clear();
+    lower.clear();
+  };
+  for (std::size_t i = 0; i < std::min(series.x.size(), series.y.size()); ++i) {
+    const Point high = layout.place(series.x[i], series.high[i]);
+    const Point low = layout.place(series.x[i], series.low[i]);
+    if (std::isfinite(high.x) && std::isfinite(high.y) && std::isfinite(low.y)) {
+      upper.push_back(high);
+      lower.push_back(low);
+    } else {
+      close();
+    }
+  }
+  close();
+  return bands;
+}
+
 double travel(const Run& run, std::size_t i) {
   return i == 0 ? 0 : std::abs(run[i].x - run[i - 1].x);
 }
@@ -86,6 +137,7 @@ Look look_of(const Plot& plot, std::size_t series) {
 Curve curve_of(const Plot& plot, std::size_t series, const PlotLayout& layout) {
   const Series& each = plot.series[series];
   Curve curve;
+  curve.bands = bands_of(each, layout);
   std::vector<Point> points;
   for (const Run& run : runs_of(each, layout)) {
     for (const Point& p : run) {

@@ -24,6 +24,7 @@ Look look_of(const Plot& plot, std::size_t series);
 struct Curve {
   std::vector<Run> lines{};
   std::vector<Point> marks{};
+  std::vector<Run> bands{};  ///< outlines of the areas between low and high
 };
 
 /// All of it lies within the plotting area, and no more points than its units can show. Of several lines, each bears a

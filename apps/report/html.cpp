@@ -11,6 +11,7 @@ namespace pliant_report {
 namespace {
 
 constexpr std::string_view summary_anchor = "summary";
+constexpr std::string_view sources_anchor = "sources";
 
 /// Texts may have several paragraphs, with an empty line between them.
 std::string paragraphs(std::string_view text, std::string_view tag) {
@@ -70,6 +71,17 @@ std::string summary(const Report& report, const std::vector<std::string>& names)
       "<th scope=\"col\">By</th></tr></thead>\n" +
       rows + "</table>\n</div>\n";
   return section + "</section>\n";
+}
+
+std::string sources_section(const Report& report) {
+  if (report.sources.empty()) return "";
+  std::string list =
+      "<section class=\"chapter\" aria-labelledby=\"sources\">\n<h2 id=\"sources\">Sources</h2>\n<dl "
+      "class=\"sources\">\n";
+  for (const auto& [name, text] : report.sources) {
+    list += fmt::format("<dt>{}</dt><dd>{}</dd>\n", escaped(name), escaped(text));
+  }
+  return list + "</dl>\n</section>\n";
 }
 
 }  // namespace
@@ -139,7 +151,8 @@ std::vector<std::string> anchors(const std::vector<Chapter>& chapters) {
     if (name.empty()) name = "chapter";
     std::string anchor = name;
     const auto is_taken = [&] {
-      return anchor == summary_anchor || std::find(result.begin(), result.end(), anchor) != result.end();
+      return anchor == summary_anchor || anchor == sources_anchor ||
+             std::find(result.begin(), result.end(), anchor) != result.end();
     };
     for (int i = 2; is_taken(); ++i) anchor = fmt::format("{}-{}", name, i);
     result.push_back(std::move(anchor));
@@ -159,6 +172,7 @@ std::string to_html(const Report& given) {
   page += paragraphs(report.introduction, "p class=\"introduction\"") + facts_list(report) + "</header>\n";
   page += contents(report, names) + summary(report, names);
   for (std::size_t i = 0; i < names.size(); ++i) page += chapter_section(report.chapters[i], i + 1, names[i]);
+  page += sources_section(report);
   return page + "</main>\n</body>\n</html>\n";
 }
 

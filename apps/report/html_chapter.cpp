@@ -46,6 +46,33 @@ std::vector<bool> numeric_columns(const Table& table, std::size_t count) {
   return is_numeric;
 }
 
+double longest_word(std::string_view text) {
+  double longest = 0;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find(' '), text.size());
+    longest = std::max(longest, text_width(std::string(text.substr(0, end))));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return longest;
+}
+
+/// Whether it cannot be squeezed into the page, by the widths of its longest words and its numbers.
+bool is_wider_than_page(const Table& table) {
+  constexpr double room = 720;
+  constexpr double padding = 24;
+  const std::vector<bool> is_numeric = numeric_columns(table, table.columns.size());
+  double sum = 0;
+  for (std::size_t column = 0; column < table.columns.size(); ++column) {
+    double widest = longest_word(table.columns[column]);
+    for (const std::vector<std::string>& row : table.rows) {
+      if (column >= row.size()) continue;
+      widest = std::max(widest, is_numeric[column] ? text_width(row[column]) : longest_word(row[column]));
+    }
+    sum += widest + padding;
+  }
+  return sum > room;
+}
+
 std::string table_element(const Table& table) {
   std::size_t count = table.columns.size();
   for (const std::vector<std::string>& row : table.rows) count = std::max(count, row.size());
@@ -87,7 +114,7 @@ class Blocks {
     const std::string size = picture.width > 0 && picture.height > 0
                                  ? fmt::format(" width=\"{}\" height=\"{}\"", picture.width, picture.height)
                                  : std::string();
-    return fmt::format("<figure>\n<img src=\"data:image/png;base64,{}\" alt=\"{}\"{}>\n{}</figure>\n",
+    return fmt::format("<figure class=\"picture\">\n<img src=\"data:image/png;base64,{}\" alt=\"{}\"{}>\n{}</figure>\n",
                        pliant::base64(picture.png), escaped(picture.caption), size,
                        caption("figcaption", "Figure", chapter_, ++figures_, picture.caption));
   }
@@ -95,9 +122,12 @@ class Blocks {
   std::string operator()(const Table& table) {
     ++tables_;
     return fmt::format(
-        "<figure class=\"table\">\n{}<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Table {}.{}\">\n"
+        "<figure class=\"table\">\n{}{}<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Table "
+        "{}.{}\">\n"
         "{}</div>\n</figure>\n",
-        caption("figcaption", "Table", chapter_, tables_, table.caption), chapter_, tables_, table_element(table));
+        caption("figcaption", "Table", chapter_, tables_, table.caption),
+        is_wider_than_page(table) ? "<p class=\"sideways\">→ wider than the page: it scrolls sideways</p>\n" : "",
+        chapter_, tables_, table_element(table));
   }
 
  private:

@@ -11,6 +11,7 @@ constexpr std::string_view html_rules = R"(:root {
   --holds: #12704f; --fails: #a83226; --reported: #5a636d;
 }
 @media screen and (prefers-color-scheme: dark) {
+  .scroll { --shade: rgb(255 255 255 / .25); }
   :root {
     --ground: #15181c; --text: #e2e6ea; --soft: #a3abb4; --line: #333940; --panel: #1c2025; --link: #86b7f5;
     --holds: #55c99c; --fails: #ff8a78; --reported: #a3abb4;
@@ -60,7 +61,15 @@ nav li::marker { color: var(--soft); font-variant-numeric: tabular-nums; }
 .claims p { margin: 0; }
 .claims .by::before { content: "— "; }
 .claims .evidence { color: var(--soft); font-size: 0.9375rem; margin-top: 0.15rem; }
-.scroll { overflow-x: auto; }
+.scroll {
+  overflow-x: auto; --shade: rgb(31 36 41 / .28);
+  background:
+    linear-gradient(to right, var(--ground) 45%, transparent) left / 2.5rem 100% no-repeat local,
+    linear-gradient(to left, var(--ground) 45%, transparent) right / 2.5rem 100% no-repeat local,
+    linear-gradient(to right, var(--shade), transparent) left / .9rem 100% no-repeat scroll,
+    linear-gradient(to left, var(--shade), transparent) right / .9rem 100% no-repeat scroll;
+}
+.sideways { color: var(--soft); font-size: 0.8125rem; margin: 0 0 0.3rem; }
 table { border-collapse: collapse; font-size: 0.875rem; line-height: 1.45; min-width: 100%; }
 th, td { padding: 0.35rem 0.75rem; text-align: left; vertical-align: baseline; border-bottom: 1px solid var(--line); }
 th:first-child, td:first-child { padding-left: 0.25rem; }
@@ -80,6 +89,13 @@ figcaption b { color: var(--text); }
 figure .plot { display: block; width: 100.94%; height: auto; min-width: 30rem; margin-left: -0.94%; }
 img { display: block; max-width: 100%; height: auto; border-radius: 3px; }
 @media screen and (prefers-color-scheme: dark) { img { filter: brightness(.8); } }
+.picture img { width: 100%; }
+@media screen and (min-width: 60rem) {
+  .picture { width: min(calc(100vw - 3rem), 76rem); margin-left: calc(50% - min(calc(50vw - 1.5rem), 38rem)); }
+  .picture figcaption { margin-left: auto; margin-right: auto; }
+}
+.sources dt { font-weight: 600; margin-top: 0.6rem; }
+.sources dd { margin: 0; }
 .took { color: var(--soft); font-size: 0.8125rem; margin: 1.5rem 0 0; }
 @media (max-width: 36rem) {
   main { padding: 1.5rem 1rem 3rem; }
@@ -99,7 +115,8 @@ img { display: block; max-width: 100%; height: auto; border-radius: 3px; }
   .chapter { margin-top: 2rem; padding-top: 1rem; }
   tr, .question { break-inside: avoid; }
   thead { display: table-header-group; }
-  .scroll { overflow: visible; }
+  .scroll { overflow: visible; background: none; }
+  .sideways { display: none !important; }
   figure .plot { min-width: 0; width: 150mm; margin-left: -1.4mm; }
   img { max-height: 120mm; width: auto; }
   .verdict, .verdict svg { print-color-adjust: exact; }

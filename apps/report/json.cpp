@@ -32,6 +32,9 @@ OrderedJson plot_json(const Plot& plot) {
   OrderedJson series = OrderedJson::array();
   for (const Series& each : plot.series) {
     series.push_back({{"name", each.name}, {"x", numbers(each.x)}, {"y", numbers(each.y)}});
+    if (each.low.empty() || each.high.empty()) continue;
+    series.back()["low"] = numbers(each.low);
+    series.back()["high"] = numbers(each.high);
   }
   OrderedJson guides = OrderedJson::array();
   for (const Guide& guide : plot.guides) {
@@ -88,9 +91,12 @@ std::string to_json(const Report& report) {
   for (const auto& [name, value] : report.facts) facts[name] = value;
   OrderedJson chapters = OrderedJson::array();
   for (const Chapter& chapter : report.chapters) chapters.push_back(chapter_json(chapter));
+  OrderedJson sources = OrderedJson::object();
+  for (const auto& [name, text] : report.sources) sources[name] = text;
   const OrderedJson json = {{"title", report.title},
                             {"introduction", report.introduction},
                             {"facts", std::move(facts)},
+                            {"sources", std::move(sources)},
                             {"chapters", std::move(chapters)}};
   // Texts may hold bytes that are not UTF-8; they must not cost the report.
   return json.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + '\n';

@@ -89,6 +89,12 @@ std::string drawn(const Look& look, const std::vector<Run>& lines, const std::ve
   return content.empty() ? "" : fmt::format("<g class=\"plot-color-{}\">\n{}</g>\n", look.color, content);
 }
 
+std::string band(const Look& look, const std::vector<Run>& outlines) {
+  std::string data;
+  for (const Run& outline : outlines) data += path_data({outline}) + 'z';
+  return data.empty() ? "" : fmt::format("<g class=\"plot-color-{}\">\n{}</g>\n", look.color, path("plot-band", data));
+}
+
 std::string legend(const Plot& plot, const PlotLayout& layout, const std::vector<Curve>& curves) {
   std::string result;
   for (const LegendEntry& entry : layout.legend) {
@@ -129,6 +135,7 @@ std::string to_svg(const Plot& plot, bool is_alone) {
 
   std::string svg = opening(plot, layout, is_alone) + grid_and_axes(layout) + titles(layout);
   for (const PlacedGuide& guide : guides) svg += path("plot-guide", path_data({{guide.start, guide.end}}));
+  for (std::size_t i = 0; i < curves.size(); ++i) svg += band(look_of(plot, i), curves[i].bands);
   // Lines first: no line hides a point.
   for (std::size_t i = 0; i < curves.size(); ++i) svg += drawn(look_of(plot, i), curves[i].lines, {});
   for (std::size_t i = 0; i < curves.size(); ++i) svg += drawn(look_of(plot, i), {}, curves[i].marks);

@@ -19,6 +19,9 @@ struct Series {
   bool is_dashed = false;
   /// Which of the palette's eight colors, so that the same thing has the same one in all plots; default: by position.
   std::optional<int> color{};
+  /// A band about the line, as from the least to the largest of repeats: one value for each of `y`, or none at all.
+  std::vector<double> low{};
+  std::vector<double> high{};
 };
 
 struct Axis {

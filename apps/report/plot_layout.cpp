@@ -20,8 +20,11 @@ Extent extent_of(const Plot& plot, bool is_x) {
   Extent extent;
   for (const Series& series : plot.series) {
     for (std::size_t i = 0; i < std::min(series.x.size(), series.y.size()); ++i) {
-      if (!Scale::can_show(plot.x, series.x[i]) || !Scale::can_show(plot.y, series.y[i])) continue;
-      extent.add(is_x ? series.x[i] : series.y[i]);
+      if (!Scale::can_show(plot.x, series.x[i])) continue;
+      for (const std::vector<double>* values : {&series.y, &series.low, &series.high}) {
+        if (values->size() != series.y.size() || !Scale::can_show(plot.y, (*values)[i])) continue;
+        extent.add(is_x ? series.x[i] : (*values)[i]);
+      }
     }
   }
   for (const Guide& guide : plot.guides) {

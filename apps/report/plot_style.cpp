@@ -40,6 +40,7 @@ constexpr std::string_view shape_rules =
 .plot-guide { stroke-dasharray: 4 3; }
 .plot .plot-guide-label { paint-order: stroke; stroke-width: 4; stroke-linejoin: round; }
 .plot-line { fill: none; stroke: currentColor; stroke-width: 1.7; stroke-linejoin: round; stroke-linecap: round; }
+.plot-band { fill: currentColor; fill-opacity: .2; stroke: none; }
 .plot-dashed { stroke-dasharray: 6 4.5; }
 .plot-marks { fill: currentColor; stroke-width: 1.4; paint-order: stroke; }
 .plot .plot-hollow { stroke: currentColor; stroke-width: 1.5; paint-order: normal; }

@@ -54,6 +54,8 @@ struct Report {
   std::string introduction{};
   std::vector<std::pair<std::string, std::string>> facts{};  ///< machine, versions, date: name and value
   std::vector<Chapter> chapters{};
+  /// What claims and figures refer to: how they call it, and what it is.
+  std::vector<std::pair<std::string, std::string>> sources{};
 };
 
 /// How many claims of a report have this verdict.
@@ -62,6 +64,15 @@ int count(const Report& report, Verdict verdict);
 /// One page with everything in it: it asks for no other file, works without a network, prints, and follows the
 /// reader's light or dark scheme. First the facts and a table of all claims with links, then the chapters.
 std::string to_html(const Report& report);
+
+/// A file of its own for every figure and table of a report.
+struct FigureFile {
+  std::string name;  ///< "damping-2.svg" is Figure 4.2 where damping is the fourth chapter
+  std::string content;
+};
+
+/// Plots as SVG with their numbers as CSV, pictures as PNG; tables as CSV: "damping-table-1.csv".
+std::vector<FigureFile> figure_files(const Report& report);
 
 /// The same as data: facts, chapters, claims, series of plots, tables; pictures by caption and size alone.
 std::string to_json(const Report& report);

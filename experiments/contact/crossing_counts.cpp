@@ -72,6 +72,7 @@ std::int64_t count_crossings(const pliant::Simulation& simulation, const Feature
 Crossed play(const ExperimentContext& context, const Played& each, bool touches) {
   pliant::Scene scene = context.builtin_scene(
       each.scene, {"settings.threads=1", touches ? "contact.surfaces=true" : "contact.surfaces=false"});
+  context.disturb(scene);
   const Features features(scene.simulation);
   Crossed result{.vertices = scene.simulation.state().vertex_count()};
   std::vector<double> milliseconds;

@@ -21,6 +21,7 @@ pliant::SolverSettings contact_settings(const ContactMethod& method) {
   settings.integrator = method.integrator;
   settings.substeps = method.substeps;
   settings.iterations = method.iterations;
+  settings.acceleration = pliant::Acceleration::automatic;  // L-BFGS where something is touched
   settings.threads = 1;
   return settings;
 }

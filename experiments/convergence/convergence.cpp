@@ -20,7 +20,7 @@ constexpr double soft_springs = 1e3;       // [N/m]
 constexpr double stiff_springs = 1e5;
 constexpr int small = 31;  // vertices a side
 constexpr int large = 81;
-constexpr int timing_repeats = 5;
+constexpr int timing_repeats = 7;
 constexpr double reached_objective_error = 1e-10;
 constexpr double reached_position_error = 1e-5;  // its square is the share of a quadratic objective
 
@@ -70,6 +70,7 @@ Case measure(const ExperimentContext& context, int size, double stiffness, int m
       {fmt::format("bodies[sheet].mesh.columns={}", size), fmt::format("bodies[sheet].mesh.rows={}", size),
        fmt::format("bodies[sheet].constraints[springs].stiffness={}", stiffness),
        fmt::format("forces[0].force=[0,0,{}]", -pull_per_stiffness * stiffness)});
+  context.disturb(scene);
   const StepReport set_up = context.step(scene);
   Case result{size, stiffness, problem_after(context, std::move(scene), steps_before - 1)};
   result.set_up = set_up;
@@ -151,7 +152,8 @@ Plot over_time(const std::vector<const Case*>& cases) {
 
 Table costs(const std::vector<const Case*>& cases) {
   Table table{
-      "What is paid once, and what in each iteration, on one thread. Projective Dynamics factorizes an m × m matrix "
+      "What is paid once, and what in each iteration, on one thread, the least of repeats. Projective Dynamics "
+      "factorizes an m × m matrix "
       "once; Newton's method one of 3m × 3m in each iteration (sparse Cholesky of Eigen).",
       {"sheet", "PD: set-up [ms]", "PD: iteration [ms]", "Newton: analysis [ms]", "Newton: iteration [ms]",
        "of it factorization", "PD iterations in one of Newton's", "entries of Newton's factor"}};
@@ -179,8 +181,9 @@ std::string milliseconds_under(const Descent& descent, double error) {
 
 Table efforts(const std::vector<const Case*>& cases) {
   Table table{
-      "Iterations and time until the objective's error is under a bound for the first time, among the numbers of "
-      "iterations that were tried. –: not reached.",
+      "Iterations and time, the least of repeats, until the objective's error is under a bound for the first time, "
+      "among "
+      "the numbers of iterations that were tried. –: not reached.",
       {"sheet", "error under", "PD: iterations", "Newton: iterations", "PD [ms]", "Newton [ms]"}};
   for (const Case* of : cases) {
     for (const double error : {1e-1, 1e-2, 1e-3, 1e-6, 1e-9}) {
@@ -261,9 +264,14 @@ Claim ahead_at_first(const std::vector<const Case*>& cases) {
   for (const Case* of : cases) {
     const double projective = of->projective.objective_error_at(of->newton.seconds.front());
     const double newton = of->newton.objective_errors.front();
-    if (of->size == large && projective > newton) claim.verdict = Verdict::fails;
-    claim.evidence += fmt::format("{}: {:.1e} against {:.1e} after {:.1f} ms. ", of->sheet(), projective, newton,
-                                  of->newton.seconds.front() * 1e3);
+    // The slowest of its repeats against Newton's quickest, and the other way round.
+    const double late = of->projective.objective_error_at(of->newton.seconds.front(), of->projective.most_seconds);
+    const double early = of->projective.objective_error_at(of->newton.most_seconds.front());
+    const bool is_in_noise = (late < newton) != (early < newton);
+    if (of->size == large && is_in_noise && claim.verdict == Verdict::holds) claim.verdict = Verdict::reported;
+    if (of->size == large && !is_in_noise && early > newton) claim.verdict = Verdict::fails;
+    claim.evidence += fmt::format("{}: {:.1e} against {:.1e} after {:.1f} ms{}. ", of->sheet(), projective, newton,
+                                  of->newton.seconds.front() * 1e3, is_in_noise ? ", within the noise of repeats" : "");
   }
   return claim;
 }
@@ -292,7 +300,7 @@ void add_plots(Chapter& chapter, const std::vector<const Case*>& small_sheets,
   chapter.blocks.emplace_back(std::move(plot));
   plot = over_time(small_sheets);
   plot.title = "Error of the objective over time, 31 × 31 vertices";
-  plot.caption = "Medians of repeats, on one thread. A step of the stairs is one iteration of Newton's method.";
+  plot.caption = "The least of repeats, on one thread. A step of the stairs is one iteration of Newton's method.";
   chapter.blocks.emplace_back(std::move(plot));
   plot = over_time(large_sheets);
   plot.title = "Error of the objective over time, 81 × 81 vertices";

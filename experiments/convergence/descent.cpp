@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "pliant/core/stopwatch.h"
-#include "support/statistics.h"
 
 namespace pliant_experiments {
 namespace {
@@ -62,15 +61,15 @@ std::optional<std::size_t> Descent::first_under(double error) const {
   return std::nullopt;
 }
 
-double Descent::objective_error_at(double time) const {
-  if (seconds.empty() || time < seconds.front()) return 1;
-  for (std::size_t i = 1; i < seconds.size(); ++i) {
-    if (time >= seconds[i]) continue;
-    const double share = std::log(time / seconds[i - 1]) / std::log(seconds[i] / seconds[i - 1]);
-    const double before = std::max(objective_errors[i - 1], rounding);
-    return before * std::pow(std::max(objective_errors[i], rounding) / before, share);
-  }
-  return objective_errors.back();
+double Descent::objective_error_at(double time, const std::vector<double>& times) const {
+  // The last entry that has come to its end by then; the machine may have been busy in an earlier one.
+  std::size_t next = times.size();
+  while (next > 0 && times[next - 1] > time) --next;
+  if (next == 0) return 1;
+  if (next == times.size()) return objective_errors.back();
+  const double share = std::log(time / times[next - 1]) / std::log(times[next] / times[next - 1]);
+  const double before = std::max(objective_errors[next - 1], rounding);
+  return before * std::pow(std::max(objective_errors[next], rounding) / before, share);
 }
 
 Descent descend(const ExperimentContext& context, Problem& problem, const std::vector<int>& iterations, int repeats) {
@@ -85,9 +84,9 @@ Descent descend(const ExperimentContext& context, Problem& problem, const std::v
       seconds.push_back(report.seconds_local + report.seconds_global);
     }
     descent.iterations.push_back(count);
-    // More iterations take longer; where a median says otherwise, the machine was busy with something else.
-    const double before = descent.seconds.empty() ? 0 : descent.seconds.back();
-    descent.seconds.push_back(std::max(before, median(std::move(seconds))));
+    const auto [least, most] = std::ranges::minmax(seconds);
+    descent.seconds.push_back(least);
+    descent.most_seconds.push_back(most);
     descent.objective_errors.push_back(problem.objective_error(simulation.state().positions));
     descent.position_errors.push_back(problem.position_error(simulation.state().positions));
   }
@@ -111,7 +110,11 @@ Descent descend_by_newton(const Problem& problem, int repeats) {
       seconds[i].push_back(newton.times().iterations());
     }
   }
-  for (std::vector<double>& each : seconds) descent.seconds.push_back(median(std::move(each)));
+  for (const std::vector<double>& each : seconds) {
+    const auto [least, most] = std::ranges::minmax(each);
+    descent.seconds.push_back(least);
+    descent.most_seconds.push_back(most);
+  }
   return descent;
 }
 

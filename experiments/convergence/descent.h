@@ -33,19 +33,21 @@ Problem problem_after(const ExperimentContext& context, pliant::Scene scene, int
 /// Errors after some numbers of iterations, ascending, and the time that these took.
 struct Descent {
   std::vector<int> iterations;
-  std::vector<double> seconds;
+  std::vector<double> seconds;       ///< the least of the repeats
+  std::vector<double> most_seconds;  ///< the longest of them
   std::vector<double> objective_errors;
   std::vector<double> position_errors;
 
   /// Where the objective's error is under `error` first: the place in the lists.
   std::optional<std::size_t> first_under(double error) const;
   /// The objective's error after that time, between two entries along a line in a plot with logarithmic axes; 1 before
-  /// the first one, the last one's behind it.
-  double objective_error_at(double seconds) const;
+  /// the first one, the last one's behind it. `times` is one of the two lists above.
+  double objective_error_at(double time, const std::vector<double>& times) const;
+  double objective_error_at(double time) const { return objective_error_at(time, seconds); }
 };
 
-/// By Pliant: a step with each of these numbers of iterations, at most so many times, long ones once; times are
-/// medians, without the set-up.
+/// By Pliant: a step with each of these numbers of iterations, at most so many times, long ones once; times are without
+/// the set-up.
 Descent descend(const ExperimentContext& context, Problem& problem, const std::vector<int>& iterations, int repeats);
 
 /// By Newton's method, until the objective falls no further; every iteration, with all its parts but the analysis.

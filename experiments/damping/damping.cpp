@@ -101,6 +101,7 @@ Swings swings_at(const ExperimentContext& context, const pliant::State& begin, d
     context.say(fmt::format("k = {:.0e} N/m, {}", stiffness, label(count)));
     pliant::Scene scene = context.scene("damping/curtain", sets_of(stiffness, count));
     scene.simulation.restore(begin);
+    context.disturb(scene);
     swings[count].trace = record(context, scene, frames);
     if (count == 1) swings[count].late_of_others = late_of_others(context, begin, stiffness);
   }

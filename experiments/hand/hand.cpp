@@ -35,14 +35,15 @@ struct Return {
 
 /// The hand of the built-in scene, upright and weightless, of skin alone, with a fixed wrist.
 pliant::Scene make_hand(const ExperimentContext& context) {
-  return context.builtin_scene("hand",
-                               {"gravity=null", "forces=[]", "moves=[]", "bodies[hand].transform={}",
-                                R"(bodies[hand].constraints=[
+  return context.builtin_scene(
+      "hand", {"settings.iterations=20", "settings.integrator=implicit_euler", "settings.substeps=1",
+               "settings.acceleration=none", "gravity=null", "forces=[]", "moves=[]", "bodies[hand].transform={}",
+               R"(bodies[hand].constraints=[
                  {"type": "position", "name": "wrist",
                   "on": {"half_space": {"point": [0, 0, 0.0096], "normal": [0, 0, -1]}}},
                  {"type": "edge_spring", "name": "skin", "stiffness": 2000}])",
-                                "view.size=[480,480]", "view.ground=false",
-                                R"(view.camera={"position": [0.02, -0.36, 0.14], "target": [0.02, 0, 0.085]})"});
+               "view.size=[480,480]", "view.ground=false",
+               R"(view.camera={"position": [0.02, -0.36, 0.14], "target": [0.02, 0, 0.085]})"});
 }
 
 /// The vertices that are farthest up in each fifth of the hand's breadth: the tips of four fingers and the thumb.
@@ -68,6 +69,7 @@ Return pull(const ExperimentContext& context, double force, Bend bend) {
   pliant::Scene scene = make_hand(context);
   pliant::Simulation& simulation = scene.simulation;
   add_bending(scene, bend, bending);
+  context.disturb(scene);
   // Each tip is drawn another way: forwards, backwards, across and down.
   const std::array<Vec3, 5> ways = {Vec3(-1, 1, 0), Vec3(0, -1, -1), Vec3(1, 1, 1), Vec3(0, 1, -2), Vec3(1, -1, 0)};
   const std::vector<Index> tips = fingertips(simulation.state().positions);

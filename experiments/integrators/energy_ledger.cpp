@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "pliant/forces/wind.h"
-
 namespace pliant_experiments {
 
 EnergyLedger::EnergyLedger(pliant::Simulation& simulation) : simulation_(simulation) {
@@ -62,14 +60,6 @@ double kinetic_energy(const pliant::State& state) {
     energy += state.masses[static_cast<std::size_t>(i)] / 2 * state.velocities.row(i).squaredNorm();
   }
   return energy;
-}
-
-void remove_winds(pliant::Simulation& simulation) {
-  std::vector<pliant::ForceId> winds;
-  for (const auto& [id, force] : simulation.forces()) {
-    if (force->type() == pliant::Wind::info.name) winds.push_back(id);
-  }
-  for (const pliant::ForceId id : winds) simulation.remove(id);
 }
 
 }  // namespace pliant_experiments

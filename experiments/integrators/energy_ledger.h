@@ -44,7 +44,4 @@ class EnergyLedger {
 /// Σ m/2 ‖v‖² [J]
 double kinetic_energy(const pliant::State& state);
 
-/// Takes all winds out.
-void remove_winds(pliant::Simulation& simulation);
-
 }  // namespace pliant_experiments

@@ -10,10 +10,10 @@ void measure_curtain(const ExperimentContext& context, pliant_report::Chapter& c
 /// How large the kinetic energy of some scenes is, against fine substeps.
 void measure_liveliness(const ExperimentContext& context, pliant_report::Chapter& chapter);
 
-/// Every built-in scene with BDF2, and with energy projection, to its end.
+/// Every built-in scene without contact, with BDF2, and with energy projection, to its end.
 void measure_builtin_scenes(const ExperimentContext& context, pliant_report::Chapter& chapter);
 
-/// Every built-in scene without winds: whether energy projection brings in energy of its own.
+/// Every built-in scene without contact and winds: whether energy projection brings in energy of its own.
 void measure_energy_gains(const ExperimentContext& context, pliant_report::Chapter& chapter);
 
 /// By what shares damping changes what it should leave alone.

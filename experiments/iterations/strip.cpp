@@ -23,7 +23,10 @@ constexpr int most_long_steps = 1000;
 }  // namespace
 
 Scene strip(const ExperimentContext& context, double stiffness) {
-  return context.scene("iterations/strip", {fmt::format("bodies[strip].constraints[springs].stiffness={}", stiffness)});
+  Scene scene =
+      context.scene("iterations/strip", {fmt::format("bodies[strip].constraints[springs].stiffness={}", stiffness)});
+  context.disturb(scene);
+  return scene;
 }
 
 double stretch(const Scene& rest, const Positions& positions) {

@@ -77,6 +77,7 @@ Chapter run_start(const ExperimentContext& context) {
   settle(context, resting, 1e-8);
   pliant::Scene scene = context.scene("start/curtain");
   double residual = 0;
+  context.disturb(resting);
   const std::map<Start, Errors> errors = measure(context, scene, resting.simulation.state(), residual);
   Plot plot{
       .title = "Error of a step by where its iterations begin",

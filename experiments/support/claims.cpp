@@ -18,6 +18,20 @@ Claim reported(std::string text, std::string by, std::string evidence) {
   return {std::move(text), std::move(by), Verdict::reported, std::move(evidence)};
 }
 
+Claim at_most(std::string text, const Spread& measured, double limit, std::string evidence) {
+  const bool is_in_noise = measured.low <= limit && measured.high > limit;
+  if (is_in_noise) evidence += "; the limit lies within the noise of repeats";
+  evidence += fmt::format(" (middle half of repeats {:.2f} to {:.2f})", measured.low, measured.high);
+  const Verdict verdict = is_in_noise ? Verdict::reported : measured.high <= limit ? Verdict::holds : Verdict::fails;
+  return {std::move(text), "", verdict, std::move(evidence)};
+}
+
+std::string times_text(const Spread& a, const Spread& b, const char* unit) {
+  const bool is_in_noise = a.low <= b.high && b.low <= a.high;
+  return fmt::format("{:.2f} in place of {:.2f} {}{}", a.middle, b.middle, unit,
+                     is_in_noise ? ", a difference within the noise" : "");
+}
+
 double Comparison::Row::difference() const {
   return std::abs(measured - known) / std::abs(known);
 }

@@ -55,6 +55,15 @@ double angle(const Positions& rest, const Positions& q, double last) {
   return last + std::remainder(std::atan2(across, along) - last, 2 * std::numbers::pi);
 }
 
+/// Moved out of its plane by a millionth of a meter, the stiff sheet buckles, and turns by a tenth more with 5
+/// iterations from the prediction: the figures are those of a sheet that is flat.
+void keep_flat(pliant::Simulation& simulation) {
+  Positions positions = simulation.state().positions;
+  const Positions velocities = simulation.state().velocities;
+  positions.col(2) = simulation.bodies()[0].mesh.vertices.col(2);
+  simulation.set_state(positions, velocities);
+}
+
 struct Turn {
   double share = 0;  // of the angle of a rigid sheet
   pliant_render::Image picture;
@@ -69,6 +78,8 @@ Turn turn(const ExperimentContext& context, double stiffness, pliant::Index iter
   const double inertia = (rest.rowwise() - rest.colwise().mean()).squaredNorm();  // of 1 kg a vertex
   const double arm = (rest.row(handles[1]) - rest.row(handles[0])).norm();
   simulation.add_force(std::make_unique<Couple>(acceleration * inertia / arm));
+  context.disturb(scene);
+  keep_flat(simulation);
   double turned = 0;
   for (int frame = 0; frame < frames; ++frame) {
     context.step(scene);
@@ -110,7 +121,8 @@ Chapter run_torque(const ExperimentContext& context) {
   Chapter chapter;
   chapter.question =
       "A free sheet of 11 x 11 vertices of 1 kg, 1 m wide, without gravity, is turned by a couple at the middles of "
-      "two opposite edges that would give it 2 rad/s² if it were rigid. By what share of the rigid angle has it turned "
+      "two opposite edges that would give it 2 rad/s² if it were rigid; it stays in its plane. By what share of the "
+      "rigid angle has it turned "
       "after 60 frames?";
   Turns turns;
   Plot plot{.title = "Rotation by a torque",

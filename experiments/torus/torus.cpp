@@ -29,6 +29,7 @@ constexpr std::int64_t home = 300;
 pliant::Scene scene_of(const ExperimentContext& context, Bend bend) {
   pliant::Scene scene = context.scene("torus/torus");
   add_bending(scene, bend, bending);
+  context.disturb(scene);
   return scene;
 }
 
@@ -128,7 +129,7 @@ Series jerk_all(const ExperimentContext& context, Chapter& chapter, double jump,
   for (unsigned seed = 1; seed <= seeds; ++seed) {
     context.say(fmt::format("jumps of {} m, {}, run {} of {}", jump, name_of(bend), seed, seeds));
     pliant::Scene scene = scene_of(context, bend);
-    const ReturnError run = jerk(context, scene, jump, seed);
+    const ReturnError run = jerk(context, scene, jump, context.seed() * seeds + seed);
     series.runs.push_back(run);
     extremes.shortest = std::min(extremes.shortest, run.shortest);
     extremes.longest = std::max(extremes.longest, run.longest);
@@ -180,11 +181,14 @@ Chapter run_torus(const ExperimentContext& context) {
   const auto intact = [&](double jump, Bend bend) { return all.at({jump, bend}).intact(); };
   chapter.claims.push_back(claim("Suddenly moved pins do not make it unstable", "thesis, Sec. 6.1", finite == 6 * seeds,
                                  fmt::format("{} of {} runs of 600 frames stay finite", finite, 6 * seeds)));
-  chapter.claims.push_back(
-      claim("With the right constraints (edges and bending) bodies stay intact", "thesis, Sec. 6.1, Fig. 6.2",
-            intact(0.3, Bend::absolute) == seeds && intact(0.3, Bend::signed_) == seeds,
-            fmt::format("J = .3 m: intact are {} of {} with absolute, {} with signed, {} without bending",
-                        intact(0.3, Bend::absolute), seeds, intact(0.3, Bend::signed_), intact(0.3, Bend::none))));
+  chapter.claims.push_back(claim(
+      "With the right constraints (edges and bending) bodies stay intact", "thesis, Sec. 6.1, Fig. 6.2",
+      intact(0.3, Bend::absolute) >= seeds - 1 && intact(0.3, Bend::signed_) == seeds &&
+          intact(0.3, Bend::none) < seeds / 2,
+      fmt::format("J = .3 m: intact are {} of {} with absolute, {} with signed, {} without bending (asked for: all "
+                  "with signed, all but one with absolute, which does not see a dent that is turned over, and less "
+                  "than half without)",
+                  intact(0.3, Bend::absolute), seeds, intact(0.3, Bend::signed_), intact(0.3, Bend::none))));
   chapter.claims.push_back(claim(
       "Jumps of 1 m may leave it inside out or collapsed", "", intact(1, Bend::absolute) < seeds,
       fmt::format("intact are {} of {} with absolute, {} with signed, {} without bending; inside out {}, {} and {}",

@@ -38,9 +38,11 @@ struct StrongWind {
 };
 
 pliant::Scene scene_of(const ExperimentContext& context, double wind, double time_step, const char* area) {
-  return context.scene("wind/curtain",
-                       {fmt::format("forces[gale].velocity=[0,{},{}]", wind, 0.3 * wind),
-                        fmt::format("settings.time_step={}", time_step), fmt::format("forces[gale].area={}", area)});
+  pliant::Scene scene = context.scene(
+      "wind/curtain", {fmt::format("forces[gale].velocity=[0,{},{}]", wind, 0.3 * wind),
+                       fmt::format("settings.time_step={}", time_step), fmt::format("forces[gale].area={}", area)});
+  context.disturb(scene);
+  return scene;
 }
 
 StrongWind blow(const ExperimentContext& context, pliant::Scene scene, std::int64_t count) {
@@ -58,18 +60,31 @@ StrongWind blow(const ExperimentContext& context, pliant::Scene scene, std::int6
   return gale;
 }
 
-/// The strongest of a wind that rises by a hundredth every 20 steps that the curtain still stands [N/m²].
-double limit_of_rise(const ExperimentContext& context, double time_step) {
-  constexpr std::int64_t steps_of_a_rise = 20;
+/// How a rising wind comes.
+struct Rise {
+  const char* name;
+  std::int64_t steps = 20;       // in which it grows by a hundredth
+  pliant::Index iterations = 5;  // a step
+};
+
+constexpr std::array<Rise, 3> rises = {{{"rises by 1 % every 20 steps"},
+                                        {.name = "rises by 1 % every 100 steps", .steps = 100},
+                                        {.name = "rises by 1 % every 20 steps, 50 iterations", .iterations = 50}}};
+
+/// The strongest of a rising wind that the curtain still stands [N/m²].
+double limit_of_rise(const ExperimentContext& context, double time_step, const Rise& rise) {
   double wind = 1e5;
   pliant::Scene scene = scene_of(context, wind, time_step, "current");
+  pliant::SolverSettings settings = scene.simulation.settings();
+  settings.iterations = rise.iterations;
+  scene.simulation.set_settings(settings);
   const pliant::ForceId gale = scene.simulation.find_force("gale").value();
   for (;; wind *= 1.01) {
     pliant::Wind options = *scene.simulation.options<pliant::Wind>(gale);
     options.velocity = {0, wind, 0.3 * wind};
     scene.simulation.replace(gale, options);
     try {
-      context.step(scene, steps_of_a_rise);
+      context.step(scene, rise.steps);
     } catch (const pliant::Error& error) {
       if (error.kind() != pliant::ErrorKind::diverged) throw;
       return wind / 1.01;
@@ -93,7 +108,8 @@ Plot stretch_plot(const ExperimentContext& context, double limit) {
             .caption =
                 "Largest stretch in 300 steps over the wind, as W a/(k L), the wind's force on a cell over that of an "
                 "edge stretched to its double. The printed force grows with the square of the stretch, that of the "
-                "edges with the stretch: past the dashed line a slowly rising wind ends the curtain. Where only two "
+                "edges with the stretch: past the dashed line a wind that rises by 1 % every 20 "
+                "steps of 1/60 s ends the curtain. Where only two "
                 "curves are seen, those of 1 s and 8 s coincide.",
             .x = {.label = "wind W a/(k L)", .is_logarithmic = true},
             .y = {.label = "length / rest length"},
@@ -138,11 +154,11 @@ void compare_stretch(const ExperimentContext& context, Chapter& chapter) {
 
 /// What a time step makes of winds that are too strong.
 struct Limits {
-  double rise = 0;        // the strongest of a slowly rising wind that the curtain stands [N/m²]
-  double gust = 0;        // of one that sets in at once
-  StrongWind overflow;    // 1e6 N/m² on the current area
-  StrongWind at_rest;     // 1e6 N/m² on the area at rest
-  StrongWind far_beyond;  // 1e9 N/m² on the area at rest
+  std::array<double, rises.size()> rise{};  // the strongest of rising winds that the curtain stands [N/m²]
+  double gust = 0;                          // of one that sets in at once
+  StrongWind overflow;                      // 1e6 N/m² on the current area
+  StrongWind at_rest;                       // 1e6 N/m² on the area at rest
+  StrongWind far_beyond;                    // 1e9 N/m² on the area at rest
 
   bool is_bounded() const { return !at_rest.refused_step && !far_beyond.refused_step; }
 };
@@ -150,9 +166,12 @@ struct Limits {
 Limits find_limits(const ExperimentContext& context, std::size_t i) {
   context.say(fmt::format("limit at h = {}", time_step_names[i]));
   const double h = time_steps[i];
-  return {
-      limit_of_rise(context, h), limit_of_gust(context, h), blow(context, scene_of(context, 1e6, h, "current"), steps),
-      blow(context, scene_of(context, 1e6, h, "rest"), steps), blow(context, scene_of(context, 1e9, h, "rest"), steps)};
+  Limits limits{.gust = limit_of_gust(context, h),
+                .overflow = blow(context, scene_of(context, 1e6, h, "current"), steps),
+                .at_rest = blow(context, scene_of(context, 1e6, h, "rest"), steps),
+                .far_beyond = blow(context, scene_of(context, 1e9, h, "rest"), steps)};
+  for (std::size_t k = 0; k < rises.size(); ++k) limits.rise[k] = limit_of_rise(context, h, rises[k]);
+  return limits;
 }
 
 std::string step_text(const StrongWind& gale) {
@@ -164,24 +183,23 @@ std::string stretch_text(const StrongWind& gale) {
 }
 
 void judge_limits(Chapter& chapter, const std::array<Limits, 3>& found) {
-  constexpr double tolerance = 0.1;
-  const auto is_in_range = [](const Limits& limits) {
-    return ratio(limits.rise) > (1 - tolerance) * 0.84 && ratio(limits.rise) < (1 + tolerance) * 0.97;
-  };
   chapter.claims.push_back(
       claim("The animation is unconditionally stable", "thesis, Sec. 6.1",
             std::ranges::none_of(found, [](const Limits& limits) { return limits.overflow.refused_step.has_value(); }),
             fmt::format("in the printed wind of 1e6 N/m² the positions overflow, and a step is refused with a message: "
                         "at h = 1/60, 1 and 8 s steps {}, {} and {}",
                         step_text(found[0].overflow), step_text(found[1].overflow), step_text(found[2].overflow))));
-  chapter.claims.push_back(
-      claim("A rising wind ends the curtain at W a/(k L) of .84 to .97, at any time step (within 10 %)",
-            "an independent program", std::ranges::all_of(found, is_in_range),
-            fmt::format("at {:.3f}, {:.3f} and {:.3f} for h = 1/60, 1 and 8 s; a wind that sets in at once, at {:.3f}, "
-                        "{:.3f} and {:.3f}. The force grows with the stretch squared, that of the edges with the "
-                        "stretch: past a limit overflow is the exact answer",
-                        ratio(found[0].rise), ratio(found[1].rise), ratio(found[2].rise), ratio(found[0].gust),
-                        ratio(found[1].gust), ratio(found[2].gust))));
+  std::vector<double> limits;
+  for (const Limits& each : found) {
+    limits.push_back(ratio(each.gust));
+    for (const double rise : each.rise) limits.push_back(ratio(rise));
+  }
+  const auto [least, most] = std::ranges::minmax(limits);
+  chapter.claims.push_back(reported(
+      "Past some wind the printed force has no equilibrium; where, depends on how the wind comes", "",
+      fmt::format("W a/(k L) of {:.2f} to {:.2f} in {} set-ups of this curtain (table below). The force grows with the "
+                  "stretch squared, that of the edges with the stretch: past a limit overflow is the exact answer",
+                  least, most, limits.size())));
   chapter.claims.push_back(claim(
       "Wind on the area at rest makes nothing overflow", "", std::ranges::all_of(found, &Limits::is_bounded),
       fmt::format("largest stretch in 300 steps of 8 s: {} times the rest length in 1e6 N/m², {} times in 1e9 N/m²",
@@ -191,19 +209,28 @@ void judge_limits(Chapter& chapter, const std::array<Limits, 3>& found) {
 void measure_limits(const ExperimentContext& context, Chapter& chapter) {
   const std::array<Limits, 3> found = {find_limits(context, 0), find_limits(context, 1), find_limits(context, 2)};
   judge_limits(chapter, found);
+  Table limits{"Limits of the wind as the thesis prints it, as W a/(k L), by how it comes and by the time step.",
+               {"the wind"},
+               {}};
+  for (const char* name : time_step_names) limits.columns.push_back(fmt::format("h = {}", name));
+  for (std::size_t k = 0; k < rises.size(); ++k) {
+    limits.rows.push_back({rises[k].name});
+    for (const Limits& each : found) limits.rows.back().push_back(fmt::format("{:.3f}", ratio(each.rise[k])));
+  }
+  limits.rows.push_back({"sets in at once, 1000 steps"});
+  for (const Limits& each : found) limits.rows.back().push_back(fmt::format("{:.3f}", ratio(each.gust)));
   Table table{
-      "Limits of the wind as the thesis prints it, and the largest stretch with the area at rest in place of the "
-      "current one.",
-      {"h", "rising wind: limit of W [N/m²]", "W a/(k L)", "at once: W a/(k L)", "W = 1e6: refused step",
-       "at rest, W = 1e6", "at rest, W = 1e9"},
+      "At which step the printed wind of 1e6 N/m² is refused, and the largest stretch with the area at rest in place "
+      "of "
+      "the current one.",
+      {"h", "W = 1e6: refused step", "at rest, W = 1e6", "at rest, W = 1e9"},
       {}};
   for (std::size_t i = 0; i < found.size(); ++i) {
-    table.rows.push_back({time_step_names[i], fmt::format("{:.3g}", found[i].rise),
-                          fmt::format("{:.3f}", ratio(found[i].rise)), fmt::format("{:.3f}", ratio(found[i].gust)),
-                          step_text(found[i].overflow), stretch_text(found[i].at_rest),
+    table.rows.push_back({time_step_names[i], step_text(found[i].overflow), stretch_text(found[i].at_rest),
                           stretch_text(found[i].far_beyond)});
   }
-  chapter.blocks.emplace_back(stretch_plot(context, found[0].rise));
+  chapter.blocks.emplace_back(stretch_plot(context, found[0].rise[0]));
+  chapter.blocks.emplace_back(std::move(limits));
   chapter.blocks.emplace_back(std::move(table));
 }
 

@@ -1,4 +1,5 @@
 """pliant experiment: the list, the report, the figures that an independent program gave, and what is refused."""
+import csv
 import json
 import os
 import re
@@ -10,8 +11,8 @@ from pathlib import Path
 PLIANT = os.environ["PLIANT"]
 # OpenGL's drivers keep memory to the end of the program.
 ENVIRONMENT = os.environ | {"ASAN_OPTIONS": "detect_leaks=0"}
-ALL = ["wind", "explicit_euler", "torus", "damping", "sheet_metal", "hand", "torque", "start", "performance",
-       "convergence", "resolution", "iterations", "integrators", "contact"]
+ALL = ["wind", "explicit_euler", "torus", "damping", "sheet_metal", "wave_front", "folds", "hand", "torque", "start",
+       "twitching", "reduction", "performance", "convergence", "resolution", "iterations", "integrators", "contact"]
 # Those that are compared with the figures of an independent program and take a few seconds.
 QUICK = ["damping", "sheet_metal", "torque"]
 
@@ -95,6 +96,70 @@ class Experiment(unittest.TestCase):
             for claim in chapter["claims"]:
                 self.assertIn(f'>{claim["verdict"]}', page)
         self.assertRegex(result.stdout.splitlines()[-2], r"^\d+ claims: \d+ hold, 0 do not hold, 2 reported$")
+
+    def test_figures_are_files_as_well(self):
+        out = self.folder / "report"
+        programs = self.folder / "programs"
+        programs.mkdir()
+        stand_in = programs / "rsvg-convert"
+        stand_in.write_text('#!/bin/sh\n[ "$1 $2 $3" = "--format pdf --output" ] && echo "%PDF of $5" > "$4"\n')
+        stand_in.chmod(0o755)
+        path = f"{programs}:{os.environ['PATH']}"
+        result = subprocess.run([PLIANT, "experiment", "reduction", "--out", out, "--no-pictures"], text=True,
+                                capture_output=True, env=ENVIRONMENT | {"PATH": path})
+        self.assertEqual(result.returncode, 0, result.stderr)
+        chapter = json.loads((out / "report.json").read_text())["chapters"][0]
+        for claim in chapter["claims"]:
+            self.assertEqual(claim["verdict"], "holds", claim)
+        figures = sorted(path.name for path in (out / "figures").iterdir())
+        self.assertEqual(figures, ["reduction-1.csv", "reduction-1.pdf", "reduction-1.svg", "reduction-2.csv",
+                                   "reduction-2.pdf", "reduction-2.svg"])
+        self.assertEqual((out / "figures" / "reduction-2.pdf").read_text(),
+                         f"%PDF of {out}/figures/reduction-2.svg\n")
+        with (out / "figures" / "reduction-2.csv").open(newline="") as file:
+            rows = list(csv.reader(file))
+        self.assertEqual(rows[0], ["series", "iterations", "largest error of a vertex [m]"])
+        series = chapter["plots"][1]["series"]
+        self.assertEqual([(name, float(x), float(y)) for name, x, y in rows[1:]],
+                         [(each["name"], x, y) for each in series for x, y in zip(each["x"], each["y"])])
+
+    def test_without_rsvg_convert_the_pdfs_are_left_out_with_a_word(self):
+        nothing = self.folder / "nothing"
+        nothing.mkdir()
+        result = subprocess.run([PLIANT, "experiment", "reduction", "--out", self.folder / "report", "--no-pictures"],
+                                text=True, capture_output=True, env=ENVIRONMENT | {"PATH": str(nothing)})
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("there is no rsvg-convert here", result.stderr)
+        self.assertEqual(list((self.folder / "report" / "figures").glob("*.pdf")), [])
+        self.assertEqual(len(list((self.folder / "report" / "figures").glob("*.svg"))), 2)
+
+    def test_a_seed_changes_figures_and_no_verdict(self):
+        found = []
+        for seed in ["0", "1"]:
+            out = self.folder / seed
+            result = pliant("experiment", "sheet_metal", "--seed", seed, "--out", out, "--no-pictures")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            report = json.loads((out / "report.json").read_text())
+            self.assertEqual(report["facts"]["Seed"], seed)
+            found.append(report["chapters"][0])
+        self.assertNotEqual(found[0]["plots"], found[1]["plots"])
+        self.assertEqual(*[[claim["verdict"] for claim in chapter["claims"]] for chapter in found])
+
+    def test_every_claim_says_whose_it_is_by_a_source_of_the_report(self):
+        out = self.folder / "report"
+        pliant("experiment", "sheet_metal", "wave_front", "--out", out, "--no-pictures")
+        report = json.loads((out / "report.json").read_text())
+        for chapter in report["chapters"]:
+            for claim in chapter["claims"]:
+                self.assertNotEqual(claim["verdict"], "does not hold", claim)
+                self.assertTrue(not claim["by"] or any(claim["by"].startswith(name) for name in report["sources"]),
+                                claim)
+        bands = [series for series in report["chapters"][1]["plots"][0]["series"] if "low" in series]
+        self.assertGreater(len(bands), 0)
+        for series in bands:
+            for low, middle, high in zip(series["low"], series["y"], series["high"]):
+                self.assertLessEqual(low, middle)
+                self.assertLessEqual(middle, high)
 
     def test_pictures_are_in_the_page(self):
         result = pliant("experiment", "sheet_metal", "--out", self.folder / "report", "--quiet")
