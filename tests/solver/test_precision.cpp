@@ -131,7 +131,7 @@ TEST_CASE(
     if (!start.contact.pairs.empty()) continue;
     const auto converge = [&](Precision precision) {
       SolverSettings settings = simulation.settings();
-      settings.iterations = 300;
+      settings.iterations = name == "dress_from_panels" ? 3000 : 300;  // whose seams are closing
       settings.precision = precision;
       simulation.set_settings(settings);
       simulation.restore(start);

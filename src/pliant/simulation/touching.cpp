@@ -148,11 +148,11 @@ void Simulation::update_colliders() {
     if (i == edge_distances_.size()) edge_distances_.push_back(contact_distance_of(bodies_[i].mesh));
     const std::size_t end = radii.size() + at(bodies_[i].mesh.vertex_count());
     radii.resize(end, contact_distance(BodyId{static_cast<Index>(i)}));
+    if (has_frictions) frictions.resize(end, bodies_[i].contact.friction.value_or(-1));
     const Index carried = bodies_[i].mesh.embedding.carried_count();
     if (carried == 0) continue;
     inner.resize(at(state_.vertex_count()), 0);
     std::fill(inner.begin() + bodies_[i].first_vertex + carried, inner.begin() + static_cast<std::ptrdiff_t>(end), 1);
-    if (has_frictions) frictions.resize(end, bodies_[i].contact.friction.value_or(-1));
   }
   solver_->set_colliders(std::move(colliders), std::move(radii), std::move(frictions), std::move(inner));
   if (surfaces_changed_) update_surfaces();
