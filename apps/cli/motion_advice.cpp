@@ -111,7 +111,6 @@ std::string far_from_converged_text(const Simulation& simulation, const pliant::
 }
 
 nlohmann::ordered_json describe_motion(Scene& scene) {
-  using Json = nlohmann::ordered_json;
   Simulation& simulation = scene.simulation;
   const SolverSettings& settings = simulation.settings();
   const auto steps =
@@ -134,10 +133,10 @@ nlohmann::ordered_json describe_motion(Scene& scene) {
   std::ranges::nth_element(seconds, seconds.begin() + static_cast<std::ptrdiff_t>(seconds.size() / 2));
   const Real median = seconds[seconds.size() / 2];
   const Kept kept = kept_in_second(settings);
-  Json json = {{"steps", steps},
-               {"kept_in_a_second", kept.by_integrator * kept.by_damping},
-               {"past_limits", stretch},
-               {"seconds_per_step", median}};
+  nlohmann::ordered_json json = {{"steps", steps},
+                                 {"kept_in_a_second", kept.by_integrator * kept.by_damping},
+                                 {"past_limits", stretch},
+                                 {"seconds_per_step", median}};
   std::vector<std::string> lines = {"how lively: " + lively_text(settings), "how stretchy: " + stretchy_text(stretch),
                                     "how fast: " + fast_text(median, settings)};
   if (error) {
