@@ -135,6 +135,12 @@ struct SolverSettings {
           self.tolerance);
     field(OptionInfo{"start", "", "iterations begin at the `prediction` s or at the `positions` of the last step"},
           self.start);
+    visit_factorization(self, field);
+  }
+
+ private:
+  template <class Self, class Visitor>
+  static void visit_factorization(Self& self, Visitor&& field) {
     field(OptionInfo{"backend", "", "library that factorizes: `automatic`, `eigen` or `cholmod`"}, self.backend);
     field(OptionInfo{"ordering", "",
                      "of the elimination: `automatic`, `minimum_degree`, or `nested_dissection`, which takes longer to "
