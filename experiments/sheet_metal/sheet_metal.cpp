@@ -47,6 +47,28 @@ Ways ways_between(const pliant::Mesh& mesh, const pliant::Positions& drawn, cons
   return result;
 }
 
+Plot wrinkle_plot() {
+  return {.title = "Wrinkles",
+          .caption = "∫‖Δq‖² while the force draws and after it; the stiffer the sheet in bending, the fewer wrinkles.",
+          .x = {.label = "frame"},
+          .y = {.label = "∫‖Δq‖² dA", .is_logarithmic = true},
+          .series = {},
+          .guides = {{release, "force ends", true}}};
+}
+
+auto border_claim(const std::array<Ways, bendings.size()>& ways) {
+  return claim(
+      fmt::format("{} frames after the force has ended, as in the pictures here, the border has moved, by more than a "
+                  "tenth of the way of the vertex that was pulled",
+                  shortly_after),
+      "", ways[0].border > 0.1 * ways[0].pulled,
+      fmt::format("without bending that vertex is {:.1f} cm from where the force would have it, and the border up to "
+                  "{:.1f} cm, with 100 N m {:.1f} and {:.1f} cm. That a disturbance has not yet come to the edges, as "
+                  "Fig. 6.7 has it at the right, is "
+                  "tried in “The wave after a release”",
+                  100 * ways[0].pulled, 100 * ways[0].border, 100 * ways[3].pulled, 100 * ways[3].border));
+}
+
 }  // namespace
 
 Chapter run_sheet_metal(const ExperimentContext& context) {
@@ -58,13 +80,7 @@ Chapter run_sheet_metal(const ExperimentContext& context) {
   const std::array<double, 4> known = {142, 79, 22, 5.3};
   CurvatureMeter meter(context, "sheet_metal/curtain");
   Comparison comparison(0.1);
-  Plot plot{
-      .title = "Wrinkles",
-      .caption = "∫‖Δq‖² while the force draws and after it; the stiffer the sheet in bending, the fewer wrinkles.",
-      .x = {.label = "frame"},
-      .y = {.label = "∫‖Δq‖² dA", .is_logarithmic = true},
-      .series = {},
-      .guides = {{release, "force ends", true}}};
+  Plot plot = wrinkle_plot();
   std::vector<double> at_release;
   std::vector<pliant_render::Image> pictures;
   std::array<Ways, bendings.size()> ways;
@@ -96,16 +112,7 @@ Chapter run_sheet_metal(const ExperimentContext& context) {
             falls && at_release.front() > 10 * at_release.back(),
             fmt::format("∫‖Δq‖² at the end of the force falls as {:.3g}, {:.3g}, {:.3g}, {:.3g} with 0, 1, 10, 100 N m",
                         at_release[0], at_release[1], at_release[2], at_release[3])));
-  chapter.claims.push_back(claim(
-      fmt::format("{} frames after the force has ended, as in the pictures here, the border has moved, by more than a "
-                  "tenth of the way of the vertex that was pulled",
-                  shortly_after),
-      "", ways[0].border > 0.1 * ways[0].pulled,
-      fmt::format("without bending that vertex is {:.1f} cm from where the force would have it, and the border up to "
-                  "{:.1f} cm, with 100 N m {:.1f} and {:.1f} cm. That a disturbance has not yet come to the edges, as "
-                  "Fig. 6.7 has it at the right, is "
-                  "tried in “The wave after a release”",
-                  100 * ways[0].pulled, 100 * ways[0].border, 100 * ways[3].pulled, 100 * ways[3].border)));
+  chapter.claims.push_back(border_claim(ways));
   chapter.claims.push_back(comparison.claim("The figures are those of an independent solver, within 10 %"));
   context.show(
       chapter, pictures, 2,
