@@ -9,6 +9,7 @@
 
 #include "pliant/core/printable.h"
 #include "pliant/core/stopwatch.h"
+#include "pliant/simulation/held.h"
 #include "pliant/solver/integration/integrator.h"
 #include "pliant_io/recorder/measurements.h"
 
@@ -59,10 +60,12 @@ std::string lively_text(const SolverSettings& settings) {
   return text;
 }
 
-std::string stretchy_text(Real stretch) {
+std::string stretchy_text(const Simulation& simulation, Real stretch) {
   constexpr Real visible = 0.03;
   std::string text = fmt::format("what is stretched most is {:.2g} % past its limits", 100 * stretch);
-  if (stretch > visible) text += "; less: more stiffness, or pins that share the load";
+  if (!(stretch > visible)) return text;
+  const bool has_pins = std::ranges::any_of(held_vertices(simulation), [](char held) { return held != 0; });
+  text += has_pins ? "; less: more stiffness, or pins that share the load" : "; less: more stiffness";
   return text;
 }
 
@@ -137,7 +140,8 @@ nlohmann::ordered_json describe_motion(Scene& scene) {
                                  {"kept_in_a_second", kept.by_integrator * kept.by_damping},
                                  {"past_limits", stretch},
                                  {"seconds_per_step", median}};
-  std::vector<std::string> lines = {"how lively: " + lively_text(settings), "how stretchy: " + stretchy_text(stretch),
+  std::vector<std::string> lines = {"how lively: " + lively_text(settings),
+                                    "how stretchy: " + stretchy_text(simulation, stretch),
                                     "how fast: " + fast_text(median, settings)};
   if (error) {
     json["step_error"] = {

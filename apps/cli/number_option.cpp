@@ -46,6 +46,18 @@ void add(CLI::App& command, const std::string& name, Target& target, const std::
 
 }  // namespace
 
+void add_number(CLI::App& command, const std::string& name, std::optional<pliant::Index>& number, NumberWord word,
+                const std::string& help) {
+  constexpr pliant::Index least = std::numeric_limits<pliant::Index>::lowest();
+  constexpr pliant::Index most = std::numeric_limits<pliant::Index>::max();
+  const std::string wanted = fmt::format("{}, or {}", wanted_text(least, most), word.text);
+  const auto take = [&number, name, wanted, word = std::move(word)](const std::string& text) {
+    if (text == word.text) return word.take();
+    number = to_number<pliant::Index>(name, text, wanted, least, most);
+  };
+  command.add_option_function<std::string>(name, take, help)->type_name("INT");
+}
+
 void add_number(CLI::App& command, const std::string& name, std::optional<std::int64_t>& number,
                 const std::string& help) {
   add<std::int64_t>(command, name, number, help);

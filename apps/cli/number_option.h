@@ -2,6 +2,7 @@
 // Options whose values are numbers, in the decimal notation of C++ and JSON, whatever the locale.
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -18,6 +19,13 @@ void add_number(CLI::App& command, const std::string& name, std::optional<std::i
 void add_number(CLI::App& command, const std::string& name, std::optional<pliant::Index>& number,
                 const std::string& help);
 void add_number(CLI::App& command, const std::string& name, std::optional<pliant::Real>& number,
+                const std::string& help);
+/// A word that may stand in place of a number, and what it does.
+struct NumberWord {
+  std::string text;
+  std::function<void()> take;
+};
+void add_number(CLI::App& command, const std::string& name, std::optional<pliant::Index>& number, NumberWord word,
                 const std::string& help);
 /// `number` keeps its value when the option is not given.
 void add_number(CLI::App& command, const std::string& name, std::int64_t& number, const std::string& help);

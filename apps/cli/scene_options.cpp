@@ -65,7 +65,9 @@ void add_scene_arguments(CLI::App& command, SceneArguments& arguments, const std
 void add_setting_options(CLI::App& command, SceneArguments& arguments) {
   pliant::SceneOverrides& overrides = arguments.overrides;
   add_number(command, "--steps", overrides.steps, "Number of steps");
-  add_number(command, "--iterations", overrides.iterations, "Iterations (a local and a global step each) in each step");
+  add_number(command, "--iterations", overrides.iterations,
+             {"automatic", [&overrides] { overrides.set.emplace_back("settings.iterations=automatic"); }},
+             "Iterations (a local and a global step each) in each step; automatic: as many as it needs");
   add_number(command, "--time-step", overrides.time_step, "Length of a step [s]");
   add_number(command, "--tolerance", overrides.tolerance,
              "Stop iterating below this residual [N]; 0: only at exact rest");

@@ -118,8 +118,8 @@ class Run(unittest.TestCase):
         worst = self.run_info()["worst_step"]
         self.assertEqual((worst["step"], worst["body"]), (30, "body 0"))
         self.assertGreater(worst["share"], 0.5)
-        done = self.pliant("run", path, "--out", self.out, "--quiet", "--set", "settings.acceleration=lbfgs", "--set",
-                           "settings.iterations=automatic")
+        done = self.pliant("run", path, "--out", self.out, "--quiet", "--set", "settings.acceleration=lbfgs",
+                           "--iterations", "automatic")
         self.assertEqual(done.stderr, "")
         info = self.run_info()
         self.assertLess(info["worst_step"]["share"], 0.5)

@@ -1,14 +1,12 @@
 #pragma once
 // The body-centered cubic lattice: corners and centers of cubes of side a, and the tetrahedra between them.
 //
-//        p+ ------                 Two cubes that share a face, with centers c and d, and an edge p+ p− of that face
-//        make
-//       / \      /                 a tetrahedron: twelve of a³/12 for each cube, all alike (edges a twice and √3/2 a
-//       four
-//      /   \    /                  times, dihedral angles 60° and 90°). Within half a cube, with the coordinates by
-//     c --- p− -- d                size |x₁| ≥ |x₂| ≥ |x₃| from its center in units of a, x₁ leads to d, x₂ to the
-//     edge:
-//                                  b(d) = x₁ − x₂, b(p±) = x₂ ± x₃, b(c) = 1 − x₁ − x₂.
+//        p+ ------           Two cubes that share a face, with centers c and d, and an edge p+ p− of that
+//       / \      /           face make a tetrahedron: twelve of a³/12 for each cube, all alike (edges a
+//      /   \    /            twice and √3/2 a four times, dihedral angles 60° and 90°). Within half a cube,
+//     c --- p− -- d          with the coordinates by size |x₁| ≥ |x₂| ≥ |x₃| from its center in units of a,
+//                            x₁ leads to d, x₂ to the edge:
+//                            b(d) = x₁ − x₂, b(p±) = x₂ ± x₃, b(c) = 1 − x₁ − x₂.
 //
 // Source: the lattice of Labelle & Shewchuk 2007 (isosurface stuffing), uncut.
 #include <array>
