@@ -10,10 +10,9 @@
 
 #include <doctest/doctest.h>
 
+#include "load_builtin_scene.h"
 #include "pliant/collision/crossings.h"
 #include "pliant/pliant.h"
-#include "pliant_io/scene/builtin_scenes.h"
-#include "pliant_io/scene/scene.h"
 #include "whole_scenes.h"
 
 namespace test_contact_scenes {
@@ -21,15 +20,10 @@ namespace test_contact_scenes {
 namespace {
 
 using namespace pliant;
+using pliant_tests::load_builtin_scene;
 using pliant_tests::runs_whole_scenes;
 
 constexpr Real degree = std::numbers::pi / 180;
-
-Scene load_scene(std::string_view name) {
-  const auto found = std::ranges::find(builtin_scenes(), name, &BuiltinScene::name);
-  REQUIRE(found != builtin_scenes().end());
-  return parse_scene(found->text, "", found->name);
-}
 
 /// Of the vertex that is deepest in any collider [m]; below zero inside.
 Real least_distance(const Simulation& simulation) {
@@ -92,7 +86,7 @@ Vec3 middle_of(const Simulation& simulation, const Body& body) {
 }  // namespace
 
 TEST_CASE("towel: it comes to rest on the ball, the box and the floor") {
-  Scene scene = load_scene("towel");
+  Scene scene = load_builtin_scene("towel");
   run_clear_of_colliders(scene, [](const Simulation&, std::int64_t) {});
   if (!runs_whole_scenes) return;
   for (const char* name : {"ball", "box", "floor"}) CHECK(contacts_with(scene.simulation, name) > 20);
@@ -100,7 +94,7 @@ TEST_CASE("towel: it comes to rest on the ball, the box and the floor") {
 }
 
 TEST_CASE("slope: blocks slip when the slope is that of their friction, or stay") {
-  Scene scene = load_scene("slope");
+  Scene scene = load_builtin_scene("slope");
   const Simulation& simulation = scene.simulation;
   const std::array<std::string_view, 3> names{"ice", "wood", "rubber"};
   const std::array<Real, 3> frictions{0.15, 0.3, 0.6};
@@ -132,7 +126,7 @@ TEST_CASE("slope: blocks slip when the slope is that of their friction, or stay"
 }
 
 TEST_CASE("conveyor: a block moves as fast as the belt that it lies on, and stops on the floor") {
-  Scene scene = load_scene("conveyor");
+  Scene scene = load_builtin_scene("conveyor");
   std::vector<Vec3> places;
   run_clear_of_colliders(scene, [&](const Simulation& simulation, std::int64_t) {
     places.push_back(middle_of(simulation, simulation.bodies()[0]));
@@ -148,7 +142,7 @@ TEST_CASE("conveyor: a block moves as fast as the belt that it lies on, and stop
 }
 
 TEST_CASE("dancer: the skirt turns with the hips, rises, and stays on them") {
-  Scene scene = load_scene("dancer");
+  Scene scene = load_builtin_scene("dancer");
   const Index first_of_waist = 28 * 96;
   const auto waist = [&](const Simulation& now) {
     return now.state().positions.bottomRows(96).colwise().mean().eval();
@@ -173,7 +167,7 @@ TEST_CASE("dancer: the skirt turns with the hips, rises, and stays on them") {
 }
 
 TEST_CASE("flagpole: the flag goes round the pole and lies against it") {
-  Scene scene = load_scene("flagpole");
+  Scene scene = load_builtin_scene("flagpole");
   Index widest = 0;
   run_clear_of_colliders(scene, [&](const Simulation& now, std::int64_t) {
     std::array<bool, 12> is_touched{};
@@ -188,7 +182,7 @@ TEST_CASE("flagpole: the flag goes round the pole and lies against it") {
 }
 
 TEST_CASE("drapes: the hem lies on the floor and drags behind the hooks") {
-  Scene scene = load_scene("drapes");
+  Scene scene = load_builtin_scene("drapes");
   Real lag = 0;
   run_clear_of_colliders(scene, [&](const Simulation& now, std::int64_t) {
     const Positions& x = now.state().positions;
@@ -201,7 +195,7 @@ TEST_CASE("drapes: the hem lies on the floor and drags behind the hooks") {
 }
 
 TEST_CASE("ball: it pushes the cloth before it, and the cloth hangs straight again when it is gone") {
-  Scene scene = load_scene("ball");
+  Scene scene = load_builtin_scene("ball");
   Real farthest = 0;
   run_clear_of_colliders(scene, [&](const Simulation& now, std::int64_t) {
     farthest = std::max(farthest, now.state().positions.col(1).maxCoeff());

@@ -5,24 +5,18 @@
 
 #include <doctest/doctest.h>
 
+#include "load_builtin_scene.h"
 #include "pliant/collision/crossings.h"
 #include "pliant/pliant.h"
-#include "pliant_io/scene/builtin_scenes.h"
-#include "pliant_io/scene/scene.h"
 #include "whole_scenes.h"
 
 namespace test_sewn_scenes {
 
 using namespace pliant;
+using pliant_tests::load_builtin_scene;
 using pliant_tests::runs_whole_scenes;
 
 namespace {
-
-Scene load_scene(std::string_view name) {
-  const auto found = std::ranges::find(builtin_scenes(), name, &BuiltinScene::name);
-  REQUIRE(found != builtin_scenes().end());
-  return parse_scene(found->text, "", found->name);
-}
 
 const Body& body_of(const Scene& scene, std::string_view name) {
   const auto& bodies = scene.simulation.bodies();
@@ -79,7 +73,7 @@ std::int64_t inner_crossings(const Scene& scene, const std::vector<std::string_v
 }  // namespace
 
 TEST_CASE("scene dress_from_panels: four panels become a dress that keeps its seams and swings") {
-  Scene scene = load_scene("dress_from_panels");
+  Scene scene = load_builtin_scene("dress_from_panels");
   const auto hem = [&] { return positions_of(scene, "front skirt").leftCols<2>().rowwise().norm().maxCoeff(); };
   CHECK(widest_gap(scene, "front skirt", "left", "back skirt", "right") > 0.39);
   std::array<Real, 2> swing{};
@@ -103,7 +97,7 @@ TEST_CASE("scene dress_from_panels: four panels become a dress that keeps its se
 
 TEST_CASE("scene parachute: the canopy brakes the fall, the parcel lands, and all lines hold" *
           doctest::skip(!runs_whole_scenes)) {
-  Scene scene = load_scene("parachute");
+  Scene scene = load_builtin_scene("parachute");
   const auto farthest = [&] {
     const Positions lines = positions_of(scene, "lines"), canopy = positions_of(scene, "canopy");
     Real worst = 0;
@@ -133,7 +127,7 @@ TEST_CASE("scene parachute: the canopy brakes the fall, the parcel lands, and al
 }
 
 TEST_CASE("scene plank_bridge: it throws the crate up, and carries it in the end" * doctest::skip(!runs_whole_scenes)) {
-  Scene scene = load_scene("plank_bridge");
+  Scene scene = load_builtin_scene("plank_bridge");
   Real deepest = 1, thrown = 0;
   for (std::int64_t step = 1; step <= scene.steps; ++step) {
     scene.step();

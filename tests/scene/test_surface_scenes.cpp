@@ -7,25 +7,19 @@
 
 #include <doctest/doctest.h>
 
+#include "load_builtin_scene.h"
 #include "pliant/collision/crossings.h"
 #include "pliant/pliant.h"
 #include "pliant/simulation/held.h"
-#include "pliant_io/scene/builtin_scenes.h"
-#include "pliant_io/scene/scene.h"
 #include "whole_scenes.h"
 
 namespace test_surface_scenes {
 
 using namespace pliant;
+using pliant_tests::load_builtin_scene;
 using pliant_tests::runs_whole_scenes;
 
 namespace {
-
-Scene load_scene(std::string_view name) {
-  const auto found = std::ranges::find(builtin_scenes(), name, &BuiltinScene::name);
-  REQUIRE(found != builtin_scenes().end());
-  return parse_scene(found->text, "", found->name);
-}
 
 /// All triangles of a simulation; and its edges, of which a rope has no others. What is held may cross what is held.
 struct Surfaces {
@@ -55,7 +49,7 @@ struct Surfaces {
 
 /// Steps to the end of the scene, or only a few; f(simulation, step) after each.
 void run_without_crossings(std::string_view name, const std::function<void(const Simulation&, std::int64_t)>& f) {
-  Scene scene = load_scene(name);
+  Scene scene = load_builtin_scene(name);
   const Surfaces surfaces(scene.simulation);
   const std::int64_t steps = runs_whole_scenes ? scene.steps : 20;
   REQUIRE(surfaces.crossings(scene.simulation) == 0);
