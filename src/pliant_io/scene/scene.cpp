@@ -76,21 +76,28 @@ void for_each_entry(const Node& root, std::string_view key, auto&& f) {
   for (std::size_t i = 0; i < list->size(); ++i) f((*list)[i]);
 }
 
-/// What a scene of materials leaves open is as they look right, unless a force refuses it.
-void choose_settings_of_materials(const Node& root, std::optional<Real> damping, Simulation& simulation) {
-  if (!damping) return;
+/// Of a scene with a surface that a lattice carries, whose light vertices leave it in impacts of whole steps.
+constexpr Index substeps_of_carried = 4;
+
+/// What a scene of materials leaves open is as they look right, unless a force refuses it. Carried surfaces throw
+/// bodies up under BDF2.
+void choose_open_settings(const Node& root, std::optional<Real> damping, Simulation& simulation) {
+  const auto is_carried = [](const Body& body) { return !body.mesh.embedding.is_empty(); };
+  const auto is_explicit = [](const auto& entry) { return entry.second->is_explicit_spring(); };
+  const bool has_carried = std::ranges::any_of(simulation.bodies(), is_carried);
   const auto given = root.find("settings");
   const auto is_open = [&](const char* key) { return !given || !given->has(key); };
-  const auto is_explicit = [](const auto& entry) { return entry.second->is_explicit_spring(); };
   const SolverSettings good = settings_for_materials();
   SolverSettings settings = simulation.settings();
-  if (is_open("damping")) settings.damping = *damping;
-  if (is_open("integrator") && std::ranges::none_of(simulation.forces(), is_explicit)) {
-    settings.integrator = good.integrator;
+  if (has_carried && is_open("substeps")) settings.substeps = substeps_of_carried;
+  if (damping) {
+    if (is_open("damping")) settings.damping = *damping;
+    const bool takes_bdf2 = !has_carried && std::ranges::none_of(simulation.forces(), is_explicit);
+    if (is_open("integrator") && takes_bdf2) settings.integrator = good.integrator;
+    if (is_open("acceleration")) settings.acceleration = good.acceleration;
+    if (is_open("iterations")) settings.iterations = good.iterations;
   }
-  if (is_open("acceleration")) settings.acceleration = good.acceleration;
-  if (is_open("iterations")) settings.iterations = good.iterations;
-  simulation.set_settings(settings);
+  if (settings != simulation.settings()) simulation.set_settings(settings);
 }
 
 void read_simulation(const Node& root, Scene& scene) {
@@ -111,7 +118,7 @@ void read_simulation(const Node& root, Scene& scene) {
   for_each_entry(root, "forces", [&](const Node& node) { reader.read_force(node); });
   if (const auto contact = root.find("contact")) reader.read_contact(*contact);
   for_each_entry(root, "colliders", [&](const Node& node) { reader.read_collider(node); });
-  choose_settings_of_materials(root, reader.damping_of_materials(), scene.simulation);
+  choose_open_settings(root, reader.damping_of_materials(), scene.simulation);
   reader.read_events(root);
   scene.has_surfaces = scene.simulation.contact().surfaces || reader.has_later_surfaces;
   std::ranges::move(reader.warnings, std::back_inserter(scene.warnings));
