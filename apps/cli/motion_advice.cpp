@@ -76,9 +76,9 @@ std::string fast_text(Real seconds, const SolverSettings& settings) {
 
 std::string exact_text(const Simulation& simulation, const pliant::StepError& error) {
   const bool is_pushed_harder = error.acceleration > error.share * pliant::standard_gravity * (1 + 1e-9);
-  return fmt::format("{} leave '{}' {:.2g} mm from where a step ends, {:.0f} % of how far {} in a step",
-                     iterations_text(simulation.settings()), pliant::printable(simulation.body(error.body).name),
-                     1e3 * error.distance, 100 * error.share,
+  return fmt::format("{} {} '{}' {:.2g} mm from where a step ends, {:.0f} % of how far {} in a step",
+                     iterations_text(simulation.settings()), simulation.settings().iterations == 1 ? "leaves" : "leave",
+                     pliant::printable(simulation.body(error.body).name), 1e3 * error.distance, 100 * error.share,
                      is_pushed_harder ? "all forces take it" : "gravity takes it");
 }
 

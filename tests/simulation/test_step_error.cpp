@@ -133,6 +133,16 @@ TEST_CASE("a step that is given up while it is looked at leaves everything as it
   CHECK(cloth.simulation.settings() == lively(10));
 }
 
+TEST_CASE("iterations without end, which a tolerance ends, are not looked at") {
+  SolverSettings settings = lively(1000000000);
+  settings.tolerance = 1e-3;
+  Cloth cloth(settings);
+  cloth.advance(3);
+  CHECK(!find_step_error(cloth.simulation).has_value());
+  cloth.simulation.set_settings(lively(1999));
+  CHECK(find_step_error(cloth.simulation)->share < 0.01);
+}
+
 TEST_CASE("automatic iterations reach the bound, and no more than the ceiling") {
   SolverSettings settings = lively(automatic_iterations);
   settings.step_error = 0.1;

@@ -10,6 +10,7 @@ namespace {
 
 constexpr Index reference_factor = 8;
 constexpr Index least_reference = 160;
+constexpr Index most_reference = 2000;
 
 /// The coming step, taken as often as one likes. The simulation has its state and its settings again at the end.
 class Trial {
@@ -20,7 +21,8 @@ class Trial {
     SolverSettings many = settings_;
     many.acceleration = Acceleration::lbfgs;
     many.tolerance = 0;
-    many.iterations = std::max(least_reference, reference_factor * iterations);
+    many.iterations =
+        std::clamp(reference_factor * std::min(iterations, most_reference), least_reference, most_reference);
     most_ = many.iterations / 4;
     reference_ = positions_after(many);
   }
@@ -109,6 +111,7 @@ Index find_enough(Trial& trial, Index iterations, const SolverSettings& settings
 std::optional<StepError> find_step_error(Simulation& simulation) {
   try {
     const Index iterations = iterations_of(simulation.settings(), simulation.state().iterations);
+    if (iterations >= most_reference) return std::nullopt;
     return Trial(simulation, iterations).error_after(iterations);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::diverged) throw;

@@ -21,8 +21,9 @@ inline constexpr Real standard_gravity = 9.80665;  ///< [m/s²]
 inline constexpr Real far_from_converged = 0.5;
 
 /// Takes the coming step twice, with the iterations that it will have and with eight times as many and L-BFGS, at least
-/// 160, and leaves the state as it was: steps to come have the same bits either way. Costs as many iterations. What
-/// contacts(), evaluate() and objective_history() tell is not of the last step then. Nothing where the step diverges.
+/// 160 and at most 2,000, and leaves the state as it was: steps to come have the same bits either way. Costs as many
+/// iterations. What contacts(), evaluate() and objective_history() tell is not of the last step then. Nothing where the
+/// step diverges, or has 2,000 iterations or more itself, as those have that end at a tolerance.
 /// @throws Error (interrupted) when it is given up (Simulation::set_stop)
 std::optional<StepError> find_step_error(Simulation& simulation);
 
