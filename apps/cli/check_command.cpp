@@ -166,7 +166,7 @@ Json describe_bodies(const Scene& scene) {
                                   {"filled", pliant::filled_share(body.mesh)}};
     }
     const auto material = scene.materials.find(pliant::BodyId{id++});
-    if (material != scene.materials.end()) bodies.back()["material"] = material->second;
+    if (material != scene.materials.end()) bodies.back()["material"] = material->second.name;
   }
   return bodies;
 }

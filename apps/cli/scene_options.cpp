@@ -106,7 +106,7 @@ std::string assumptions_text(const SceneArguments& arguments, const pliant::Scen
   text += fmt::format("  size      {:.3g} x {:.3g} x {:.3g} m, z is up\n", size.x(), size.y(), size.z());
   text += fmt::format("  mass      {:.4g} kg\n", std::accumulate(masses.begin(), masses.end(), pliant::Real(0)));
   for (const auto& [id, material] : scene.materials)
-    text += fmt::format("  material  {}\n", pliant::printable(material));
+    text += fmt::format("  material  {}\n", pliant::printable(material.name));
   text += groups_text(simulation);
   text += fmt::format("  forces    {}\n", forces_text(simulation));
   text += fmt::format("  steps     {} of {:.4g} s, {}\n", scene.steps, settings.time_step, steps_text(settings));

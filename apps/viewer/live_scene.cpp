@@ -186,13 +186,15 @@ void LiveScene::update_render_mesh() {
   if (render_mesh_ == nullptr || !is_same(*render_mesh, *render_mesh_)) render_mesh_ = std::move(render_mesh);
 }
 
-/// Lists the parameters anew after commands, and a few times a second since the scene's own events change them too.
+/// Lists parameters and materials anew after commands, and a few times a second since the scene's own events change
+/// them too.
 void LiveScene::update_sliders() {
   const Clock::time_point now = Clock::now();
   if (commands_done_ == commands_listed_ && now - sliders_listed_ < Seconds(0.2)) return;
   sliders_listed_ = now;
   commands_listed_ = commands_done_;
   sliders_ = std::make_shared<const std::vector<Slider>>(session_.sliders());
+  materials_ = std::make_shared<const std::vector<BodyMaterial>>(session_.materials());
 }
 
 void LiveScene::publish() {
@@ -204,6 +206,7 @@ void LiveScene::publish() {
   back_.pull = session_.pull();
   update_sliders();
   back_.sliders = sliders_;
+  back_.materials = materials_;
   back_.wrenches.clear();
   for (const auto& [id, collider] : simulation.colliders()) back_.wrenches[id] = simulation.wrench(id);
   back_.statistics = statistics_.means(Clock::now());

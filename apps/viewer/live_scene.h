@@ -22,6 +22,7 @@ struct Snapshot {
   std::vector<std::uint32_t> pins;                ///< pinned vertices, which can be grabbed, ascending
   std::optional<Pull> pull;
   std::shared_ptr<const std::vector<Slider>> sliders;
+  std::shared_ptr<const std::vector<BodyMaterial>> materials;
   std::map<pliant::ColliderId, pliant::Wrench> wrenches;  ///< what colliders felt in the last step
   FrameStatistics::Means statistics;
   std::int64_t step = 0;
@@ -114,6 +115,7 @@ class LiveScene {
   std::uint64_t commands_published_ = 0;
   std::uint64_t restarts_seen_ = 0;
   std::shared_ptr<const std::vector<Slider>> sliders_;
+  std::shared_ptr<const std::vector<BodyMaterial>> materials_;
   Clock::time_point sliders_listed_{};
   std::uint64_t commands_listed_ = ~std::uint64_t{0};
   bool is_dirty_ = true;

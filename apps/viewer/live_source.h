@@ -1,6 +1,7 @@
 #pragma once
 // A simulated scene as a source of the view.
 #include "viewer/live_scene.h"
+#include "viewer/panels/material_panel.h"
 #include "viewer/panels/parameter_panel.h"
 #include "viewer/view_source.h"
 
@@ -30,6 +31,7 @@ class LiveSource final : public ViewSource {
 
   const Snapshot& snapshot() const { return *snapshot_; }
   const ParameterPanel& parameter_panel() const { return parameters_; }
+  const MaterialPanel& material_panel() const { return materials_; }
 
  private:
   void draw_pace();
@@ -40,6 +42,7 @@ class LiveSource final : public ViewSource {
   std::uint64_t play_command_ = 0;  // that requested it
   double speed_ = 1;
   bool is_unlimited_ = false;
+  MaterialPanel materials_;
   ParameterPanel parameters_;
 };
 

@@ -8,6 +8,7 @@
 #include "pliant/constraints/drag.h"
 #include "pliant/constraints/position.h"
 #include "pliant/core/error.h"
+#include "pliant/core/printable.h"
 
 namespace pliant_viewer {
 namespace {
@@ -62,6 +63,12 @@ void apply(std::map<std::string, pliant::Vec3> values, pliant::Simulation& simul
     });
     if (values.size() == count) std::rethrow_exception(refused);
   }
+}
+
+std::optional<pliant::BodyId> find_body(const pliant::Simulation& simulation, const std::string& name) {
+  const auto found = std::ranges::find(simulation.bodies(), name, &pliant::Body::name);
+  if (found == simulation.bodies().end()) return {};
+  return pliant::BodyId{static_cast<Index>(found - simulation.bodies().begin())};
 }
 
 /// The diagonal of the box around all bodies [m].
@@ -119,8 +126,12 @@ pliant::StepReport Session::step() {
 void Session::restart(bool keep_values) {
   pliant::Scene scene = make_();
   if (keep_values) {
+    for (const auto& [body, material] : materials_) {
+      if (const auto id = find_body(scene.simulation, body)) change_material(scene, *id, material);
+    }
     apply(values_, scene.simulation);
   } else {
+    materials_.clear();
     values_.clear();
   }
   scene.simulation.set_stop(stop_);
@@ -221,6 +232,19 @@ std::vector<Slider> Session::sliders() const {
 
 void Session::set(const std::string& key, const pliant::Vec3& value) {
   if (set_by_key(scene_.simulation, key, value)) values_[key] = value;
+}
+
+void Session::set_material(const std::string& body, const std::string& material) {
+  const auto id = find_body(scene_.simulation, body);
+  if (!id) pliant::fail_input("there is no body '" + pliant::printable(body) + "'");
+  std::vector<std::string> keys;  // of what may go
+  for (const Slider& slider : sliders()) {
+    const auto* group = std::get_if<pliant::GroupId>(&slider.parameter.handle.owner);
+    if (group != nullptr && simulation().groups().at(*group).body == *id) keys.push_back(slider.key);
+  }
+  change_material(scene_, *id, material);
+  for (const std::string& key : keys) values_.erase(key);
+  materials_[body] = material;
 }
 
 std::optional<Session::Pin> Session::find_pin(Index vertex) const {

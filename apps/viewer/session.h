@@ -6,6 +6,7 @@
 #include <string>
 
 #include "pliant_io/scene/scene.h"
+#include "viewer/body_materials.h"
 #include "viewer/picking.h"
 #include "viewer/sliders.h"
 
@@ -35,8 +36,8 @@ class Session {
   /// @throws pliant::Error as Scene::step does.
   pliant::StepReport step();
 
-  /// Makes the scene again, without a pull. `keep_values`: values from set() are applied again, where the scene still
-  /// has such a parameter; otherwise they are forgotten. If this throws, nothing has changed.
+  /// Makes the scene again, without a pull. `keep_values`: materials and values that were set are set again, where the
+  /// scene still has such a body or parameter; otherwise they are forgotten. If this throws, nothing has changed.
   void restart(bool keep_values);
 
   /// Attaches a spring to a point, replacing an earlier one. It is implicit, hence stable at any stiffness.
@@ -69,6 +70,12 @@ class Session {
   /// value out of range.
   void set(const std::string& key, const pliant::Vec3& value);
 
+  /// What the bodies are made of, for the panel.
+  std::vector<BodyMaterial> materials() const { return list_materials(scene_); }
+  /// Makes the body of that name of another material, where it is. Values that were set of the groups that go are
+  /// forgotten. @throws pliant::Error (input): no such body or material, or one that the body cannot be made of.
+  void set_material(const std::string& body, const std::string& material);
+
  private:
   /// Where a vertex is pinned: the group, and which of its targets that is.
   struct Pin {
@@ -82,7 +89,8 @@ class Session {
   MakeScene make_;
   pliant::Scene scene_;
   std::function<bool()> stop_;
-  std::map<std::string, pliant::Vec3> values_;  // from set()
+  std::map<std::string, pliant::Vec3> values_;    // from set()
+  std::map<std::string, std::string> materials_;  // from set_material(), by body
   std::optional<Pull> pull_;
   std::optional<pliant::GroupId> pull_group_;
   std::map<pliant::ColliderId, pliant::Vec3> collider_goals_;  // of those that are on their way [m]

@@ -164,6 +164,27 @@ TEST_CASE("a slider changes what it stands for, and a restart keeps that") {
   CHECK(desk.shown().pins.size() == 2);
 }
 
+TEST_CASE("a material is chosen from the menu of a body, and chosen again after a restart") {
+  Desk desk;
+  const auto material = [&] { return desk.shown().materials->front().material; };
+  CHECK(material().empty());
+  const auto rect = desk.source.material_panel().place_of("body 0");
+  REQUIRE(rect.has_value());
+  desk.click({((*rect)[0] + (*rect)[2]) / 2, ((*rect)[1] + (*rect)[3]) / 2});
+  desk.turns(5);
+  desk.click({((*rect)[0] + (*rect)[2]) / 2, (*rect)[3] + 30});  // in the list below
+  desk.turn_until([&] { return !material().empty(); });
+  CHECK(pliant::find_builtin_material(material()) != nullptr);
+  CHECK(desk.shown().pins.size() == 2);
+  const std::string chosen = material();
+  desk.key("r");
+  desk.turn_until([&] { return desk.shown().restarts == 1; });
+  CHECK(material() == chosen);
+  desk.key("shift+r");
+  desk.turn_until([&] { return desk.shown().restarts == 2; });
+  desk.turn_until([&] { return material().empty(); });
+}
+
 TEST_CASE("keys that come between two pictures are neither lost nor taken for others") {
   Desk desk;
   desk.key("space");

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "pliant/core/error.h"
+#include "pliant/materials/material_groups.h"
 #include "viewer/session.h"
 
 namespace test_session {
@@ -280,6 +281,52 @@ TEST_CASE("parameters have the names, units and ranges of their types, and refus
   CHECK_THROWS_AS(session.set("group:bend.stiffness", {-1, 0, 0}), pliant::Error);
   CHECK_THROWS_AS(session.set("force:wind.gust_strength", {2, 0, 0}), pliant::Error);
   CHECK(find(session.sliders(), "force:wind.gust_strength").value[0] == 0);
+}
+
+TEST_CASE("a material is chosen where the body is; a restart keeps the choice, or forgets it") {
+  Session session = make_session();
+  const std::vector<BodyMaterial> before = session.materials();
+  REQUIRE(before.size() == 1);
+  CHECK(before.front().name == "sheet");
+  CHECK(before.front().material.empty());
+  const auto has = [&](const char* name) {
+    return std::ranges::find(before.front().choices, name, &MaterialChoice::name) != before.front().choices.end();
+  };
+  CHECK(has("cotton"));
+  CHECK_FALSE(has("foam"));
+  steps(session, 5);
+  const Vec3f place = position(session, 5);
+  session.set("group:bend.stiffness", {0.002, 0, 0});
+  session.set_material("sheet", "silk");
+  CHECK(position(session, 5) == place);
+  CHECK(session.materials().front().material == "silk");
+  const pliant::SolverSettings good = pliant::settings_for_materials();
+  CHECK(session.simulation().settings().integrator == good.integrator);
+  CHECK(session.simulation().settings().acceleration == good.acceleration);
+  CHECK(session.simulation().settings().iterations == good.iterations);
+  const double damping = pliant::builtin_material("silk").surface.damping;
+  CHECK(session.simulation().settings().damping == doctest::Approx(damping));
+  session.set("settings.iterations", {35, 0, 0});
+  session.set("group:sheet.bend.stiffness", {1e-4, 0, 0});
+  steps(session, 3);
+  session.restart(true);
+  CHECK(session.materials().front().material == "silk");
+  CHECK(session.simulation().settings().iterations == 35);
+  CHECK(find(session.sliders(), "group:sheet.bend.stiffness").value[0] == 1e-4);
+  // Of another material what was set of the last one's groups does not hold.
+  session.set_material("sheet", "wool");
+  session.restart(true);
+  const double bending = std::get<pliant::SheetMaterial>(pliant::builtin_material("wool").of).bending;
+  CHECK(find(session.sliders(), "group:sheet.bend.stiffness").value[0] == bending);
+  CHECK(session.simulation().settings().iterations == 35);
+  CHECK(session.simulation().settings().damping == doctest::Approx(pliant::builtin_material("wool").surface.damping));
+  CHECK_THROWS_AS(session.set_material("sheet", "foam"), pliant::Error);
+  CHECK_THROWS_AS(session.set_material("towel", "wool"), pliant::Error);
+  CHECK(session.materials().front().material == "wool");
+  session.restart(false);
+  CHECK(session.materials().front().material.empty());
+  CHECK(session.simulation().settings().iterations == 10);
+  CHECK(find(session.sliders(), "group:bend.stiffness").value[0] == 0.001);
 }
 
 }  // namespace test_session

@@ -45,6 +45,7 @@ std::string steps_text(const Snapshot& snapshot) {
 
 void LiveSource::draw_panel() {
   draw_pace();
+  materials_.draw(*snapshot_, scene_);
   parameters_.draw(*snapshot_, scene_);
 }
 

@@ -80,6 +80,11 @@ bool section_header(const char* title, bool is_open_at_first) {
   return ImGui::CollapsingHeader(title, is_open_at_first ? ImGuiTreeNodeFlags_DefaultOpen : 0);
 }
 
+std::string label_of(std::string name) {
+  std::ranges::replace(name, '_', ' ');
+  return name;
+}
+
 void row_label(const std::string& label, const std::string& help) {
   ImGui::AlignTextToFramePadding();
   const float widget = label_share * ImGui::GetWindowWidth();

@@ -14,6 +14,9 @@ void set_panel_style(bool is_dark, float unit);
 /// A printf format for a number of about this size with its unit, without an exponent where possible.
 std::string number_format(double number, const std::string& unit);
 
+/// "time step" for "time_step".
+std::string label_of(std::string name);
+
 /// Draws the label on the left of a row; the widget that follows takes the rest, or the next line where the label is
 /// too long for that. `help` is the label's tooltip.
 void row_label(const std::string& label, const std::string& help);

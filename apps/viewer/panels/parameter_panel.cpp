@@ -29,12 +29,6 @@ bool is_common(const Slider& slider) {
   return !is_of_settings(slider) || option == "time_step" || option == "iterations";
 }
 
-/// "time step" for "time_step".
-std::string label_of(std::string name) {
-  std::ranges::replace(name, '_', ' ');
-  return name;
-}
-
 /// The ends of a slider: the parameter's own where they are near; from 0 to twice a ratio, such as a stretch; else some
 /// way up and down from its value.
 std::array<double, 2> range_of(const Parameter& parameter) {

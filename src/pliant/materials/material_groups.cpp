@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -80,15 +81,19 @@ std::string misfit(const Material& material, const Mesh& mesh) {
   return "";
 }
 
-std::vector<GroupId> add_material(Simulation& simulation, BodyId id, const Material& material,
-                                  const MaterialPlacement& placement) {
-  const std::string body = simulation.body(id).name;
-  if (const std::string reason = misfit(material, simulation.body(id).mesh); !reason.empty()) {
-    fail_input(fmt::format("body '{}': {}", printable(body), reason));
+void check_material(const Body& body, const Material& material) {
+  if (const std::string reason = misfit(material, body.mesh); !reason.empty()) {
+    fail_input(fmt::format("body '{}': {}", printable(body.name), reason));
   }
   const std::string name_of_material = fmt::format("material '{}'", printable(material.name));
   std::visit([&](const auto& of) { check_options(name_of_material, of); }, material.of);
   check_options(name_of_material, material.surface);
+}
+
+std::vector<GroupId> add_material(Simulation& simulation, BodyId id, const Material& material,
+                                  const MaterialPlacement& placement) {
+  check_material(simulation.body(id), material);
+  const std::string body = simulation.body(id).name;
   std::vector<GroupId> ids;
   for (const MaterialGroup& group : material_groups(material, placement)) {
     const std::string name = fmt::format("{}.{}", body, group.name);
@@ -100,6 +105,19 @@ std::vector<GroupId> add_material(Simulation& simulation, BodyId id, const Mater
     simulation.set_contact(id, contact);
   }
   return ids;
+}
+
+std::optional<Real> mean_damping(const Simulation& simulation, const std::map<BodyId, Material>& materials) {
+  if (materials.empty()) return std::nullopt;
+  Real mass = 0, sum = 0;
+  for (const auto& [id, material] : materials) {
+    const Body& body = simulation.body(id);
+    const auto first = simulation.state().masses.begin() + body.first_vertex;
+    const Real of_body = std::accumulate(first, first + body.mesh.vertex_count(), Real{0});
+    mass += of_body;
+    sum += of_body * material.surface.damping;
+  }
+  return sum / mass;
 }
 
 SolverSettings settings_for_materials() {

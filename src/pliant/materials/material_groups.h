@@ -1,5 +1,7 @@
 #pragma once
 // From a material to the mass and the constraints of a body.
+#include <map>
+#include <optional>
 #include <vector>
 
 #include "pliant/constraints/builtin.h"
@@ -55,11 +57,17 @@ Mass mass_of(const Material& material);
 /// tetrahedra.
 std::string misfit(const Material& material, const Mesh& mesh);
 
+/// Throws Error(input) where the mesh of the body cannot be made of it, or a number of it is out of its range.
+void check_material(const Body& body, const Material& material);
+
 /// Adds these groups to a body, each named "BODY.warp" and so on, and gives the body the friction of the material
-/// unless it has its own. Throws Error(input) where the mesh cannot be made of it, and as the builders of the groups
-/// do. The damping is one of SolverSettings, for all bodies: it is left to the caller.
+/// unless it has its own. Throws as check_material and the builders of the groups do. The damping is one of
+/// SolverSettings, for all bodies: it is left to the caller.
 std::vector<GroupId> add_material(Simulation& simulation, BodyId body, const Material& material,
                                   const MaterialPlacement& placement = {});
+
+/// The damping of these bodies' materials, each by the mass of its body [1/s]; none without a body.
+std::optional<Real> mean_damping(const Simulation& simulation, const std::map<BodyId, Material>& materials);
 
 /// With which bodies of materials look right in steps of 1/60 s: BDF2, 20 iterations of L-BFGS. Damping is that of a
 /// material, SurfaceMaterial::damping. benchmarks/NOTES.md has what was tried.

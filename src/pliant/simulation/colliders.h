@@ -9,6 +9,7 @@
 #include <string>
 
 #include "pliant/collision/contact/contact_settings.h"
+#include "pliant/mesh/mass.h"
 #include "pliant/simulation/records.h"
 #include "pliant/solver/settings.h"
 #include "pliant/solver/state.h"
@@ -63,6 +64,9 @@ class Colliders {
 
   const std::vector<Body>& bodies() const { return bodies_; }
   const Body& body(BodyId id) const;
+  /// Other masses of a body, from the next step on: costs a numeric factorization. Where it is, how fast, and the
+  /// forces on it stay. Throws as vertex_masses does.
+  void set_mass(BodyId id, const Mass& mass);
   /// How a body touches, from the next step on. Refuses to ignore itself, or a body that there is not.
   void set_contact(BodyId id, const BodyContact& contact);
   const BodyContact& contact(BodyId id) const { return body(id).contact; }
@@ -85,7 +89,8 @@ class Colliders {
   Index next_collider_ = 0;
   std::vector<Real> edge_distances_;  // contact distances of the first bodies, by their edges
   bool colliders_changed_ = true;
-  bool surfaces_changed_ = true;        // bodies, or how they touch
+  bool surfaces_changed_ = true;  // bodies, or how they touch
+  bool masses_changed_ = false;
   Transaction* transaction_ = nullptr;  // the innermost one under way
 
  private:

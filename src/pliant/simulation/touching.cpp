@@ -88,6 +88,14 @@ void Colliders::join_anew() {
   surfaces_changed_ = true;
 }
 
+void Colliders::set_mass(BodyId id, const Mass& mass) {
+  const Body& owner = body(id);
+  const std::vector<Real> masses = vertex_masses(owner.mesh, mass, owner.name);
+  if (transaction_ != nullptr) transaction_->save_state();
+  std::ranges::copy(masses, state_.masses.begin() + owner.first_vertex);
+  masses_changed_ = true;
+}
+
 void Colliders::set_contact(BodyId id, const BodyContact& contact) {
   const std::string where = "contact of body '" + body(id).name + "'";
   check_options(where, contact);

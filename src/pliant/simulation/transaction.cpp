@@ -106,6 +106,7 @@ void Transaction::roll_back() {
     s.force_records_.emplace(id, std::move(saved->record));
   }
   if (state_) {
+    if (state_->masses != s.state_.masses) s.masses_changed_ = true;
     s.state_ = *std::move(state_);
     s.solver_->forget_prediction();
   }

@@ -110,7 +110,7 @@ void read_simulation(const Node& root, Scene& scene) {
   SceneReader reader(scene.simulation, scene.timeline);
   if (const auto materials = root.find("materials")) reader.materials = read_materials(*materials);
   for_each_entry(root, "bodies", [&](const Node& node) { reader.read_body(node); });
-  for (const auto& [id, material] : reader.material_of) scene.materials.emplace(id, material.name);
+  for (const auto& [name, material] : reader.materials) scene.own_materials.push_back(material);
   Index body = 0;
   for_each_entry(root, "bodies", [&](const Node& node) { reader.read_body_contact(node, BodyId{body++}); });
   for_each_entry(root, "attachments", [&](const Node& node) { reader.add_attachment(node); });
@@ -118,8 +118,9 @@ void read_simulation(const Node& root, Scene& scene) {
   for_each_entry(root, "forces", [&](const Node& node) { reader.read_force(node); });
   if (const auto contact = root.find("contact")) reader.read_contact(*contact);
   for_each_entry(root, "colliders", [&](const Node& node) { reader.read_collider(node); });
-  choose_open_settings(root, reader.damping_of_materials(), scene.simulation);
+  choose_open_settings(root, mean_damping(scene.simulation, reader.material_of), scene.simulation);
   reader.read_events(root);
+  scene.materials = std::move(reader.material_of);
   scene.has_surfaces = scene.simulation.contact().surfaces || reader.has_later_surfaces;
   std::ranges::move(reader.warnings, std::back_inserter(scene.warnings));
   if (!scene.has_surfaces && !reader.warning_without_surfaces.empty()) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "pliant/materials/material.h"
 #include "pliant/simulation/simulation.h"
 #include "pliant/timeline/timeline.h"
 #include "pliant_io/scene/scene_source.h"
@@ -40,7 +41,8 @@ struct Scene {
   Timeline timeline;
   SceneSource source;                       ///< what it was read from, for parse_scene
   std::vector<SceneFile> files;             ///< of its meshes and maps, each once
-  std::map<BodyId, std::string> materials;  ///< names, of the bodies that are made of one
+  std::map<BodyId, Material> materials;     ///< of the bodies that are made of one
+  std::vector<Material> own_materials;      ///< those that the scene itself has, by name
   std::vector<std::string> group_names;     ///< of the groups there are, and behind them those that events add
   std::vector<std::string> collider_names;  ///< the same of colliders
   bool has_surfaces = false;                ///< whether surfaces touch at the start, or once an event has acted

@@ -1,5 +1,3 @@
-#include <numeric>
-
 #include "pliant/mesh/geometry.h"
 #include "pliant/simulation/carried_surface.h"
 #include "pliant/timeline/animated_body.h"
@@ -119,19 +117,6 @@ void SceneReader::add_material(const Node& node, BodyId id, const BodyMaterial& 
   }
   simulation.set_contact(id, {.friction = given.material.surface.friction});
   material_of.emplace(id, given.material);
-}
-
-std::optional<Real> SceneReader::damping_of_materials() const {
-  if (material_of.empty()) return std::nullopt;
-  Real mass = 0, sum = 0;
-  for (const auto& [id, material] : material_of) {
-    const Body& body = simulation.body(id);
-    const auto first = simulation.state().masses.begin() + body.first_vertex;
-    const Real of_body = std::accumulate(first, first + body.mesh.vertex_count(), Real{0});
-    mass += of_body;
-    sum += of_body * material.surface.damping;
-  }
-  return sum / mass;
 }
 
 void SceneReader::add_animation(const Node& node, BodyId id, std::shared_ptr<Path> path) {

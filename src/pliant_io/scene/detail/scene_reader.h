@@ -47,8 +47,6 @@ struct SceneReader {
   }
 
   void read_body(const Node& node);
-  /// That of the bodies' materials, each by the mass of its body [1/s]; none where no body has any.
-  std::optional<Real> damping_of_materials() const;
   /// Its value; nothing: the default.
   void read_gravity(const std::optional<Node>& node);
   void read_force(const Node& node);
