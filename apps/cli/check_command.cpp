@@ -13,6 +13,7 @@
 #include "import_options.h"
 #include "motion_advice.h"
 #include "pliant/core/printable.h"
+#include "pliant/materials/material_groups.h"
 #include "pliant/mesh/geometry.h"
 #include "pliant/mesh/lattice.h"
 #include "pliant/solver/integration/integrator.h"
@@ -138,8 +139,14 @@ std::vector<std::string> warnings_of_free_components(const Simulation& simulatio
 }
 
 /// What a run would not refuse, but is seldom meant.
-std::vector<std::string> warnings_of(const Simulation& simulation, const SystemInfo& info) {
+std::vector<std::string> warnings_of(const pliant::Scene& scene, const SystemInfo& info) {
+  const Simulation& simulation = scene.simulation;
   std::vector<std::string> warnings = simulation.warnings();
+  for (const auto& [id, material] : scene.materials) {
+    const pliant::Body& body = simulation.body(id);
+    const std::string coarse = coarseness(material, body.mesh);
+    if (!coarse.empty()) warnings.push_back(fmt::format("body '{}': {}", pliant::printable(body.name), coarse));
+  }
   for (std::string& warning : warnings_of_free_components(simulation, info)) warnings.push_back(std::move(warning));
   for (std::string& warning : crossing_warnings(simulation)) warnings.push_back(std::move(warning));
   return warnings;
@@ -254,7 +261,7 @@ Json describe(Scene& scene) {
         {"loss_per_step", loss_per_step(info.fastest_frequency, settings)},
         {"half_life_hz", half_life_frequency(settings)},
         {"text", frequency_text(info, simulation)}}},
-      {"warnings", warnings_of(simulation, info)}};
+      {"warnings", warnings_of(scene, info)}};
 }
 
 /// A value of the description, for the terminal.

@@ -245,6 +245,7 @@ void Session::set_material(const std::string& body, const std::string& material)
   change_material(scene_, *id, material);
   for (const std::string& key : keys) values_.erase(key);
   materials_[body] = material;
+  note_ = coarseness(scene_.materials.at(*id), simulation().body(*id).mesh);
 }
 
 std::optional<Session::Pin> Session::find_pin(Index vertex) const {

@@ -61,6 +61,20 @@ class Check(unittest.TestCase):
         self.assertLess(motion["step_error"]["share"], 0.5)
         self.assertEqual(motion["warning"], "")
 
+    def test_a_mesh_too_coarse_for_the_folds_of_its_cloth_is_a_warning(self):
+        scene = self.folder / "s.json"
+        for columns, material, is_coarse in ((20, "silk", True), (20, "felt", False), (50, "silk", False), (30, "silk", True)):
+            scene.write_text(json.dumps({
+                "pliant": 1, "bodies": [{"name": "cloth", "mesh": {"shape": "grid", "columns": columns, "rows": columns},
+                                         "material": material, "constraints": [{"type": "position", "on": [0]}]}]}))
+            warnings = json.loads(self.pliant("check", scene, "--json", "--still").stdout)["warnings"]
+            found = [each for each in warnings if "to fold" in each]
+            self.assertEqual(len(found), int(is_coarse), (columns, material, warnings))
+        scene.write_text(scene.read_text().replace('"columns": 30', '"columns": 12').replace('"rows": 30', '"rows": 12'))
+        self.assertRegex(self.pliant("check", scene, "--still").stdout,
+                         r"\nwarning: body 'cloth': edges are 9.1 cm long, and 'silk' needs them below [0-9.]+ cm to fold; "
+                         r"with these it shows dimples of their size; give a finer mesh, or more `bending`\n")
+
     def test_far_from_converged_is_a_warning_with_what_helps(self):
         far = {"integrator": "implicit_euler", "acceleration": "none", "iterations": 2}
         text = self.pliant("check", self.cloth_scene(**far)).stdout

@@ -1,22 +1,24 @@
 #include "pliant/materials/material_groups.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
 #include <fmt/format.h>
 
 #include "pliant/core/printable.h"
+#include "pliant/mesh/topology.h"
 
 namespace pliant {
 namespace {
 
 /// A Poisson's ratio is expressed where warp and weft agree so far.
 constexpr Real alike = 1.001;
+constexpr Real gravity = 9.81;  // [m/s²]
 
 /// The modulus with which a meter that hangs is longer by `stretch`; `density` a square or a cubic meter.
 Real modulus_of(Real stretch, Real density) {
-  constexpr Real gravity = 9.81;
   return stretch > 0 ? density * gravity / stretch : std::numeric_limits<Real>::max();
 }
 
@@ -79,6 +81,27 @@ std::string misfit(const Material& material, const Mesh& mesh) {
     return fmt::format("'{}' is a solid, and the mesh has no tetrahedra; give a sheet, such as 'cotton'", name);
   }
   return "";
+}
+
+Real fold_length(const SheetMaterial& sheet) {
+  return std::cbrt(sheet.bending / (sheet.area_density * gravity));
+}
+
+std::string coarseness(const Material& material, const Mesh& mesh) {
+  const auto* sheet = std::get_if<SheetMaterial>(&material.of);
+  if (sheet == nullptr || mesh.triangles.empty()) return "";
+  std::vector<Real> lengths;
+  for (const Edge& edge : edge_triangles(mesh).edges) {
+    lengths.push_back((mesh.vertices.row(edge[0]) - mesh.vertices.row(edge[1])).norm());
+  }
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::ranges::nth_element(lengths, middle);
+  const Real longest = 2 * fold_length(*sheet);
+  if (!(*middle > longest)) return "";
+  return fmt::format(
+      "edges are {:.2g} cm long, and '{}' needs them below {:.2g} cm to fold; with these it shows dimples of their "
+      "size; give a finer mesh, or more `bending`",
+      100 * *middle, printable(material.name), 100 * longest);
 }
 
 void check_material(const Body& body, const Material& material) {

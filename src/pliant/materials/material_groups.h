@@ -57,6 +57,13 @@ Mass mass_of(const Material& material);
 /// tetrahedra.
 std::string misfit(const Material& material, const Mesh& mesh);
 
+/// (κ/ρg)^⅓ [m], a few of which the folds of a hanging sheet are wide; Peirce's bending length (1930).
+Real fold_length(const SheetMaterial& sheet);
+
+/// That the edges of a mesh are too long for the folds of a sheet, more than twice its fold length half of them, and
+/// what to do; empty where they are not.
+std::string coarseness(const Material& material, const Mesh& mesh);
+
 /// Throws Error(input) where the mesh of the body cannot be made of it, or a number of it is out of its range.
 void check_material(const Body& body, const Material& material);
 
