@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <thread>
 
+#include <fmt/format.h>
+
+#include "bench/against.h"
 #include "bench/bandwidth.h"
 #include "bench/measure.h"
 #include "bench/solves.h"
 #include "bench/system.h"
+#include "bench/time_to_error.h"
 #include "pliant/core/version.h"
 #include "pliant/solver/global/factorization/triangular_solve.h"
 
@@ -32,11 +36,23 @@ BenchResult run_bench(const BenchOptions& options, const Progress& progress) {
     progress("bandwidth");
     result.levels = measure_levels();
   }
-  if (options.projections != Projections::only) {
+  if (options.projections != Projections::only && options.phases) {
     for (const Workload& workload : options.workloads) {
       progress(workload.name);
       result.workloads.push_back(measure_workload(workload, options));
     }
+  }
+  if (!options.against.empty()) {
+    for (const AgainstTask& task : tasks_of(options)) {
+      for (const int threads : options.threads) {
+        progress(fmt::format("{} against {}", task.name, options.against));
+        result.against.push_back(measure_against(task, options.against, threads, options.repeats));
+      }
+    }
+  }
+  for (const StepCase& step_case : options.cases) {
+    progress(step_case.name);
+    result.times_to_error.push_back(measure_time_to_error(step_case, options));
   }
   if (options.projections != Projections::without) {
     progress("projections");

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "bench/cases.h"
 #include "bench/results.h"
 #include "pliant/solver/settings.h"
 
@@ -42,6 +43,10 @@ struct BenchOptions {
   pliant::SolverSettings settings;      ///< of every workload, but for the threads
   Projections projections = Projections::with;  ///< whether each type of projection is measured by itself
   Bandwidth bandwidth = Bandwidth::with;        ///< whether the memory's bandwidth is measured
+
+  std::vector<StepCase> cases;  ///< whose time to error is measured
+  std::string against;          ///< another build of the program, timed beside this one on the workloads; empty: none
+  bool phases = true;           ///< whether the workloads are measured phase by phase
 
   bool has(BaselineKind kind) const;
 };

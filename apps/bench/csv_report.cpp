@@ -97,6 +97,19 @@ std::string csv_report(const BenchResult& result) {
   for (const ProjectionsResult& each : result.projections) {
     print({"", "projections", each.type, 1, each.seconds.min, each.seconds.median}, out);
   }
+  for (const AgainstResult& each : result.against) {
+    print({each.name, "against", "own step", each.threads, each.own_step.min, each.own_step.median}, out);
+    print({each.name, "against", "other step", each.threads, each.other_step.min, each.other_step.median}, out);
+  }
+  for (const TimeToErrorResult& each : result.times_to_error) {
+    for (const MethodResult& method : each.methods) {
+      for (const ErrorLevel& level : method.levels) {
+        if (!level.iterations) continue;
+        const std::string name = fmt::format("{} {:.0e} in {}", method.name, level.error, *level.iterations);
+        print({each.name, "time_to_error", name, 1, level.seconds.min, level.seconds.median}, out);
+      }
+    }
+  }
   return text;
 }
 

@@ -122,6 +122,38 @@ Json projections_json(const std::vector<ProjectionsResult>& projections) {
   return list;
 }
 
+Json times_to_error_json(const std::vector<TimeToErrorResult>& cases) {
+  Json list = Json::array();
+  for (const TimeToErrorResult& each : cases) {
+    Json methods = Json::object();
+    for (const MethodResult& method : each.methods) {
+      Json levels = Json::array();
+      for (const ErrorLevel& level : method.levels) {
+        levels.push_back({{"error", level.error},
+                          {"iterations", optional_json(level.iterations)},
+                          {"seconds", level.iterations ? seconds_json(level.seconds) : Json(nullptr)}});
+      }
+      methods[method.name] = levels;
+    }
+    list.push_back(
+        {{"name", each.name}, {"vertices", each.vertices}, {"uncertainty", each.uncertainty}, {"methods", methods}});
+  }
+  return list;
+}
+
+Json against_json(const std::vector<AgainstResult>& results) {
+  Json list = Json::array();
+  for (const AgainstResult& each : results) {
+    list.push_back({{"name", each.name},
+                    {"threads", each.threads},
+                    {"iterations", each.iterations},
+                    {"own_step_seconds", seconds_json(each.own_step)},
+                    {"other_step_seconds", seconds_json(each.other_step)},
+                    {"times_as_fast", each.times_as_fast}});
+  }
+  return list;
+}
+
 }  // namespace
 
 std::string json_report(const BenchResult& result) {
@@ -132,7 +164,9 @@ std::string json_report(const BenchResult& result) {
                      {"machine", machine_json(result.machine)},
                      {"levels", levels_json(result.levels)},
                      {"workloads", workloads},
-                     {"projections", projections_json(result.projections)}};
+                     {"projections", projections_json(result.projections)},
+                     {"time_to_error", times_to_error_json(result.times_to_error)},
+                     {"against", against_json(result.against)}};
   return json.dump(2) + "\n";
 }
 

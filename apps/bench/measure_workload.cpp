@@ -89,6 +89,14 @@ void describe(Simulation& simulation, const Traffic& traffic, const SystemInfo& 
   result.working_set_bytes = traffic.working_set;
 }
 
+/// The textbook has no triangles, hinges and hard pins.
+BenchOptions baselines_for(const Workload& workload, BenchOptions options) {
+  if (workload.kind != Kind::cloth) return options;
+  std::erase(options.baselines, BaselineKind::textbook);
+  std::erase(options.baselines, BaselineKind::thesis);
+  return options;
+}
+
 }  // namespace
 
 WorkloadResult measure_workload(const Workload& workload, const BenchOptions& options) {
@@ -107,7 +115,8 @@ WorkloadResult measure_workload(const Workload& workload, const BenchOptions& op
 
   std::vector<std::unique_ptr<Baseline>> baselines;
   if (!options.baselines.empty()) {
-    baselines = make_baselines(options, {first, runners.front().after_step, system_matrix(first), info.contraction});
+    baselines = make_baselines(baselines_for(workload, options),
+                               {first, runners.front().after_step, system_matrix(first), info.contraction});
   }
   std::optional<ReadProbe> probe;
   if (options.bandwidth == Bandwidth::with) probe.emplace(traffic.working_set);

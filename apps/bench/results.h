@@ -94,6 +94,36 @@ struct ProjectionsResult {
   Seconds seconds;  ///< for all of them once
 };
 
+/// How many iterations, and how long, until a step is so near to its end.
+struct ErrorLevel {
+  double error = 0;
+  std::optional<pliant::Index> iterations{};  ///< none: not with the most that are tried, or more exact than is known
+  Seconds seconds;
+};
+
+struct MethodResult {
+  std::string name;  ///< of the acceleration; "plain" for none
+  std::vector<ErrorLevel> levels;
+};
+
+struct TimeToErrorResult {
+  std::string name;
+  std::string description;
+  std::int64_t vertices = 0;
+  double uncertainty = 0;  ///< of the end that the step is held against, in the unit of the errors
+  std::vector<MethodResult> methods;
+};
+
+/// A step of this program and of another build of it, by whole runs.
+struct AgainstResult {
+  std::string name;  ///< of the workload
+  int threads = 1;
+  pliant::Index iterations = 10;
+  Seconds own_step;
+  Seconds other_step;
+  double times_as_fast = 1;  ///< median of the ratios of the rounds
+};
+
 struct Machine {
   std::string processor;
   unsigned processors = 1;
@@ -109,6 +139,8 @@ struct BenchResult {
   std::vector<Level> levels;
   std::vector<WorkloadResult> workloads;
   std::vector<ProjectionsResult> projections;
+  std::vector<TimeToErrorResult> times_to_error;
+  std::vector<AgainstResult> against;
 
   /// The fastest level that holds these bytes; nothing when no bandwidth was measured.
   const Level* level_of(std::int64_t bytes) const;

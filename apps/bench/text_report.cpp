@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -137,6 +139,61 @@ void print_projections(const BenchResult& result, Out out) {
   }
 }
 
+/// "12", or "-".
+std::string iterations_cell(const ErrorLevel& level) {
+  return level.iterations ? fmt::format("{}", *level.iterations) : "-";
+}
+
+/// The other program has the same plain iterations, each at its own time.
+void print_other_program(const BenchResult& result, const TimeToErrorResult& each, Out out) {
+  const auto other = std::ranges::find(result.against, each.name, &AgainstResult::name);
+  if (other == result.against.end()) return;
+  const double iteration = other->other_step.median / static_cast<double>(other->iterations);
+  fmt::format_to(out, "  {:<10}", "the other");
+  for (const ErrorLevel& level : each.methods.front().levels) {
+    const std::string time =
+        level.iterations ? fmt::format("{:.4g} ms", 1e3 * iteration * static_cast<double>(*level.iterations)) : "";
+    fmt::format_to(out, " {:>8} {:>11}", iterations_cell(level), time);
+  }
+  out = '\n';
+}
+
+void print_times_to_error(const BenchResult& result, Out out) {
+  fmt::format_to(
+      out,
+      "\nTime to error: iterations and milliseconds (median) of a step until it is so near to its end, as a share "
+      "of\nhow far the prediction is from it, root mean square over the mass; -: not with 20,000\n");
+  for (const TimeToErrorResult& each : result.times_to_error) {
+    fmt::format_to(out, "\n{}: {}; {} vertices; the end is known to {:.0e}\n  {:<10}", each.name, each.description,
+                   each.vertices, each.uncertainty, "");
+    for (const ErrorLevel& level : each.methods.front().levels) {
+      fmt::format_to(out, " {:>20}", fmt::format("{:.0e}", level.error));
+    }
+    out = '\n';
+    for (const MethodResult& method : each.methods) {
+      fmt::format_to(out, "  {:<10}", method.name);
+      for (const ErrorLevel& level : method.levels) {
+        fmt::format_to(out, " {:>8} {:>11}", iterations_cell(level),
+                       level.iterations ? fmt::format("{:.4g} ms", 1e3 * level.seconds.median) : "");
+      }
+      out = '\n';
+    }
+    print_other_program(result, each, out);
+  }
+}
+
+void print_against(const BenchResult& result, Out out) {
+  fmt::format_to(
+      out,
+      "\nAgainst the other program: a plain step by whole runs in turns, and how many times as fast this one is\n"
+      "  {:<10} {:>7} {:>12} {:>12} {:>14}\n",
+      "", "threads", "own ms", "other ms", "times as fast");
+  for (const AgainstResult& each : result.against) {
+    fmt::format_to(out, "  {:<10} {:>7} {:>12.4f} {:>12.4f} {:>14.2f}\n", each.name, each.threads,
+                   1e3 * each.own_step.median, 1e3 * each.other_step.median, each.times_as_fast);
+  }
+}
+
 }  // namespace
 
 std::string text_report(const BenchResult& result) {
@@ -152,6 +209,8 @@ std::string text_report(const BenchResult& result) {
   }
   if (!result.workloads.empty()) print_summary(result, out);
   if (!result.projections.empty()) print_projections(result, out);
+  if (!result.against.empty()) print_against(result, out);
+  if (!result.times_to_error.empty()) print_times_to_error(result, out);
   return text;
 }
 

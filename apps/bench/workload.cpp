@@ -20,6 +20,7 @@ constexpr Index largest_size = 4000;
 std::vector<Workload> workloads_of_size(Index size) {
   return {{"curtain", Kind::curtain, size, 10},
           {"curtain-b", Kind::curtain_bending, size, 10},
+          {"cloth", Kind::cloth, size, 10},
           {"bar", Kind::bar, size, 10}};
 }
 
@@ -71,31 +72,14 @@ Mesh shuffled(const Mesh& mesh) {
   return result;
 }
 
-/// Those whose x, or z where the body is a curtain, is at the end that is pinned.
-std::vector<Index> pinned_vertices(const Workload& workload, const Mesh& mesh) {
-  const Index count = mesh.vertex_count();
-  if (workload.kind != Kind::bar) {
-    std::vector<Index> corners = {count - workload.size, count - 1};
-    if (workload.order == MeshOrder::shuffled) {
-      const std::vector<Index> numbers = shuffled_numbers(count);
-      for (Index& corner : corners) corner = numbers[static_cast<std::size_t>(corner)];
-    }
-    return corners;
-  }
-  std::vector<Index> end;
-  for (Index i = 0; i < count; ++i) {
-    if (mesh.vertices(i, 0) == 0) end.push_back(i);
-  }
-  return end;
-}
-
 }  // namespace
 
 std::vector<Workload> standard_workloads() {
   return {{"W1", Kind::curtain, 32, 5},   {"W1b", Kind::curtain_bending, 32, 5},
           {"W2", Kind::curtain, 100, 10}, {"W2b", Kind::curtain_bending, 100, 10},
           {"W3", Kind::curtain, 316, 10}, {"W3b", Kind::curtain_bending, 316, 10},
-          {"W4", Kind::bar, 10, 10}};
+          {"W4", Kind::bar, 10, 10},      {"W5", Kind::cloth, 100, 10},
+          {"W6", Kind::cloth, 316, 10}};
 }
 
 std::vector<Workload> choose_workloads(const std::vector<std::string>& names, std::optional<Index> size) {
@@ -118,12 +102,29 @@ std::vector<Workload> choose_workloads(const std::vector<std::string>& names, st
       fail_input("--workloads: there is no '" + printable(name) + "'; " + suggestion_text(name, known));
     }
     if (in_fixed != fixed.end() && size) {
-      fail_input("--workloads: " + name + " has a size of its own; with --size give curtain, curtain-b or bar");
+      fail_input("--workloads: " + name + " has a size of its own; with --size give curtain, curtain-b, cloth or bar");
     }
     if (in_sized != sized.end() && !size) fail_input("--workloads: " + name + " needs its size; give --size as well");
     chosen.push_back(in_fixed != fixed.end() ? *in_fixed : *in_sized);
   }
   return chosen;
+}
+
+std::vector<Index> pinned_vertices(const Workload& workload, const Mesh& mesh) {
+  const Index count = mesh.vertex_count();
+  if (workload.kind != Kind::bar) {
+    std::vector<Index> corners = {count - workload.size, count - 1};
+    if (workload.order == MeshOrder::shuffled) {
+      const std::vector<Index> numbers = shuffled_numbers(count);
+      for (Index& corner : corners) corner = numbers[static_cast<std::size_t>(corner)];
+    }
+    return corners;
+  }
+  std::vector<Index> end;
+  for (Index i = 0; i < count; ++i) {
+    if (mesh.vertices(i, 0) == 0) end.push_back(i);
+  }
+  return end;
 }
 
 Mesh make_mesh(const Workload& workload) {
@@ -141,9 +142,16 @@ Simulation make_simulation(const Workload& workload, Mesh mesh, SolverSettings s
   const std::vector<Index> pinned = pinned_vertices(workload, mesh);
   Positions start = deformed(mesh.vertices, extent);
   Positions velocities = start - mesh.vertices;  // as if it had taken a second
-  const BodyId body = simulation.add_body(std::move(mesh), Mass::per_vertex(1),
+  const bool is_cloth = workload.kind == Kind::cloth;
+  const BodyId body = simulation.add_body(std::move(mesh), is_cloth ? Mass::area_density(0.2) : Mass::per_vertex(1),
                                           {.start = std::move(start), .velocities = std::move(velocities)});
   simulation.add(Gravity{});
+  if (is_cloth) {
+    simulation.add(body, TriangleStrain{.stiffness = 1e3});
+    simulation.add(body, HingeBending{.stiffness = 1e-5});
+    simulation.add(body, Position{.on = pinned});
+    return simulation;
+  }
   if (workload.kind == Kind::bar) {
     simulation.add(body, TetrahedronStrain{.stiffness = 1e5});
   } else {

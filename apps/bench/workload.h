@@ -1,5 +1,6 @@
 #pragma once
-// The standard workloads: what is simulated, from where. All with h = 1/60 s, gravity, 1 kg a vertex and soft pins.
+// The standard workloads: what is simulated, from where. All with h = 1/60 s and gravity; but for `cloth` 1 kg a vertex
+// and soft pins.
 #include <array>
 #include <optional>
 #include <string>
@@ -13,6 +14,7 @@ namespace pliant_bench {
 enum class Kind {
   curtain,          ///< n × n vertices, one diagonal a cell, edges as springs, the two upper corners pinned
   curtain_bending,  ///< the same with bending at every interior vertex
+  cloth,            ///< the same of triangle strain and hinges, 0.2 kg/m², two corners held hard
   bar               ///< n × n × 4n cells of five tetrahedra each, as rigid as possible, one end pinned
 };
 
@@ -33,15 +35,18 @@ struct Workload {
   MeshOrder order = MeshOrder::rows;
 };
 
-/// W1, W1b, ..., W4 with their own sizes.
+/// W1, W1b, ..., W6 with their own sizes.
 std::vector<Workload> standard_workloads();
 
-/// The workloads of these names: standard ones, or `curtain`, `curtain-b` and `bar`, which have the given size. No
-/// names: all the standard ones, or with a size both curtains. Throws Error(input) on another name, and on a name that
-/// does not go with the size.
+/// The workloads of these names: standard ones, or `curtain`, `curtain-b`, `cloth` and `bar`, which have the given
+/// size. No names: all the standard ones, or with a size both curtains. Throws Error(input) on another name, and on a
+/// name that does not go with the size.
 std::vector<Workload> choose_workloads(const std::vector<std::string>& names, std::optional<pliant::Index> size);
 
 pliant::Mesh make_mesh(const Workload& workload);
+
+/// The corners of a curtain, the end of a bar.
+std::vector<pliant::Index> pinned_vertices(const Workload& workload, const pliant::Mesh& mesh);
 
 /// The simulation of it, somewhat out of shape and moving, so that no projection has it easier than later on.
 pliant::Simulation make_simulation(const Workload& workload, pliant::Mesh mesh, pliant::SolverSettings settings);

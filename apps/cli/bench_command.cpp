@@ -33,6 +33,7 @@ struct BenchArguments {
   std::optional<Index> repeats;                  ///< of everything, 1 to 100,000; none: about 3 s a workload
   std::vector<std::string> threads;              ///< numbers, in turn; empty: 1 and 2
   std::vector<std::string> baselines = {"all"};  ///< names of other libraries, "all" or "none"
+  std::vector<std::string> time_to_error;        ///< names of cases, or "all"
   std::string json;                              ///< file for the results, "-" for the standard output; empty: none
   std::string csv;                               ///< as json
   BenchOptions options;                          ///< what the above make
@@ -84,6 +85,15 @@ BenchOptions check(const BenchArguments& arguments) {
   BenchOptions options = arguments.options;
   options.workloads = choose_workloads(arguments.workloads, arguments.size);
   options.baselines = choose_baselines(arguments.baselines);
+  if (!arguments.time_to_error.empty()) {
+    options.cases = choose_cases(arguments.time_to_error, arguments.size);
+    if (arguments.workloads.empty()) options.workloads.clear();
+  }
+  if (!options.cases.empty() || !options.against.empty()) {  // these alone
+    options.phases = false;
+    options.projections = Projections::without;
+    options.bandwidth = Bandwidth::without;
+  }
   if (!arguments.threads.empty()) options.threads = choose_threads(arguments.threads);
   if (arguments.repeats && (*arguments.repeats < 1 || *arguments.repeats > most_repeats)) {
     pliant::fail_input(fmt::format("--repeats: {} is out of range; give 1 to {}", *arguments.repeats, most_repeats));
@@ -132,8 +142,8 @@ void add_bench_command(CLI::App& program) {
   auto arguments = std::make_shared<BenchArguments>();
   command
       ->add_option("--workloads", arguments->workloads,
-                   "W1, W1b, W2, W2b, W3, W3b (curtains; b: with bending), W4 (bar); or, with --size, curtain, "
-                   "curtain-b, bar")
+                   "W1, W1b, W2, W2b, W3, W3b (curtains; b: with bending), W4 (bar), W5, W6 (cloth of triangles and "
+                   "hinges); or, with --size, curtain, curtain-b, cloth, bar")
       ->delimiter(',');
   add_number(*command, "--size", arguments->size,
              "Vertices along a side of a square curtain, cells across a bar that is four times as long");
@@ -151,6 +161,16 @@ void add_bench_command(CLI::App& program) {
   add_choice(*command, "--projections", arguments->options.projections,
              "Measure the constraint types by themselves: with the workloads, not, or alone");
   add_choice(*command, "--bandwidth", arguments->options.bandwidth, "Measure how fast one thread reads memory");
+  command
+      ->add_option("--time-to-error", arguments->time_to_error,
+                   "How many iterations and how long until a step is within 1e-2, 1e-4, 1e-6 of its end; all, or some "
+                   "of hanging, swinging, falling, dress, bar. Measured alone; takes minutes")
+      ->delimiter(',');
+  command
+      ->add_option("--against", arguments->options.against,
+                   "Another build of this program, timed in turns with this one by whole runs of the workloads, nine "
+                   "rounds by default. Measured without the phases")
+      ->type_name("PROGRAM");
   command->add_option("--json", arguments->json, "Write the results as JSON; -: to the standard output")
       ->type_name("FILE");
   command->add_option("--csv", arguments->csv, "Write the results as CSV; -: to the standard output")
@@ -159,7 +179,9 @@ void add_bench_command(CLI::App& program) {
       "Examples:\n"
       "  pliant bench                                        all workloads, about a minute and a half\n"
       "  pliant bench --workloads W2,W4 --json bench.json    two of them, with a file for programs\n"
-      "  pliant bench --size 200                             curtains of 200 x 200 vertices");
+      "  pliant bench --size 200                             curtains of 200 x 200 vertices\n"
+      "  pliant bench --time-to-error hanging,falling        how soon steps converge\n"
+      "  pliant bench --workloads W5 --against old/pliant    this build beside another");
   command->callback([arguments] { run(*arguments); });
 }
 

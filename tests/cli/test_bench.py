@@ -62,6 +62,43 @@ class Bench(unittest.TestCase):
         self.assertIn(result["machine"]["processor"], done.stdout)
         self.check_csv((self.folder / "b.csv").read_text(), result)
 
+    def test_time_to_error_finds_the_iterations_that_are_enough(self):
+        done = self.bench("--time-to-error", "swinging,bar", "--size", 8, "--repeats", 1, "--threads", 1, "--json", "b.json",
+                          "--csv", "b.csv")
+        result = json.loads((self.folder / "b.json").read_text())
+        self.assertEqual((result["workloads"], result["projections"], result["levels"]), ([], [], []))
+        self.assertEqual([case["name"] for case in result["time_to_error"]], ["swinging", "bar"])
+        for case in result["time_to_error"]:
+            self.assertLess(case["uncertainty"], 1e-8)
+            self.assertEqual(list(case["methods"]), ["plain", "lbfgs"])
+            for levels in case["methods"].values():
+                self.assertEqual([level["error"] for level in levels], [1e-2, 1e-4, 1e-6])
+                known = [level["iterations"] for level in levels if level["iterations"] is not None]
+                self.assertEqual(known, sorted(known))
+                self.check_seconds(levels[0]["seconds"])
+            fewest = [case["methods"][name][1]["iterations"] for name in ("lbfgs", "plain")]
+            self.assertLess(fewest[0], fewest[1])
+        self.assertIn("\nswinging: a cloth of W5", done.stdout)
+        rows = list(csv.DictReader(io.StringIO((self.folder / "b.csv").read_text())))
+        self.assertIn("time_to_error", {row["table"] for row in rows})
+
+    def test_another_build_is_timed_on_the_same_scenes(self):
+        done = self.bench("--workloads", "cloth,bar", "--size", 4, "--repeats", 1, "--threads", "1", "--against",
+                          PLIANT, "--json", "-")
+        result = json.loads(done.stdout)
+        self.assertEqual([(each["name"], each["threads"]) for each in result["against"]],
+                         [("cloth", 1), ("bar", 1)])
+        for each in result["against"]:
+            for program in ("own_step_seconds", "other_step_seconds"):
+                self.assertGreater(each[program]["median"], 0)
+        text = self.bench("--time-to-error", "bar", "--size", 5, "--repeats", 1, "--threads", 1, "--against", PLIANT).stdout
+        self.assertRegex(text, r"\n  the other +\d+ +[0-9.]+ ms")
+        wrong = self.bench("--workloads", "curtain", "--size", 4, "--against", "/bin/false", expect=2).stderr
+        self.assertIn("--against: /bin/false ended with exit code 1", wrong)
+        wrong = self.bench("--workloads", "curtain", "--size", 4, "--against", "/no/such/program", expect=2).stderr
+        self.assertIn("--against: /no/such/program cannot be started", wrong)
+        self.assertIn("there is no 'waving'", self.bench("--time-to-error", "waving", expect=2).stderr)
+
     def check_workload(self, workload, has_cholmod, precision):
         self.assertEqual([phase["name"] for phase in workload["phases"]], PHASES)
         for phase in workload["phases"]:

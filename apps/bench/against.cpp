@@ -1,0 +1,152 @@
+#include "bench/against.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "bench/timing.h"
+#include "pliant/core/error.h"
+#include "pliant/core/printable.h"
+#include "pliant/core/stopwatch.h"
+#include "pliant_io/scene/scene.h"
+#include "system/child_process.h"
+
+namespace pliant_bench {
+namespace {
+
+using namespace pliant;
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+constexpr double seconds_of_run = 1;  // of the long one, about
+constexpr int usual_repeats = 9;
+
+/// A folder that goes with this object.
+class Folder {
+ public:
+  Folder() : path_(fs::temp_directory_path() / fmt::format("pliant-against-{}", getpid())) {
+    fs::create_directories(path_);
+  }
+  ~Folder() {
+    std::error_code error;
+    fs::remove_all(path_, error);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+/// Runs one program once [s].
+double seconds_of(const std::string& program, const fs::path& folder, std::int64_t steps) {
+  const fs::path out = folder / "run";
+  fs::remove_all(out);
+  const std::vector<std::string> arguments = {
+      "run", (folder / "scene.json").string(), "--steps", std::to_string(steps), "--out", out.string(), "--quiet"};
+  try {
+    const Stopwatch watch;
+    pliant_system::ChildProcess process({.program = program, .arguments = arguments});
+    process.end_input();
+    const pliant_system::ProcessEnd end = process.wait();
+    const double seconds = watch.seconds();
+    if (end.signal == 0 && end.exit_code == 0) return seconds;
+    fail_input(fmt::format("--against: {} ended with {}: {}", printable(program), end_text(end),
+                           printable(process.messages(), 500)));
+  } catch (const std::system_error& error) {
+    fail_input(fmt::format("--against: {} cannot be started: {}", printable(program), error.code().message()));
+  }
+}
+
+/// So many steps that they take about as long as a run shall.
+std::int64_t steps_of_run(const std::string& text) {
+  constexpr int tried = 5;
+  Scene scene = parse_scene(text, {}, "against");
+  scene.step();
+  const Stopwatch watch;
+  for (int i = 0; i < tried; ++i) scene.step();
+  return std::clamp<std::int64_t>(static_cast<std::int64_t>(seconds_of_run * tried / watch.seconds()), 20, 5000);
+}
+
+Json constraints_of(const Workload& workload, const Mesh& mesh) {
+  Json list = Json::array();
+  if (workload.kind == Kind::bar) {
+    list.push_back({{"type", "tetrahedron_strain"}, {"stiffness", 1e5}});
+  } else if (workload.kind == Kind::cloth) {
+    list.push_back({{"type", "triangle_strain"}, {"stiffness", 1e3}});
+    list.push_back({{"type", "hinge"}, {"stiffness", 1e-5}});
+  } else {
+    list.push_back({{"type", "edge_spring"}, {"stiffness", 1e3}});
+  }
+  if (workload.kind == Kind::curtain_bending) list.push_back({{"type", "bending"}, {"stiffness", 1e-3}});
+  Json pins = {{"type", "position"}, {"on", pinned_vertices(workload, mesh)}};
+  if (workload.kind != Kind::cloth) pins.update({{"hold", "soft"}, {"stiffness", 1e6}});
+  list.push_back(pins);
+  return list;
+}
+
+/// Begins at rest, where both programs take the same time.
+std::string scene_of(const Workload& workload) {
+  const Index n = workload.size;
+  const bool is_bar = workload.kind == Kind::bar;
+  const Json mesh = is_bar ? Json{{"shape", "bar"}, {"cells", {4 * n, n, n}}, {"size", {4, 1, 1}}, {"cut", "five"}}
+                           : Json{{"shape", "grid"}, {"columns", n}, {"rows", n}, {"size", {1, 1}}};
+  const Json mass = workload.kind == Kind::cloth ? Json{{"area_density", 0.2}} : Json{{"per_vertex", 1}};
+  return Json{{"pliant", 1},
+              {"settings", {{"time_step", 1.0 / 60}, {"iterations", workload.iterations}}},
+              {"bodies",
+               {{{"name", "body"},
+                 {"mesh", mesh},
+                 {"mass", mass},
+                 {"constraints", constraints_of(workload, make_mesh(workload))}}}},
+              {"output", {{"format", "none"}, {"every", 1'000'000'000}}}}
+      .dump(1);
+}
+
+}  // namespace
+
+std::vector<AgainstTask> tasks_of(const BenchOptions& options) {
+  std::vector<AgainstTask> tasks;
+  for (const StepCase& each : options.cases) {
+    if (each.is_old) tasks.push_back({each.name, each.scene, each.iterations});
+  }
+  for (const Workload& workload : options.workloads) {
+    if (workload.order == MeshOrder::rows) tasks.push_back({workload.name, scene_of(workload), workload.iterations});
+  }
+  return tasks;
+}
+
+AgainstResult measure_against(const AgainstTask& task, const std::string& other, int threads,
+                              std::optional<int> repeats) {
+  Json json = Json::parse(task.scene);
+  json["settings"]["threads"] = threads;
+  const Folder folder;
+  std::ofstream(folder.path() / "scene.json") << json.dump(1);
+  const std::int64_t steps = steps_of_run(json.dump());
+  const std::int64_t few = steps / 10;
+  AgainstResult result{task.name, threads, task.iterations, {}, {}, 1};
+  Samples own, others, ratios;
+  const auto step_of = [&](const std::string& program) {
+    const double shorter = seconds_of(program, folder.path(), few);
+    return (seconds_of(program, folder.path(), steps) - shorter) / static_cast<double>(steps - few);
+  };
+  const std::string this_program = pliant_system::own_program();
+  repeat(repeats.value_or(usual_repeats), 0, [&] {
+    const double a = step_of(this_program), b = step_of(other);
+    own.add(a);
+    others.add(b);
+    ratios.add(b / a);
+  });
+  result.own_step = own.spread();
+  result.other_step = others.spread();
+  result.times_as_fast = ratios.spread().median;
+  return result;
+}
+
+}  // namespace pliant_bench

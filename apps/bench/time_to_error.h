@@ -1,0 +1,17 @@
+#pragma once
+// How long a step takes until it is so near to where it converges: the measure of a solver, of which the time of an
+// iteration is only a part.
+#include "bench/bench.h"
+#include "bench/cases.h"
+
+namespace pliant_bench {
+
+/// Distances from the converged end of the step, root mean square over the mass, as shares of that of the prediction,
+/// q + h v + h² g.
+inline constexpr std::array<double, 3> error_levels = {1e-2, 1e-4, 1e-6};
+
+/// Finds the iterations that each acceleration needs, then times steps with so many in turns. Throws Error(diverged)
+/// where a step does.
+TimeToErrorResult measure_time_to_error(const StepCase& step_case, const BenchOptions& options);
+
+}  // namespace pliant_bench
