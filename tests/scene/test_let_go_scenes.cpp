@@ -23,7 +23,7 @@ namespace {
 /// An upright sheet through a flat one, a third one a millimeter above that, and a plate that comes up from below: the
 /// sheets hang between it and one that is pinned above.
 constexpr std::string_view scene_text = R"({
-  "pliant": 1, "steps": 60, "settings": {"iterations": 8, "threads": 1},
+  "pliant": 1, "steps": 36, "settings": {"iterations": 8, "threads": 1},
   "contact": {"surfaces": true, "friction": 0.4},
   "bodies": [
     {"name": "flat", "mesh": {"shape": "grid", "columns": 8, "rows": 8, "size": [0.6, 0.6], "plane": "xy"},
