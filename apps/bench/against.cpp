@@ -60,7 +60,9 @@ double seconds_of(const std::string& program, const fs::path& folder, std::int64
     fail_input(fmt::format("--against: {} ended with {}: {}", printable(program), end_text(end),
                            printable(process.messages(), 500)));
   } catch (const std::system_error& error) {
-    fail_input(fmt::format("--against: {} cannot be started: {}", printable(program), error.code().message()));
+    fail_input(
+        fmt::format("--against: {} cannot be started: {}; give the path of a build of this program, as in ./old/pliant",
+                    printable(program), error.code().message()));
   }
 }
 

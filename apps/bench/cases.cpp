@@ -107,6 +107,7 @@ std::vector<StepCase> choose_cases(const std::vector<std::string>& names, std::o
   for (const StepCase& each : all) known.push_back(each.name);
   std::vector<StepCase> chosen;
   for (const std::string& name : names) {
+    if (name == "all") fail_input("--time-to-error: 'all' has the others in it; give it by itself");
     const auto found = std::ranges::find(all, name, &StepCase::name);
     if (found == all.end()) {
       fail_input("--time-to-error: there is no '" + printable(name) + "'; " + suggestion_text(name, known));

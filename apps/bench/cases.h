@@ -20,13 +20,13 @@ struct StepCase {
   pliant::Index iterations = 10;  ///< of a step when it is timed against another program
 };
 
-/// All of them. `size`: vertices along a side of the cloth, a fifth of it cells across the bar; default: 100.
+/// All of them. `size`: vertices along a side of the cloth, a tenth of it cells across the bar; default: 100.
 std::vector<StepCase> step_cases(std::optional<pliant::Index> size = {});
 
 /// Those of these names, or all of them for `all`. Throws Error(input) on another name.
 std::vector<StepCase> choose_cases(const std::vector<std::string>& names, std::optional<pliant::Index> size);
 
-/// At the begin of the step that is measured.
+/// At the beginning of the step that is measured.
 pliant::Scene begin_of(const StepCase& step_case, int threads);
 
 }  // namespace pliant_bench

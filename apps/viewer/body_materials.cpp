@@ -54,12 +54,13 @@ std::vector<BodyMaterial> list_materials(const pliant::Scene& scene) {
   return list;
 }
 
-void change_material(pliant::Scene& scene, BodyId body, const std::string& name) {
+void change_material(pliant::Scene& scene, BodyId body, const std::string& name,
+                     const pliant::MaterialPlacement& placement) {
   const Material& material = find_material(scene, name);
   pliant::Simulation& simulation = scene.simulation;
   pliant::Transaction transaction(simulation);
   const std::optional<pliant::Real> damping_before = mean_damping(simulation, scene.materials);
-  change_material(simulation, body, material);
+  change_material(simulation, body, material, placement);
   std::map<BodyId, Material> materials = scene.materials;
   const bool is_first = materials.empty();
   materials.insert_or_assign(body, material);

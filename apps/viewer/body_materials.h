@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "pliant/materials/material_groups.h"
 #include "pliant_io/scene/scene.h"
 
 namespace pliant_viewer {
@@ -22,9 +23,11 @@ struct BodyMaterial {
 /// Of the bodies that can be made of any material and are not held everywhere, in their order.
 std::vector<BodyMaterial> list_materials(const pliant::Scene& scene);
 
-/// Makes a body of the material of that name, one of the scene's own or of the library. The first material of a scene
+/// Makes a body of the material of that name, one of the scene's own or of the library, with its threads as given. The
+/// first material of a scene
 /// brings the settings with which it looks right; the damping follows the materials unless it is another than theirs.
 /// Throws pliant::Error (input), and has changed nothing then, where there is none or the body cannot be made of it.
-void change_material(pliant::Scene& scene, pliant::BodyId body, const std::string& material);
+void change_material(pliant::Scene& scene, pliant::BodyId body, const std::string& material,
+                     const pliant::MaterialPlacement& placement);
 
 }  // namespace pliant_viewer

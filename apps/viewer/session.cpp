@@ -9,6 +9,7 @@
 #include "pliant/constraints/position.h"
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
+#include "pliant/materials/change_material.h"
 
 namespace pliant_viewer {
 namespace {
@@ -127,11 +128,13 @@ void Session::restart(bool keep_values) {
   pliant::Scene scene = make_();
   if (keep_values) {
     for (const auto& [body, material] : materials_) {
-      if (const auto id = find_body(scene.simulation, body)) change_material(scene, *id, material);
+      const auto id = find_body(scene.simulation, body);
+      if (id) change_material(scene, *id, material, present_placement(scene.simulation, *id));
     }
     apply(values_, scene.simulation);
   } else {
     materials_.clear();
+    placements_.clear();
     values_.clear();
   }
   scene.simulation.set_stop(stop_);
@@ -242,7 +245,9 @@ void Session::set_material(const std::string& body, const std::string& material)
     const auto* group = std::get_if<pliant::GroupId>(&slider.parameter.handle.owner);
     if (group != nullptr && simulation().groups().at(*group).body == *id) keys.push_back(slider.key);
   }
-  change_material(scene_, *id, material);
+  // Threads lie as they did, also after a material that has none.
+  const auto placement = placements_.emplace(body, present_placement(simulation(), *id)).first;
+  change_material(scene_, *id, material, placement->second);
   for (const std::string& key : keys) values_.erase(key);
   materials_[body] = material;
   note_ = coarseness(scene_.materials.at(*id), simulation().body(*id).mesh);

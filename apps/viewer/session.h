@@ -89,8 +89,9 @@ class Session {
   MakeScene make_;
   pliant::Scene scene_;
   std::function<bool()> stop_;
-  std::map<std::string, pliant::Vec3> values_;    // from set()
-  std::map<std::string, std::string> materials_;  // from set_material(), by body
+  std::map<std::string, pliant::Vec3> values_;                   // from set()
+  std::map<std::string, std::string> materials_;                 // from set_material(), by body
+  std::map<std::string, pliant::MaterialPlacement> placements_;  // of these bodies, as the scene has them
   std::optional<Pull> pull_;
   std::optional<pliant::GroupId> pull_group_;
   std::map<pliant::ColliderId, pliant::Vec3> collider_goals_;  // of those that are on their way [m]

@@ -329,4 +329,22 @@ TEST_CASE("a material is chosen where the body is; a restart keeps the choice, o
   CHECK(find(session.sliders(), "group:bend.stiffness").value[0] == 0.001);
 }
 
+TEST_CASE("threads lie as the scene has them, also after a material without threads") {
+  Session session([] {
+    pliant::SceneOverrides overrides;
+    overrides.set = {R"(bodies[0].material={"name": "silk", "direction": [0, 0, 1], "angle": 30})",
+                     "bodies[0].constraints=[]", "moves=[]"};
+    return pliant::parse_scene(sheet_text, {}, "sheet", overrides);
+  });
+  const auto angle = [&] { return find(session.sliders(), "group:sheet.warp.angle").value[0]; };
+  CHECK(angle() == 30);
+  session.set_material("sheet", "steel_sheet");
+  session.set_material("sheet", "wool");
+  CHECK(angle() == 30);
+  session.set_material("sheet", "steel_sheet");
+  session.restart(true);
+  session.set_material("sheet", "wool");
+  CHECK(angle() == 30);
+}
+
 }  // namespace test_session
