@@ -31,13 +31,12 @@ LEGAL = (DONE, INPUT, DIVERGED)
 
 TIME_LIMIT = 10  # [s] of work; a busy machine may make more of it on the clock
 CLOCK_FACTOR = 6
-START_UP = 0.3  # [s] of work in which the program may not yet have said what an interrupt does
 LONGEST_LINE = 1000  # characters
 MEMORY_FACTOR = 10  # times the input
 JSON_MEMORY_FACTOR = 25  # where it is all JSON: a value of 3 characters, "{},", takes up to 70 bytes (json_text.h)
 MEMORY_CONSTANT = 64 << 20  # [bytes], above the program's own
 # Past so many cases of a test, one in so many is run; a sanitized program takes ten times as long. HOSTILE_ALL=1: all.
-DENSE_CASES, STRIDE = 150, 3
+DENSE_CASES, STRIDE = 30, 10
 SANITIZED_DENSE_CASES, SANITIZED_STRIDE = 15, 25
 
 
@@ -67,7 +66,7 @@ class Case:
     environment: dict = None  # in place of this process's
     launcher: list = dataclasses.field(default_factory=list)  # a program that runs the rest, such as prlimit
     streams: dict = dataclasses.field(default_factory=dict)  # stdin, stdout, stderr, as subprocess takes them
-    interrupt_after: float = None  # [s]; SIGINT is sent then
+    interrupt_after: float = None  # [s]; SIGINT is sent then, or once the program takes it
     input_size: int = None  # [bytes]; default: that of the files
     memory_factor: int = MEMORY_FACTOR
     plain_only: bool = False  # means nothing under a sanitizer, such as a memory limit
@@ -82,7 +81,6 @@ class Ending:
     seconds: float
     peak: int  # [bytes]
     hung: bool
-    stillborn: bool = False  # ended by our interrupt before it could take it
 
 
 def write_file(path, contents):
@@ -128,6 +126,22 @@ def ends_within(process, limit):
     return True
 
 
+def takes_interrupts(process):
+    """Whether the program has said by now what SIGINT does; a slow machine may need long to get there."""
+    caught = re.search(r"SigCgt:\s*(\w+)", pathlib.Path(f"/proc/{process.pid}/status").read_text())
+    return caught is not None and bool(int(caught[1], 16) >> signal.SIGINT - 1 & 1)
+
+
+def interrupt(process, after, limit):
+    """Sends SIGINT after so many seconds, and not before the program takes it; none to one that ends or never does."""
+    end = time.monotonic() + CLOCK_FACTOR * limit
+    ended = wait_for(process, after)
+    while not ended and not takes_interrupts(process) and time.monotonic() < end:
+        ended = wait_for(process, 0.1)
+    if not ended:
+        process.send_signal(signal.SIGINT)
+
+
 def run_program(arguments, folder, case=None):
     """Runs the program in a folder; its output and errors go through files outside it, unless the case has streams."""
     case = case or Case("", [])
@@ -138,9 +152,8 @@ def run_program(arguments, folder, case=None):
         start = time.monotonic()
         process = subprocess.Popen(command, cwd=folder, env=environment() if case.environment is None else
                                    case.environment, **streams)
-        interrupted = case.interrupt_after is not None and not wait_for(process, case.interrupt_after)
-        if interrupted:
-            process.send_signal(signal.SIGINT)
+        if case.interrupt_after is not None:
+            interrupt(process, case.interrupt_after, limit)
         hung = not ends_within(process, limit)
         if hung:
             process.kill()
@@ -149,8 +162,7 @@ def run_program(arguments, folder, case=None):
         process.returncode = os.waitstatus_to_exitcode(status)
         stdout.seek(0)
         stderr.seek(0)
-        stillborn = interrupted and process.returncode == -signal.SIGINT and usage.ru_utime + usage.ru_stime < START_UP
-        return Ending(process.returncode, stdout.read(), stderr.read(), seconds, 1024 * usage.ru_maxrss, hung, stillborn)
+        return Ending(process.returncode, stdout.read(), stderr.read(), seconds, 1024 * usage.ru_maxrss, hung)
 
 
 @functools.cache
@@ -255,8 +267,6 @@ def complain_of_results(folder, names):
 def complain_of_ending(ending, case, input_size, own):
     if ending.hung:
         yield f"still runs after {ending.seconds:.0f} s"
-        return
-    if ending.stillborn:
         return
     if ending.code < 0:
         yield f"ended by {signal.Signals(-ending.code).name}"
