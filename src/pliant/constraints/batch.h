@@ -10,6 +10,7 @@
 //     static constexpr bool has_anchors = true;       // the first three are a point that begins at the vertices
 //     static constexpr auto kernel = &LocalKernels::edge_spring;   // does many at once, in place of project
 //     static constexpr bool rotation_invariant = true;   // projections turn with z, in the middle of a step as well
+//     static constexpr bool is_linear = true;         // p = 0 whatever z is
 //     static constexpr bool limits_stretches = true;  // z is a stretch or F, and p has stretches between limits
 //     static constexpr bool is_difference = true;     // A is (−1, 1), which its kernel need not read
 //     static void begin_step(const Positions& q, std::span<const Index> stencil, Real* fields);
@@ -18,7 +19,7 @@
 #include <cmath>
 #include <string>
 
-#include "pliant/constraints/constraint_group.h"
+#include "pliant/constraints/batch_checks.h"
 #include "pliant/constraints/kernels/local_kernels.h"
 #include "pliant/constraints/reorder.h"
 #include "pliant/constraints/stencil_sum.h"
@@ -27,13 +28,6 @@
 namespace pliant {
 
 inline constexpr int dynamic_vertices = -1;
-
-/// Throws Error(input) on coefficients that do not sum to zero, of a type that says that they do.
-void check_sum_of_row(std::string_view type, std::span<const Real> coefficients);
-
-/// Throws Error(input) on a constraint of the wrong number of vertices, coefficients or fields.
-void check_numbers(std::string_view type, const GroupShape& shape, std::size_t fields, std::size_t stencil_size,
-                   std::size_t reduction_size, std::size_t field_count);
 
 template <class Type>
 class Batch final : public ConstraintGroup {
@@ -99,6 +93,7 @@ class Batch final : public ConstraintGroup {
   }
   bool freezes_shape() const override { return has_begin_step; }
   bool is_rotation_invariant() const override { return rotates_along; }
+  bool is_linear() const override { return has_linear; }
   bool limits_stretches() const override { return has_stretches; }
   void begin_step(const StateView& state, [[maybe_unused]] Real time_step) override {
     const auto n = static_cast<std::size_t>(vertices());
@@ -128,6 +123,7 @@ class Batch final : public ConstraintGroup {
   static constexpr std::size_t size = Type::rows * 3;
   static constexpr bool has_targets = requires { Type::has_targets; };
   static constexpr bool has_kernel = requires { Type::kernel; };
+  static constexpr bool has_linear = requires { Type::is_linear; };
   static constexpr bool rotates_along = requires { Type::rotation_invariant; };
   static constexpr bool has_stretches = requires { Type::limits_stretches; };
   static constexpr bool has_begin_step = requires { &Type::begin_step; };

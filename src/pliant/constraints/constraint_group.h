@@ -41,6 +41,9 @@ class ConstraintGroup {
   /// them. Components of such groups alone are turned to where contact is in balance.
   virtual bool is_rotation_invariant() const { return false; }
 
+  /// Whether p = 0 whatever z is, and rows of A sum to zero: its forces are linear in the positions, and never change.
+  virtual bool is_linear() const { return false; }
+
   /// Called once at the start of a step, before anything reads the group: the place to freeze normals.
   virtual void begin_step(const StateView& state, Real time_step);
   /// Whether begin_step() only freezes numbers that follow from the positions, as normals do. Then energy projection

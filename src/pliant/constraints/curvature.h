@@ -16,6 +16,7 @@ struct FlatCurvature {
   static constexpr int fields = 0;
   static constexpr bool translation_invariant = true;
   static constexpr bool rotation_invariant = true;
+  static constexpr bool is_linear = true;
   static constexpr auto kernel = &LocalKernels::flat_curvature;
   static void project(const Real*, const Real*, Real* p) { std::fill_n(p, 3, Real(0)); }
 };

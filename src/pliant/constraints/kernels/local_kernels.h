@@ -37,6 +37,18 @@ struct LocalDone {
   }
 };
 
+/// Rows of a matrix C whose forces on vertex v are k Σ_u C_vu (q_u − q_v), and their energy k/4 Σ C_vu ‖q_u − q_v‖².
+struct LinearRows {
+  const double* positions;       ///< of all vertices, m × 3
+  const std::int32_t* vertices;  ///< v of each row
+  const std::uint32_t* offsets;  ///< row i has the entries [offsets[i], offsets[i + 1])
+  const std::int32_t* columns;   ///< u of each entry
+  const double* values;          ///< C_vu of each entry
+  double stiffness;              ///< k
+  std::size_t begin, end;        ///< the rows at hand
+  double* forces;                ///< of row `begin` first, 3 numbers each
+};
+
 struct LocalKernels {
   using Kernel = LocalDone(const LocalBlock& block);
   Kernel* edge_spring;
@@ -49,6 +61,7 @@ struct LocalKernels {
   Kernel* flat_curvature;
   Kernel* absolute_curvature;
   Kernel* signed_curvature;
+  double (*linear_forces)(const LinearRows& rows);  ///< returns the energy
   const char* instruction_set;
 };
 

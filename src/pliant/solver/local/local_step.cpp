@@ -18,6 +18,7 @@ constexpr std::size_t most_chunk_slots = max_reduction_rows;
 constexpr std::size_t fewest_chunk_slots = 1024;
 constexpr std::size_t chunks_wanted = 64;
 constexpr Index vertices_per_chunk = 1024;
+constexpr Index rows_per_chunk = 512;       // of linear forces
 constexpr Index constraints_together = 64;  // that kernels take at once
 
 /// Of a constraint.
@@ -44,6 +45,7 @@ class LocalStep::Layout {
     chunk.first_partial = step_.partial_ends_.size();
     chunk.first_entry = step_.entries_.size();
     chunk.first_coefficient = step_.coefficients_.size();
+    if (chunk.is_linear) return add_rows(chunk);
     chunk.has_units = true;
     touched_.clear();
     for_each_entry(chunk, [&](Index vertex, std::size_t, Real coefficient) {
@@ -59,14 +61,20 @@ class LocalStep::Layout {
       after = chunk.group + 1;
     }
     partial_vertices_.insert(partial_vertices_.end(), touched_.begin(), touched_.end());
+    partials_met_ += touched_.size();
     chunk.last_partial = step_.partial_ends_.size();
   }
   std::span<const Index> partial_vertices() const { return partial_vertices_; }
   Real chunks_of_vertex() const {
-    return vertices_met_ == 0 ? 0 : static_cast<Real>(partial_vertices_.size()) / static_cast<Real>(vertices_met_);
+    return vertices_met_ == 0 ? 0 : static_cast<Real>(partials_met_) / static_cast<Real>(vertices_met_);
   }
 
  private:
+  void add_rows(Chunk& chunk) {
+    for (Index row = chunk.begin; row < chunk.end; ++row) partial_vertices_.push_back(step_.linear_.vertex(at(row)));
+    step_.partial_ends_.resize(partial_vertices_.size(), 0);
+    chunk.last_partial = step_.partial_ends_.size();
+  }
   template <class Visit>
   void for_each_entry(const Chunk& chunk, Visit&& visit) const {
     const ConstraintGroup& group = *step_.groups_[chunk.group];
@@ -109,13 +117,14 @@ class LocalStep::Layout {
   std::vector<std::uint32_t> entry_counts_;  // of each vertex in the chunk at hand; then, where the next one goes
   std::vector<Index> touched_;
   std::vector<std::size_t> after_last_group_;  // that met each vertex; 0: none
-  std::size_t vertices_met_ = 0;               // by all groups together
+  std::size_t vertices_met_ = 0;               // by all groups together, linear ones apart
+  std::size_t partials_met_ = 0;               // the same, by their chunks
   std::vector<Index> partial_vertices_;
 };
 
 void LocalStep::set_groups(Index vertex_count, std::span<ConstraintGroup* const> groups) {
   groups_.assign(groups.begin(), groups.end());
-  lay_out_chunks();
+  lay_out_chunks(vertex_count);
   partial_ends_.clear();
   entries_.clear();
   coefficients_.clear();
@@ -125,7 +134,8 @@ void LocalStep::set_groups(Index vertex_count, std::span<ConstraintGroup* const>
   lay_out_vertices(vertex_count, layout.partial_vertices());
 }
 
-void LocalStep::lay_out_chunks() {
+void LocalStep::lay_out_chunks(Index vertex_count) {
+  linear_.clear();
   slot_count_ = 0;
   for (const ConstraintGroup* group : groups_) {
     slot_count_ += static_cast<std::size_t>(group->shape().count) * slots_of(*group);
@@ -134,6 +144,11 @@ void LocalStep::lay_out_chunks() {
   chunks_.clear();
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const GroupShape shape = groups_[g]->shape();
+    if (groups_[g]->is_linear()) {
+      const LinearForces::Rows rows = linear_.add(*groups_[g], vertex_count);
+      lay_out_linear(g, rows);
+      if (rows.are_worth_it) continue;
+    }
     auto count = static_cast<Index>(std::max<std::size_t>(1, wanted / slots_of(*groups_[g])));
     if (count > constraints_together) count -= count % constraints_together;
     for (Index begin = 0; begin < shape.count; begin += count) {
@@ -141,6 +156,14 @@ void LocalStep::lay_out_chunks() {
     }
   }
   chunk_energies_.assign(chunks_.size(), 0);
+}
+
+void LocalStep::lay_out_linear(std::size_t group, LinearForces::Rows rows) {
+  const auto last = static_cast<Index>(rows.end);
+  for (auto begin = static_cast<Index>(rows.begin); begin < last; begin += rows_per_chunk) {
+    chunks_.push_back(
+        {.group = group, .begin = begin, .end = std::min(last, begin + rows_per_chunk), .is_linear = true});
+  }
 }
 
 void LocalStep::lay_out_vertices(Index vertex_count, std::span<const Index> partial_vertices) {
@@ -187,6 +210,10 @@ LocalResult LocalStep::run(const Positions& q, const Positions& s, std::span<con
 
 Real LocalStep::project(const Chunk& chunk, const Positions& q, std::vector<Real>& slots) {
   const ConstraintGroup& group = *groups_[chunk.group];
+  if (chunk.is_linear) {
+    return linear_.run(group.stiffness(), q, at(chunk.begin), at(chunk.end),
+                       partials_.data() + 3 * chunk.first_partial);
+  }
   const Real energy = project_to_slots(group, q, slots, chunk.begin, chunk.end);
   chunk.has_units ? collect<true>(chunk, slots.data()) : collect<false>(chunk, slots.data());
   return energy;
@@ -243,8 +270,9 @@ LocalStep::VertexSums LocalStep::gather(Index begin, Index end, const Positions&
   return sums;
 }
 
-Index LocalStep::component_of(const Chunk& chunk, Index constraint) const {
-  return component_of_vertex_[at(stencil_of(*groups_[chunk.group], at(constraint)).front())];
+Index LocalStep::component_of(const Chunk& chunk, Index item) const {
+  const Index vertex = chunk.is_linear ? linear_.vertex(at(item)) : stencil_of(*groups_[chunk.group], at(item)).front();
+  return component_of_vertex_[at(vertex)];
 }
 
 void LocalStep::set_components(std::span<const Index> component_of_vertex) {
@@ -270,7 +298,9 @@ void LocalStep::elastic_energies(const Positions& q, std::span<Real> of_componen
     for (Index begin = chunk.begin, end = begin; begin < chunk.end; begin = end) {
       const Index component = component_of(chunk, begin);
       while (end < chunk.end && component_of(chunk, end) == component) ++end;
-      of_components[static_cast<std::size_t>(component)] += project_to_slots(group, q, slots_.front(), begin, end);
+      Real* const slots = slots_.front().data();
+      of_components[at(component)] += chunk.is_linear ? linear_.run(group.stiffness(), q, at(begin), at(end), slots)
+                                                      : project_to_slots(group, q, slots_.front(), begin, end);
     }
   }
 }
@@ -285,7 +315,8 @@ Real LocalStep::elastic_energy(std::size_t group) const {
 
 void LocalStep::describe(SystemInfo& info) const {
   const auto bytes = [](const auto& list) { return static_cast<std::int64_t>(std::span(list).size_bytes()); };
-  info.local_list_bytes = bytes(entries_) + bytes(coefficients_) + bytes(partial_ends_);
+  info.local_list_bytes =
+      bytes(entries_) + bytes(coefficients_) + bytes(partial_ends_) + static_cast<std::int64_t>(linear_.bytes());
   info.partial_bytes = bytes(partials_);
   info.partial_list_bytes = bytes(vertex_offsets_) + bytes(vertex_partials_);
 }

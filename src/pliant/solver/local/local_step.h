@@ -5,10 +5,13 @@
 //                                partials ← Aᵀ slots, one for each vertex that the chunk touches
 //   2. vertices, in chunks:      r ← M/h² (s − q) + Σ partials, those of one to three chunks as a rule
 //
+// Groups whose forces are linear write partials at once, by the product of linear_forces.h where that takes less.
+//
 // So no two threads write to one place, every sum has its fixed order, and the bits are the same for any number of
 // threads. r is minus the gradient of the objective: the true residual, for free.
 #include "pliant/constraints/constraint_group.h"
 #include "pliant/core/thread_pool.h"
+#include "pliant/solver/local/linear_forces.h"
 #include "pliant/solver/system_info.h"
 
 namespace pliant {
@@ -53,8 +56,9 @@ class LocalStep {
   static constexpr Index mixed = -1;
   struct Chunk {
     std::size_t group;
-    Index begin;  // constraints of the group
+    Index begin;  // constraints of the group, or rows of its linear forces
     Index end;
+    bool is_linear = false;
     std::size_t first_partial = 0;
     std::size_t last_partial = 0;
     std::size_t first_entry = 0;
@@ -68,8 +72,9 @@ class LocalStep {
   };
   class Layout;
 
-  Index component_of(const Chunk& chunk, Index constraint) const;
-  void lay_out_chunks();
+  Index component_of(const Chunk& chunk, Index item) const;
+  void lay_out_chunks(Index vertex_count);
+  void lay_out_linear(std::size_t group, LinearForces::Rows rows);
   void lay_out_vertices(Index vertex_count, std::span<const Index> partial_vertices);
   Real project(const Chunk& chunk, const Positions& q, std::vector<Real>& slots);
   template <bool units>
@@ -82,6 +87,7 @@ class LocalStep {
   Real chunks_of_vertex_ = 0;
   std::vector<Chunk> chunks_;
   std::vector<Real> chunk_energies_;
+  LinearForces linear_;
   std::span<const Index> component_of_vertex_;
   std::vector<VertexSums> vertex_sums_;   // of each chunk of vertices
   std::vector<std::vector<Real>> slots_;  // of the chunk at hand of each thread

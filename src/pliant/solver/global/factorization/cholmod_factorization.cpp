@@ -67,14 +67,11 @@ struct FreeFactor {
 
 class CholmodFactorization final : public Factorization {
  public:
-  explicit CholmodFactorization(Ordering ordering) {
+  explicit CholmodFactorization(Ordering ordering) : ordering_(ordering) {
     cholmod_start(&common_);
     common_.supernodal = CHOLMOD_SUPERNODAL;
     common_.print = 0;
-    // The first of CHOLMOD's own strategies whose fill is acceptable: AMD, then nested dissection by METIS.
-    common_.nmethods = ordering == Ordering::automatic ? 0 : 1;
-    if (ordering == Ordering::minimum_degree) common_.method[0].ordering = CHOLMOD_AMD;
-    if (ordering == Ordering::nested_dissection) common_.method[0].ordering = CHOLMOD_METIS;
+    common_.nmethods = 1;
     // Which columns are joined into one panel although that stores zeros: up to so many columns always, and more of
     // them for ever smaller shares of zeros (benchmarks/NOTES.md, "How many zeros may panels store?").
     std::ranges::copy(std::array{4, 8, 16}, common_.nrelax);
@@ -89,9 +86,9 @@ class CholmodFactorization final : public Factorization {
 
   void analyze(const LowerMatrix& matrix) override {
     const TakeTurns turn;  // METIS draws random numbers from a source that the process has one of
-    cholmod_sparse view = view_of(matrix);
-    symbolic_.reset(cholmod_analyze(&view, &common_));
-    check(symbolic_ != nullptr);
+    const double entries = order(matrix, ordering_ == Ordering::nested_dissection ? CHOLMOD_METIS : CHOLMOD_AMD);
+    if (ordering_ != Ordering::automatic || entries < entries_worth_it * static_cast<double>(matrix.size())) return;
+    if (order(matrix, CHOLMOD_METIS) > entries) order(matrix, CHOLMOD_AMD);
   }
 
   void factorize(const LowerMatrix& matrix) override {
@@ -120,6 +117,19 @@ class CholmodFactorization final : public Factorization {
   }
 
  private:
+  /// Entries a column from which METIS, which takes ten times as long as AMD, makes up for it within some ten steps, in
+  /// the numeric factorization for a part (benchmarks/NOTES.md, "Which order of elimination?").
+  static constexpr double entries_worth_it = 64;
+
+  /// Returns the entries of the factor.
+  double order(const LowerMatrix& matrix, int method) {
+    common_.method[0].ordering = method;
+    cholmod_sparse view = view_of(matrix);
+    symbolic_.reset(cholmod_analyze(&view, &common_));
+    check(symbolic_ != nullptr);
+    return common_.lnz;
+  }
+
   static cholmod_sparse view_of(const LowerMatrix& matrix) {
     cholmod_sparse view{};
     view.nrow = view.ncol = static_cast<std::size_t>(matrix.size());
@@ -145,6 +155,7 @@ class CholmodFactorization final : public Factorization {
     fail_input("the system matrix is not positive definite to rounding; reduce the ratio of stiffness to m/h²");
   }
 
+  Ordering ordering_;
   cholmod_common common_;
   std::unique_ptr<cholmod_factor, FreeFactor> symbolic_{nullptr, FreeFactor{&common_}};
 };

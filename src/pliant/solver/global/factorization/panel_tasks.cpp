@@ -14,7 +14,7 @@ namespace {
 // where a stage is worth the wait for all threads that lies before it.
 constexpr std::int64_t min_task_weight = 20'000;
 constexpr std::array<std::int64_t, 3> tasks_wanted = {64, 16, 4};
-constexpr std::int64_t min_stage_weight = 400'000;
+constexpr std::int64_t min_stage_weight = 100'000;
 
 /// Subtrees of panels in postorder.
 struct Subtrees {

@@ -1,0 +1,117 @@
+#include "pliant/solver/local/linear_forces.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "pliant/constraints/kernels/local_kernels.h"
+#include "pliant/solver/constraint_rows.h"
+
+namespace pliant {
+namespace {
+
+/// Entries of C, for each vertex of a constraint, up to which the product takes less time than the constraint.
+constexpr std::size_t most_entries = 2;
+
+/// Which constraints each vertex is in, and as which of their vertices: numbers of places in the list of stencils.
+struct Places {
+  std::vector<std::size_t> offsets;
+  std::vector<std::size_t> places;
+
+  Places(std::span<const Index> stencil, Index vertex_count) : offsets(at(vertex_count) + 1), places(stencil.size()) {
+    for (const Index vertex : stencil) ++offsets[at(vertex) + 1];
+    for (std::size_t v = 1; v < offsets.size(); ++v) offsets[v] += offsets[v - 1];
+    std::vector<std::size_t> next(offsets.begin(), offsets.end() - 1);
+    for (std::size_t place = 0; place < stencil.size(); ++place) places[next[at(stencil[place])]++] = place;
+  }
+  std::span<const std::size_t> of(Index vertex) const {
+    return std::span(places).subspan(offsets[at(vertex)], offsets[at(vertex) + 1] - offsets[at(vertex)]);
+  }
+};
+
+struct Entry {
+  Index column;
+  Real value;
+};
+
+/// Row v of C: neighbors in order, each once.
+void find_row(const ConstraintGroup& group, Index v, std::span<const std::size_t> places, std::vector<Entry>& row) {
+  const auto n = static_cast<std::size_t>(group.shape().vertices);
+  const auto k = static_cast<std::size_t>(group.shape().rows);
+  row.clear();
+  for (const std::size_t place : places) {
+    const std::size_t i = place / n;
+    const std::span<const Index> stencil = stencil_of(group, i);
+    for (std::size_t j = 0; j < n; ++j) {
+      if (stencil[j] == v) continue;
+      Real product = 0;
+      for (std::size_t r = 0; r < k; ++r) {
+        const std::span<const Real> a = reduction_row(group, i, r);
+        product += a[place % n] * a[j];
+      }
+      row.push_back({stencil[j], -group.rest_measure()[i] * product});
+    }
+  }
+  std::ranges::stable_sort(row, {}, &Entry::column);
+  std::size_t last = 0;
+  for (std::size_t e = 1; e < row.size(); ++e) {
+    if (row[e].column == row[last].column) {
+      row[last].value += row[e].value;
+    } else {
+      row[++last] = row[e];
+    }
+  }
+  if (!row.empty()) row.resize(last + 1);
+}
+
+}  // namespace
+
+void LinearForces::clear() {
+  vertices_.clear();
+  offsets_.assign(1, 0);
+  columns_.clear();
+  values_.clear();
+}
+
+LinearForces::Rows LinearForces::add(const ConstraintGroup& group, Index vertex_count) {
+  const std::size_t first_row = vertices_.size(), first_entry = columns_.size();
+  const std::size_t most = most_entries * group.stencil().size();
+  const Places places(group.stencil(), vertex_count);
+  std::vector<Entry> row;
+  for (Index v = 0; v < vertex_count; ++v) {
+    if (places.of(v).empty()) continue;
+    find_row(group, v, places.of(v), row);
+    for (const auto& [column, value] : row) {
+      columns_.push_back(column);
+      values_.push_back(value);
+    }
+    vertices_.push_back(v);
+    offsets_.push_back(static_cast<std::uint32_t>(columns_.size()));
+    if (columns_.size() - first_entry <= most && columns_.size() <= std::numeric_limits<std::uint32_t>::max()) continue;
+    vertices_.resize(first_row);
+    offsets_.resize(first_row + 1);
+    columns_.resize(first_entry);
+    values_.resize(first_entry);
+    return {};
+  }
+  return {first_row, vertices_.size(), true};
+}
+
+Real LinearForces::run(Real stiffness, const Positions& q, std::size_t begin, std::size_t end, Real* forces) const {
+  static const LocalKernels& kernels = *local_kernels().back();
+  return kernels.linear_forces({.positions = q.data(),
+                                .vertices = vertices_.data(),
+                                .offsets = offsets_.data(),
+                                .columns = columns_.data(),
+                                .values = values_.data(),
+                                .stiffness = stiffness,
+                                .begin = begin,
+                                .end = end,
+                                .forces = forces});
+}
+
+std::size_t LinearForces::bytes() const {
+  return std::span(vertices_).size_bytes() + std::span(offsets_).size_bytes() + std::span(columns_).size_bytes() +
+         std::span(values_).size_bytes();
+}
+
+}  // namespace pliant
