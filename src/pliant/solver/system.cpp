@@ -52,6 +52,7 @@ void System::begin_step(const State& state, Integrator integrator, Real h) {
   view.inertia_step = is_bdf2 ? pliant::inertia_step(Integrator::bdf2, h) : h;
   if (is_bdf2) view.previous_positions = &state.previous_positions;
   for (ConstraintGroup* group : simulation_groups_) group->begin_step(view, h);
+  local_step_.begin_step();
 }
 
 void System::freeze_shapes(const Positions& q, const State& state, Real h) {

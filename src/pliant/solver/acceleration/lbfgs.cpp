@@ -77,7 +77,7 @@ void Lbfgs::forget() {
 bool Lbfgs::has_risen(const LocalResult& now) const {
   constexpr Real rounding = 1e-12;
   const Real before = local_before_.objective();
-  return !(now.objective() <= before + rounding * before);
+  return !(now.objective() <= before + rounding * before + now.rounding);
 }
 
 Real Lbfgs::best_share(const LocalResult& now) const {

@@ -25,6 +25,8 @@ class LinearForces {
   /// Writes the forces of rows [begin, end) [N], three numbers each; returns their energy [J]: a share, which need not
   /// be positive.
   Real run(Real stiffness, const Positions& q, std::size_t begin, std::size_t end, Real* forces) const;
+  /// About k/4 Σ |C_vu| ‖q_u − q_v‖² [J], of what run() sums up the magnitude, for all rows of a group.
+  Real magnitude(Real stiffness, const Positions& q, std::size_t begin, std::size_t end) const;
   std::size_t bytes() const;
 
  private:

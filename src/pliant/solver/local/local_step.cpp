@@ -124,6 +124,7 @@ class LocalStep::Layout {
 
 void LocalStep::set_groups(Index vertex_count, std::span<ConstraintGroup* const> groups) {
   groups_.assign(groups.begin(), groups.end());
+  is_rounding_known_ = false;
   lay_out_chunks(vertex_count);
   partial_ends_.clear();
   entries_.clear();
@@ -205,7 +206,19 @@ LocalResult LocalStep::run(const Positions& q, const Positions& s, std::span<con
     result.residual = larger(result.residual, sums.squared_residual);
   }
   result.residual = std::sqrt(result.residual);
+  if (!is_rounding_known_) rounding_ = find_rounding(q);
+  is_rounding_known_ = true;
+  result.rounding = rounding_;
   return result;
+}
+
+Real LocalStep::find_rounding(const Positions& q) const {
+  Real magnitude = 0;
+  for (const Chunk& chunk : chunks_) {
+    if (!chunk.is_linear) continue;
+    magnitude += linear_.magnitude(groups_[chunk.group]->stiffness(), q, at(chunk.begin), at(chunk.end));
+  }
+  return 4 * std::numeric_limits<Real>::epsilon() * magnitude;
 }
 
 Real LocalStep::project(const Chunk& chunk, const Positions& q, std::vector<Real>& slots) {

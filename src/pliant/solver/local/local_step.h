@@ -22,6 +22,8 @@ struct LocalResult {
   Real inertia = 0;   ///< 1/(2h²) ‖M^½ (q − s)‖² [J]
   Real elastic = 0;   ///< Σ wᵢ/2 ‖zᵢ − pᵢ‖² [J]
   Real contact = 0;   ///< of contact, which the solver adds [J]
+  /// What rounding may make of `elastic` besides a share of it: linear forces sum up terms that cancel [J].
+  Real rounding = 0;
   double seconds_projections = 0;
   double seconds = 0;
   Real objective() const { return inertia + elastic + contact; }
@@ -31,6 +33,9 @@ class LocalStep {
  public:
   /// Lays out slots and gathers for these groups. They must outlive their use here.
   void set_groups(Index vertex_count, std::span<ConstraintGroup* const> groups);
+
+  /// Lets the next run find anew how large the terms of linear forces are.
+  void begin_step() { is_rounding_known_ = false; }
 
   /// Writes r (m × 3) [N], zero at pinned vertices. inertia_weights: M/h² of each vertex, 0 at pinned ones.
   LocalResult run(const Positions& q, const Positions& s, std::span<const Real> inertia_weights,
@@ -75,6 +80,7 @@ class LocalStep {
   Index component_of(const Chunk& chunk, Index item) const;
   void lay_out_chunks(Index vertex_count);
   void lay_out_linear(std::size_t group, LinearForces::Rows rows);
+  Real find_rounding(const Positions& q) const;
   void lay_out_vertices(Index vertex_count, std::span<const Index> partial_vertices);
   Real project(const Chunk& chunk, const Positions& q, std::vector<Real>& slots);
   template <bool units>
@@ -88,6 +94,8 @@ class LocalStep {
   std::vector<Chunk> chunks_;
   std::vector<Real> chunk_energies_;
   LinearForces linear_;
+  bool is_rounding_known_ = false;
+  Real rounding_ = 0;
   std::span<const Index> component_of_vertex_;
   std::vector<VertexSums> vertex_sums_;   // of each chunk of vertices
   std::vector<std::vector<Real>> slots_;  // of the chunk at hand of each thread
