@@ -10,8 +10,8 @@
 // So no two threads write to one place, every sum has its fixed order, and the bits are the same for any number of
 // threads. r is minus the gradient of the objective: the true residual, for free.
 #include "pliant/constraints/constraint_group.h"
+#include "pliant/constraints/linear_forces.h"
 #include "pliant/core/thread_pool.h"
-#include "pliant/solver/local/linear_forces.h"
 #include "pliant/solver/system_info.h"
 
 namespace pliant {

@@ -1,11 +1,10 @@
-#include "pliant/solver/local/linear_forces.h"
+#include "pliant/constraints/linear_forces.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "pliant/constraints/kernels/local_kernels.h"
-#include "pliant/solver/constraint_rows.h"
 
 namespace pliant {
 namespace {
@@ -41,14 +40,12 @@ void find_row(const ConstraintGroup& group, Index v, std::span<const std::size_t
   row.clear();
   for (const std::size_t place : places) {
     const std::size_t i = place / n;
-    const std::span<const Index> stencil = stencil_of(group, i);
+    const std::span<const Index> stencil = group.stencil().subspan(i * n, n);
+    const std::span<const Real> reduction = group.reduction().subspan(i * k * n, k * n);
     for (std::size_t j = 0; j < n; ++j) {
       if (stencil[j] == v) continue;
       Real product = 0;
-      for (std::size_t r = 0; r < k; ++r) {
-        const std::span<const Real> a = reduction_row(group, i, r);
-        product += a[place % n] * a[j];
-      }
+      for (std::size_t r = 0; r < k; ++r) product += reduction[r * n + place % n] * reduction[r * n + j];
       row.push_back({stencil[j], -group.rest_measure()[i] * product});
     }
   }
