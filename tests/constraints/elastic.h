@@ -28,8 +28,6 @@ class Elastic {
   }
 
   pliant::Real energy(const pliant::Positions& q) { return run(q).elastic; }
-  /// What rounding may make of the energy.
-  pliant::Real rounding(const pliant::Positions& q) { return run(q).rounding; }
 
   pliant::Positions forces(const pliant::Positions& q) {
     run(q);

@@ -61,6 +61,12 @@ void find_row(const ConstraintGroup& group, Index v, std::span<const std::size_t
   if (!row.empty()) row.resize(last + 1);
 }
 
+/// Whether a force is no more than rounding makes it: of a row with this Σ |C_vu| at x, a neighbor at y.
+bool is_rounding(const Vec3& force, Real size, const Vec3& x, const Vec3& y) {
+  constexpr Real share = 8 * std::numeric_limits<Real>::epsilon();
+  return force.squaredNorm() <= share * share * size * size * (x.squaredNorm() + (y - x).squaredNorm());
+}
+
 }  // namespace
 
 void LinearForces::clear() {
@@ -68,6 +74,7 @@ void LinearForces::clear() {
   offsets_.assign(1, 0);
   columns_.clear();
   values_.clear();
+  sizes_.clear();
 }
 
 LinearForces::Rows LinearForces::add(const ConstraintGroup& group, Index vertex_count) {
@@ -78,15 +85,19 @@ LinearForces::Rows LinearForces::add(const ConstraintGroup& group, Index vertex_
   for (Index v = 0; v < vertex_count; ++v) {
     if (places.of(v).empty()) continue;
     find_row(group, v, places.of(v), row);
+    Real size = 0;
     for (const auto& [column, value] : row) {
       columns_.push_back(column);
       values_.push_back(value);
+      size += std::abs(value);
     }
+    sizes_.push_back(size);
     vertices_.push_back(v);
     offsets_.push_back(static_cast<std::uint32_t>(columns_.size()));
     if (columns_.size() - first_entry <= most && columns_.size() <= std::numeric_limits<std::uint32_t>::max()) continue;
     vertices_.resize(first_row);
     offsets_.resize(first_row + 1);
+    sizes_.resize(first_row);
     columns_.resize(first_entry);
     values_.resize(first_entry);
     return {};
@@ -94,17 +105,26 @@ LinearForces::Rows LinearForces::add(const ConstraintGroup& group, Index vertex_
   return {first_row, vertices_.size(), true};
 }
 
-Real LinearForces::run(Real stiffness, const Positions& q, std::size_t begin, std::size_t end, Real* forces) const {
+LinearForces::Found LinearForces::run(Real stiffness, const Positions& q, std::size_t begin, std::size_t end,
+                                      Real* forces) const {
   static const LocalKernels& kernels = *local_kernels().back();
-  return kernels.linear_forces({.positions = q.data(),
-                                .vertices = vertices_.data(),
-                                .offsets = offsets_.data(),
-                                .columns = columns_.data(),
-                                .values = values_.data(),
-                                .stiffness = stiffness,
-                                .begin = begin,
-                                .end = end,
-                                .forces = forces});
+  Found found;
+  found.energy = kernels.linear_forces({.positions = q.data(),
+                                        .vertices = vertices_.data(),
+                                        .offsets = offsets_.data(),
+                                        .columns = columns_.data(),
+                                        .values = values_.data(),
+                                        .stiffness = stiffness,
+                                        .begin = begin,
+                                        .end = end,
+                                        .forces = forces});
+  for (std::size_t i = begin; i < end && found.is_rounding; ++i) {  // in motion the first row says no
+    const Eigen::Map<const Vec3> force(forces + 3 * (i - begin));
+    const Vec3 x = row(q, vertices_[i]);
+    const Vec3 y = offsets_[i] == offsets_[i + 1] ? x : Vec3(row(q, columns_[offsets_[i]]));
+    found.is_rounding = is_rounding(force, stiffness * sizes_[i], x, y);
+  }
+  return found;
 }
 
 /// Of every sixteenth row, times sixteen: what it is for needs no more.
@@ -121,7 +141,7 @@ Real LinearForces::magnitude(Real stiffness, const Positions& q, std::size_t beg
 
 std::size_t LinearForces::bytes() const {
   return std::span(vertices_).size_bytes() + std::span(offsets_).size_bytes() + std::span(columns_).size_bytes() +
-         std::span(values_).size_bytes();
+         std::span(values_).size_bytes() + std::span(sizes_).size_bytes();
 }
 
 }  // namespace pliant

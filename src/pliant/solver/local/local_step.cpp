@@ -193,6 +193,7 @@ LocalResult LocalStep::run(const Positions& q, const Positions& s, std::span<con
     const auto chunk = static_cast<std::size_t>(i);
     chunk_energies_[chunk] = project(chunks_[chunk], q, slots_[static_cast<std::size_t>(thread)]);
   });
+  still_linear();
   result.seconds_projections = projections.seconds();
   const auto vertex_count = static_cast<Index>(q.rows());
   threads.parallel_for(static_cast<Index>(vertex_sums_.size()), [&](Index i) {
@@ -212,6 +213,20 @@ LocalResult LocalStep::run(const Positions& q, const Positions& s, std::span<con
   return result;
 }
 
+/// Takes away the linear forces of groups that have none but what rounding makes.
+void LocalStep::still_linear() {
+  for (std::size_t first = 0, last; first < chunks_.size(); first = last) {
+    bool is_rounding = chunks_[first].is_linear;
+    for (last = first; last < chunks_.size() && chunks_[last].group == chunks_[first].group; ++last) {
+      is_rounding = is_rounding && chunks_[last].is_rounding;
+    }
+    if (!is_rounding) continue;
+    const std::size_t begin = chunks_[first].first_partial, end = chunks_[last - 1].last_partial;
+    std::fill_n(partials_.data() + 3 * begin, 3 * (end - begin), Real(0));
+    std::fill_n(chunk_energies_.data() + first, last - first, Real(0));
+  }
+}
+
 Real LocalStep::find_rounding(const Positions& q) const {
   Real magnitude = 0;
   for (const Chunk& chunk : chunks_) {
@@ -221,11 +236,13 @@ Real LocalStep::find_rounding(const Positions& q) const {
   return 4 * std::numeric_limits<Real>::epsilon() * magnitude;
 }
 
-Real LocalStep::project(const Chunk& chunk, const Positions& q, std::vector<Real>& slots) {
+Real LocalStep::project(Chunk& chunk, const Positions& q, std::vector<Real>& slots) {
   const ConstraintGroup& group = *groups_[chunk.group];
   if (chunk.is_linear) {
-    return linear_.run(group.stiffness(), q, at(chunk.begin), at(chunk.end),
-                       partials_.data() + 3 * chunk.first_partial);
+    Real* const out = partials_.data() + 3 * chunk.first_partial;
+    const LinearForces::Found found = linear_.run(group.stiffness(), q, at(chunk.begin), at(chunk.end), out);
+    chunk.is_rounding = found.is_rounding;
+    return found.energy;
   }
   const Real energy = project_to_slots(group, q, slots, chunk.begin, chunk.end);
   chunk.has_units ? collect<true>(chunk, slots.data()) : collect<false>(chunk, slots.data());
@@ -312,8 +329,9 @@ void LocalStep::elastic_energies(const Positions& q, std::span<Real> of_componen
       const Index component = component_of(chunk, begin);
       while (end < chunk.end && component_of(chunk, end) == component) ++end;
       Real* const slots = slots_.front().data();
-      of_components[at(component)] += chunk.is_linear ? linear_.run(group.stiffness(), q, at(begin), at(end), slots)
-                                                      : project_to_slots(group, q, slots_.front(), begin, end);
+      of_components[at(component)] += chunk.is_linear
+                                          ? linear_.run(group.stiffness(), q, at(begin), at(end), slots).energy
+                                          : project_to_slots(group, q, slots_.front(), begin, end);
     }
   }
 }

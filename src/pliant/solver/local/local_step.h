@@ -64,6 +64,7 @@ class LocalStep {
     Index begin;  // constraints of the group, or rows of its linear forces
     Index end;
     bool is_linear = false;
+    bool is_rounding = false;  // of linear forces: so are all of them in the last run
     std::size_t first_partial = 0;
     std::size_t last_partial = 0;
     std::size_t first_entry = 0;
@@ -81,8 +82,9 @@ class LocalStep {
   void lay_out_chunks(Index vertex_count);
   void lay_out_linear(std::size_t group, LinearForces::Rows rows);
   Real find_rounding(const Positions& q) const;
+  void still_linear();
   void lay_out_vertices(Index vertex_count, std::span<const Index> partial_vertices);
-  Real project(const Chunk& chunk, const Positions& q, std::vector<Real>& slots);
+  Real project(Chunk& chunk, const Positions& q, std::vector<Real>& slots);
   template <bool units>
   void collect(const Chunk& chunk, const Real* slots);
   VertexSums gather(Index begin, Index end, const Positions& q, const Positions& s,
