@@ -40,7 +40,7 @@ Rig ball_and_curtain(Real speed, const SolverSettings& settings = {.threads = 1}
   Rig rig{Simulation(settings)};
   rig.simulation.add(Gravity{});
   rig.cloth = add_cloth(rig.simulation, sheet_mesh(n, 1, {-0.5, 0, -0.5}, Plane::xz));
-  rig.simulation.add(rig.cloth, Position{.on = [n] {
+  rig.simulation.add(rig.cloth, Position{.on = [&] {
                        std::vector<Index> border;
                        for (Index i = n * (n - 1); i < n * n; ++i) border.push_back(i);
                        return border;
