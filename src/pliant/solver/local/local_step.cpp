@@ -202,6 +202,7 @@ LocalResult LocalStep::run(const Positions& q, const Positions& s, std::span<con
     vertex_sums_[static_cast<std::size_t>(i)] = gather(begin, end, q, s, inertia_weights, is_pinned, r);
   });
   for (const Real energy : chunk_energies_) result.elastic += energy;
+  if (result.elastic < 0) result.elastic = 0;  // by rounding, of linear forces
   for (const VertexSums& sums : vertex_sums_) {
     result.inertia += sums.inertia;
     result.residual = larger(result.residual, sums.squared_residual);
@@ -341,7 +342,7 @@ Real LocalStep::elastic_energy(std::size_t group) const {
   for (std::size_t i = 0; i < chunks_.size(); ++i) {
     if (chunks_[i].group == group) energy += chunk_energies_[i];
   }
-  return energy;
+  return energy < 0 ? 0 : energy;
 }
 
 void LocalStep::describe(SystemInfo& info) const {
