@@ -76,6 +76,15 @@ std::int64_t steps_of_run(const std::string& text) {
   return std::clamp<std::int64_t>(static_cast<std::int64_t>(seconds_of_run * tried / watch.seconds()), 20, 5000);
 }
 
+/// Lengths of a short and a long run of about so many steps. After steps 30, 300, 3000 `pliant run` looks how far the
+/// next one is from its end, which takes hundreds of iterations: no such look is between them.
+std::pair<std::int64_t, std::int64_t> lengths_of_runs(std::int64_t steps) {
+  std::int64_t before = 0, next = 30;
+  for (; steps > 3 * next; next *= 10) before = next;
+  const std::int64_t most = std::min(steps, next);
+  return {before == 0 ? std::max<std::int64_t>(1, most / 10) : before + 1, most};
+}
+
 Json constraints_of(const Workload& workload, const Mesh& mesh) {
   Json list = Json::array();
   if (workload.kind == Kind::bar) {
@@ -130,13 +139,13 @@ AgainstResult measure_against(const AgainstTask& task, const std::string& other,
   json["settings"]["threads"] = threads;
   const Folder folder;
   std::ofstream(folder.path() / "scene.json") << json.dump(1);
-  const std::int64_t steps = steps_of_run(json.dump());
-  const std::int64_t few = steps / 10;
+  const auto lengths = lengths_of_runs(steps_of_run(json.dump()));
+  const std::int64_t few = lengths.first, many = lengths.second;
   AgainstResult result{task.name, threads, task.iterations, {}, {}, 1};
   Samples own, others, ratios;
   const auto step_of = [&](const std::string& program) {
     const double shorter = seconds_of(program, folder.path(), few);
-    return (seconds_of(program, folder.path(), steps) - shorter) / static_cast<double>(steps - few);
+    return (seconds_of(program, folder.path(), many) - shorter) / static_cast<double>(many - few);
   };
   const std::string this_program = pliant_system::own_program();
   repeat(repeats.value_or(usual_repeats), 0, [&] {
