@@ -77,6 +77,8 @@ TEST_CASE("hinges of a flat sheet are linear, those of a curved one are not") {
   CHECK(rows.of[0].second.are_worth_it);
   CHECK(rows.of[0].second.end - rows.of[0].second.begin == at(sheet.mesh.vertex_count()));
   for (const auto& batch : hinges_of(sphere({.subdivisions = 2})).batches) CHECK_FALSE(batch->is_linear());
+  const ConstraintSet fans = build(BodyView{sheet.mesh, sheet.mesh.vertices, 0, "sheet"}, Bending{});
+  for (const auto& [group, of_group] : Rows(fans, sheet.mesh.vertex_count()).of) CHECK_FALSE(of_group.are_worth_it);
 }
 
 TEST_CASE("forces and energy are those of the constraints, whatever the bending") {
@@ -199,6 +201,8 @@ TEST_CASE("energies of components, in one chunk and in many, are those of their 
   const std::vector<char> none(at(two.vertex_count()), 0);
   Positions forces(q.rows(), 3);
   const LocalResult result = step.run(q, q, weights, none, forces, threads);
+  CHECK(result.rounding > 0);
+  CHECK(result.rounding < 1e-12 * result.elastic);
   std::vector<Real> energies(2);
   step.elastic_energies(q, energies);
   CHECK(energies[0] + energies[1] == doctest::Approx(result.elastic).epsilon(1e-12));
@@ -206,6 +210,9 @@ TEST_CASE("energies of components, in one chunk and in many, are those of their 
   only_first.topRows(half) = q.topRows(half);
   CHECK(energies[0] == doctest::Approx(one_by_one(set, only_first).first).epsilon(1e-12));
   CHECK(energies[1] > 2 * energies[0]);
+  step.run(two.vertices, two.vertices, weights, none, forces, threads);
+  step.elastic_energies(two.vertices, energies);
+  CHECK(energies == std::vector<Real>{0, 0});
 }
 
 }  // namespace test_linear_forces

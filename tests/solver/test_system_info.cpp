@@ -27,6 +27,24 @@ TEST_CASE("one spring between two masses: ω² = k (1/m + 1/m)") {
   CHECK(info.free_components[0].vertex_count == 2);
 }
 
+TEST_CASE("the order of elimination: nested dissection where the factor is dense, minimum degree where it is not") {
+  const auto entries = [](Index side, Ordering ordering) {
+    Simulation simulation({.backend = Backend::cholmod, .ordering = ordering});
+    const BodyId body = simulation.add_body(grid({.columns = side, .rows = side}), Mass::area_density(0.2));
+    simulation.add(body, TriangleStrain{});
+    simulation.add(body, HingeBending{});
+    return simulation.system_info().factor_entries;
+  };
+  try {
+    CHECK(entries(100, Ordering::automatic) == entries(100, Ordering::nested_dissection));
+    CHECK(entries(100, Ordering::automatic) < 0.9 * static_cast<double>(entries(100, Ordering::minimum_degree)));
+    CHECK(entries(20, Ordering::automatic) == entries(20, Ordering::minimum_degree));
+    CHECK(entries(20, Ordering::automatic) != entries(20, Ordering::nested_dissection));
+  } catch (const Error& error) {
+    MESSAGE("skipped: ", std::string(error.what()));
+  }
+}
+
 TEST_CASE("a chain of equal springs, pinned at one end") {
   // Fixed at one end and free at the other: ω_j = 2 √(k/m) sin((2j − 1) π / (2 (2n + 1))), j = n the fastest.
   constexpr int n = 40;

@@ -221,6 +221,7 @@ void LocalStep::still_linear() {
     for (last = first; last < chunks_.size() && chunks_[last].group == chunks_[first].group; ++last) {
       is_rounding = is_rounding && chunks_[last].is_rounding;
     }
+    for (std::size_t c = first; c < last; ++c) chunks_[c].is_rounding = is_rounding;
     if (!is_rounding) continue;
     const std::size_t begin = chunks_[first].first_partial, end = chunks_[last - 1].last_partial;
     std::fill_n(partials_.data() + 3 * begin, 3 * (end - begin), Real(0));
@@ -321,7 +322,7 @@ void LocalStep::elastic_energies(const Positions& q, std::span<Real> of_componen
   for (std::size_t c = 0; c < chunks_.size(); ++c) {
     const Chunk& chunk = chunks_[c];
     ConstraintGroup& group = *groups_[chunk.group];
-    if (group.works_from_outside()) continue;
+    if (group.works_from_outside() || chunk.is_rounding) continue;
     if (chunk.component != mixed) {
       of_components[static_cast<std::size_t>(chunk.component)] += chunk_energies_[c];
       continue;

@@ -64,7 +64,7 @@ class LocalStep {
     Index begin;  // constraints of the group, or rows of its linear forces
     Index end;
     bool is_linear = false;
-    bool is_rounding = false;  // of linear forces: so are all of them in the last run
+    bool is_rounding = false;  // all linear forces of its group in the last run were
     std::size_t first_partial = 0;
     std::size_t last_partial = 0;
     std::size_t first_entry = 0;
