@@ -26,9 +26,9 @@ namespace fs = std::filesystem;
 using pliant_render::Clip;
 
 struct RenderArguments : AppearanceArguments {
-  fs::path out;              ///< film, picture or folder of pictures
-  std::int64_t fps = 30;     ///< frames a second of a film, 1 to 240
-  std::int64_t samples = 4;  ///< of a pixel, 1 to 16
+  fs::path out;               ///< film, picture or folder of pictures
+  std::int64_t fps = 30;      ///< frames a second of a film, 1 to 240
+  std::int64_t samples = 16;  ///< of a pixel, 1 to 16
   std::optional<std::int64_t>
       frames;          ///< how many, spread evenly, 1 to 100,000; none: all for a film, the last for a picture
   bool sheet = false;  ///< all frames in one picture
@@ -107,7 +107,12 @@ class FrameDrawer {
       : arguments_(arguments), clip_(clip), chosen_(std::move(chosen)), maker_(clip.render_mesh, options(size)) {}
 
   std::size_t count() const { return chosen_.size(); }
-  const std::string& driver() const { return maker_.driver(); }
+  /// Who drew, and whether it had fewer samples than were asked for.
+  std::string driver() const {
+    const std::string name(pliant::printable(maker_.driver()));
+    if (maker_.samples() >= arguments_.samples) return name;
+    return fmt::format("{} with {} samples a pixel, all that it has", name, maker_.samples());
+  }
   pliant_render::Image draw(std::size_t i) {
     show(arguments_, fmt::format("drawing: frame {} of {}", i + 1, chosen_.size()));
     const pliant_render::ClipFrame& frame = clip_.frames[chosen_[i]];
@@ -148,7 +153,7 @@ std::string write_sheet(const RenderArguments& arguments, const Clip& clip) {
   const pliant_render::Image sheet = contact_sheet(images, columns, gap, bytes_of(clip.appearance.background));
   write_png(arguments.out, sheet);
   return fmt::format("{}: {} frames, {} x {} pixels, drawn by {}", pliant::printable_place(arguments.out.string()),
-                     images.size(), sheet.width, sheet.height, pliant::printable(drawer.driver()));
+                     images.size(), sheet.width, sheet.height, drawer.driver());
 }
 
 std::string speed_text(pliant::Real duration, std::size_t frames, std::int64_t fps) {
@@ -177,7 +182,7 @@ std::string write_film(const RenderArguments& arguments, const Clip& clip) {
   if (!writer.hint().empty()) print_to_stderr("hint: " + writer.hint() + "\n");
   return fmt::format("{}: {}{} x {} pixels, drawn by {}", pliant::printable_place(written),
                      is_picture(arguments) ? "" : speed_text(drawer.duration(), drawer.count(), arguments.fps),
-                     clip.appearance.size[0], clip.appearance.size[1], pliant::printable(drawer.driver()));
+                     clip.appearance.size[0], clip.appearance.size[1], drawer.driver());
 }
 
 void check(const RenderArguments& arguments) {
@@ -237,7 +242,7 @@ void add_render_command(CLI::App& program, int& exit_code) {
   add_number(*command, "--fps", arguments->fps, {1, 240},
              "Frames per second of a film, which plays in real time where it can");
   add_number(*command, "--samples", arguments->samples, {1, 16},
-             "Samples per pixel; 1: hard edges, in less time; default 4");
+             "Samples per pixel; 1: hard edges, in less time; default 16");
   add_number(*command, "--frames", arguments->frames, {1, 100'000},
              "Number of frames, spread evenly; default: all for a film, the last for a picture");
   command->add_flag("--sheet", arguments->sheet, "All frames in one picture; default: 12 of them");

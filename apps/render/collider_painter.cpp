@@ -13,10 +13,9 @@ constexpr float floor_tone = 0.86F;  // of the background, as of the ground
 constexpr int plane_rings = 24;
 constexpr int plane_sectors = 48;
 
-/// Of a face with this normal, as surface_fragment lights it without the light from the eye.
+/// Of a face with this normal, as shaders::lighting lights it without the light from the eye.
 float light_on(const Vec3f& normal, const Vec3f& to_light) {
-  const float towards = normal.dot(to_light);
-  return 0.26F + 0.09F * (1 + normal.z()) + 0.38F * std::max(towards, 0.0F) + 0.1F * std::max(towards + 0.4F, 0.0F);
+  return 0.31F + 0.1F * normal.z() + 0.75F * std::max(normal.dot(to_light), 0.0F);
 }
 
 Vec3f normal_of(const Mat4f& plane) {
@@ -30,7 +29,7 @@ Vec3f flatten(const Vec3f& point_in_frame, const Vec3f& light_in_frame) {
 }
 
 ColliderPainter::ColliderPainter()
-    : solid_(shaders::solid_vertex, "", shaders::surface_fragment),
+    : solid_(shaders::solid_vertex, "", shaders::lit(shaders::surface_fragment)),
       plane_(shaders::plane_vertex, "", shaders::plane_fragment) {}
 
 void ColliderPainter::set_frame(const std::vector<DrawnCollider>& colliders) {
@@ -98,22 +97,21 @@ void ColliderPainter::draw_triangles(const Program& program, const Mat4f& frame)
   }
 }
 
-void ColliderPainter::draw_solids(const Projection& projection, const Lighting& lighting) const {
+void ColliderPainter::draw_solids(const Projection& projection, const SceneLight& light) const {
   if (solids_.empty()) return;
   solid_.use();
   solid_.set("camera", projection.camera);
   solid_.set("setback", projection.setback);
-  solid_.set("to_eye", lighting.to_eye);
-  solid_.set("light", lighting.to_light);
+  light.set(solid_);
   solid_.set("held", solid_tone);
   solid_.set("is_colored", 0);
   draw_triangles(solid_, Mat4f::Identity());
 }
 
 void ColliderPainter::draw_plane(const Mat4f& plane, const PlaneLook& look, const ShadowArea& shadow,
-                                 const Projection& projection, const Lighting& lighting) const {
+                                 const Projection& projection, const Vec3f& to_light) const {
   const Vec3f normal = normal_of(plane);
-  const float share = light_on(normal, lighting.to_light) / light_on(Vec3f::UnitZ(), lighting.to_light);
+  const float share = light_on(normal, to_light) / light_on(Vec3f::UnitZ(), to_light);
   const Vec3f from_plane = look.middle - plane.topRightCorner<3, 1>();
   const Vec3f middle = plane.topLeftCorner<3, 3>().transpose() * (from_plane - normal * normal.dot(from_plane));
   plane_.use();

@@ -6,15 +6,9 @@
 
 #include "pliant_io/scene/view_settings.h"
 #include "render/collider_view.h"
-#include "render/gl_objects.h"
+#include "render/scene_light.h"
 
 namespace pliant_render {
-
-/// The directions that light a surface, all of length 1.
-struct Lighting {
-  Vec3f to_eye;
-  Vec3f to_light;
-};
 
 /// Of what goes where it is told: colliders, and bodies that are held as a whole.
 inline const Vec3f solid_tone(0.60F, 0.65F, 0.71F);
@@ -45,7 +39,7 @@ class ColliderPainter {
 
   /// Draws the triangles of all solids with a program that takes the place of each as its uniform `place`.
   void draw_triangles(const Program& program, const Mat4f& frame) const;
-  void draw_solids(const Projection& projection, const Lighting& lighting) const;
+  void draw_solids(const Projection& projection, const SceneLight& light) const;
   /// A plane that fades from the middle of the scene outward; the texture bound last is the mask of its shadow.
   struct PlaneLook {
     Vec3f middle;  ///< of the scene [m]
@@ -54,7 +48,7 @@ class ColliderPainter {
     float darkness;  ///< of the shadow
   };
   void draw_plane(const Mat4f& plane, const PlaneLook& look, const ShadowArea& shadow, const Projection& projection,
-                  const Lighting& lighting) const;
+                  const Vec3f& to_light) const;
 
  private:
   struct Solid {

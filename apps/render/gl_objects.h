@@ -11,6 +11,7 @@ namespace pliant_render {
 
 using Vec2f = Eigen::Vector2f;
 using Vec3f = Eigen::Vector3f;
+using Vec4f = Eigen::Vector4f;
 using Mat4f = Eigen::Matrix4f;
 
 /// Owns the name of one OpenGL object.
@@ -48,6 +49,7 @@ class Program {
   void set(const char* name, float value) const { glUniform1f(place(name), value); }
   void set(const char* name, const Vec2f& value) const { glUniform2fv(place(name), 1, value.data()); }
   void set(const char* name, const Vec3f& value) const { glUniform3fv(place(name), 1, value.data()); }
+  void set(const char* name, const Vec4f& value) const { glUniform4fv(place(name), 1, value.data()); }
   void set(const char* name, std::span<const Vec3f> values) const {
     glUniform3fv(place(name), static_cast<GLsizei>(values.size()), values.front().data());
   }

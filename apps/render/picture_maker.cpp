@@ -15,15 +15,19 @@ Image PictureMaker::draw(const FrameContent& frame, const std::optional<WindAnno
   options.viewpoint = place_camera(options_.appearance.camera, options_.bounds, aspect,
                                    colors ? legend_width(target_.height()) / static_cast<float>(target_.width()) : 0);
   options.range = options_.range;
+  options.quality = options_.appearance.quality;
   options.ground_height = options_.ground_height;
-  options.scale = static_cast<float>(target_.height()) / 720;
+  const int width = target_.factor() * target_.width(), height = target_.factor() * target_.height();
+  options.scale = static_cast<float>(height) / 720;
+  options.pixel = static_cast<float>(target_.factor());
+  options.markers = options_.appearance.markers.value_or(false);
   if (options_.appearance.colliders || frame.colliders.empty()) {
     renderer_.set_frame(frame, options_.appearance.color);
   } else {
     renderer_.set_frame(visible_part(frame, options_.appearance), options_.appearance.color);
   }
   target_.begin();
-  renderer_.draw(options_.appearance, options, target_.width(), target_.height());
+  renderer_.draw(options_.appearance, options, width, height);
   target_.resolve();
   overlay_.draw(options_.appearance, options.viewpoint, colors, wind, target_.width(), target_.height());
   return target_.read();

@@ -12,7 +12,7 @@ namespace pliant_render {
 
 struct PictureOptions {
   pliant::ViewSettings appearance;      ///< size, camera, colors and light
-  int samples = 4;                      ///< per pixel; 1 is faster and leaves hard edges
+  int samples = 16;                     ///< per pixel; 1 is faster and leaves hard edges
   Bounds bounds;                        ///< what the automatic camera fits into the picture
   float ground_height = 0;              ///< [m]
   std::array<float, 2> range = {0, 1};  ///< values at the ends of the color map
@@ -24,6 +24,7 @@ class PictureMaker {
   PictureMaker(RenderMesh render_mesh, PictureOptions options);
 
   const std::string& driver() const { return context_.renderer(); }
+  int samples() const { return target_.samples(); }  ///< fewer than asked for where the driver has no more
   Image draw(const FrameContent& frame, const std::optional<WindAnnotation>& wind);
 
  private:

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "pliant/mesh/topology.h"
+#include "render/hard_edges.h"
 
 namespace pliant_render {
 namespace {
@@ -12,6 +13,18 @@ void append(std::vector<std::uint32_t>& list, std::span<const Element> elements,
   for (const Element& element : elements) {
     for (const Index vertex : element) list.push_back(static_cast<std::uint32_t>(first_vertex + vertex));
   }
+}
+
+void append_corners(RenderMesh& render_mesh, const pliant::Mesh& surface, Index first_vertex) {
+  const ShadedCorners shaded = split_at_hard_edges(surface.vertices, surface.triangles);
+  const auto count = static_cast<std::uint32_t>(surface.vertex_count());
+  const auto next =
+      static_cast<std::uint32_t>(render_mesh.vertex_count) + static_cast<std::uint32_t>(render_mesh.copies.size());
+  const auto first = static_cast<std::uint32_t>(first_vertex);
+  for (const std::uint32_t number : shaded.numbers) {
+    render_mesh.corners.push_back(number < count ? first + number : next + (number - count));
+  }
+  for (const std::uint32_t vertex : shaded.copies) render_mesh.copies.push_back(first + vertex);
 }
 
 /// What is held counts for nothing, so that a body that is the only free one has the first tones.
@@ -33,8 +46,11 @@ std::vector<std::uint8_t> number_tones(const std::vector<pliant::Body>& bodies, 
 RenderMesh make_render_mesh(const std::vector<pliant::Body>& bodies, std::span<const std::uint32_t> held) {
   RenderMesh render_mesh;
   for (const pliant::Body& body : bodies) {
+    render_mesh.vertex_count = std::max(render_mesh.vertex_count, body.first_vertex + body.mesh.vertex_count());
+  }
+  render_mesh.is_sheet.resize(static_cast<std::size_t>(render_mesh.vertex_count), 0);
+  for (const pliant::Body& body : bodies) {
     const pliant::Mesh& mesh = body.mesh;
-    render_mesh.vertex_count = std::max(render_mesh.vertex_count, body.first_vertex + mesh.vertex_count());
     pliant::Mesh surface;
     surface.vertices = mesh.vertices;
     surface.triangles = mesh.triangles;
@@ -43,8 +59,11 @@ RenderMesh make_render_mesh(const std::vector<pliant::Body>& bodies, std::span<c
       surface.triangles.insert(surface.triangles.end(), skin.begin(), skin.end());
     }
     append<pliant::Triangle>(render_mesh.triangles, surface.triangles, body.first_vertex);
+    append_corners(render_mesh, surface, body.first_vertex);
     append<pliant::Edge>(render_mesh.ropes, mesh.edges, body.first_vertex);
     append<pliant::Edge>(render_mesh.edges, pliant::unique_edges(surface), body.first_vertex);
+    const bool is_sheet = mesh.tetrahedra.empty() && !mesh.triangles.empty();
+    std::fill_n(render_mesh.is_sheet.begin() + body.first_vertex, mesh.vertex_count(), is_sheet ? 1 : 0);
     const std::vector<pliant::Edge> springs = pliant::unique_edges(mesh);
     append<pliant::Edge>(render_mesh.springs, springs, body.first_vertex);
     for (const pliant::Edge& edge : springs) {
@@ -93,13 +112,13 @@ FrameContent visible_part(FrameContent frame, const pliant::ViewSettings& appear
   return frame;
 }
 
-std::vector<Vec3f> vertex_normals(const RenderMesh& render_mesh, std::span<const Vec3f> positions) {
-  std::vector<Vec3f> normals(positions.size(), Vec3f::Zero());
+std::vector<Vec3f> corner_normals(const RenderMesh& render_mesh, std::span<const Vec3f> positions) {
+  std::vector<Vec3f> normals(positions.size() + render_mesh.copies.size(), Vec3f::Zero());
   for (std::size_t t = 0; t + 2 < render_mesh.triangles.size(); t += 3) {
     const std::uint32_t a = render_mesh.triangles[t], b = render_mesh.triangles[t + 1],
                         c = render_mesh.triangles[t + 2];
     const Vec3f normal = (positions[b] - positions[a]).cross(positions[c] - positions[a]);
-    for (const std::uint32_t vertex : {a, b, c}) normals[vertex] += normal;
+    for (std::size_t k = t; k < t + 3; ++k) normals[render_mesh.corners[k]] += normal;
   }
   for (Vec3f& normal : normals) {
     const float length = normal.norm();

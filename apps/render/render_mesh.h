@@ -16,11 +16,14 @@ using pliant::Index;
 struct RenderMesh {
   Index vertex_count = 0;                ///< of all bodies
   std::vector<std::uint32_t> triangles;  ///< of sheets and of the surfaces of solids, three vertices each
-  std::vector<std::uint32_t> ropes;      ///< edges that belong to no triangle or tetrahedron, two vertices each
-  std::vector<std::uint32_t> edges;      ///< of the triangles, for the wireframe, two vertices each
-  std::vector<std::uint32_t> springs;    ///< all edges, which define the stretch, two vertices each
-  std::vector<float> rest_lengths;       ///< of the springs [m]
-  std::vector<std::uint8_t> tones;       ///< one per vertex: which of pliant::body_tones its body has
+  std::vector<std::uint32_t> corners;  ///< the same with copies of vertices at hard edges, numbered behind all vertices
+  std::vector<std::uint32_t> copies;   ///< the vertex of each copy
+  std::vector<std::uint32_t> ropes;    ///< edges that belong to no triangle or tetrahedron, two vertices each
+  std::vector<std::uint32_t> edges;    ///< of the triangles, for the wireframe, two vertices each
+  std::vector<std::uint32_t> springs;  ///< all edges, which define the stretch, two vertices each
+  std::vector<float> rest_lengths;     ///< of the springs [m]
+  std::vector<std::uint8_t> tones;     ///< one per vertex: which of pliant::body_tones its body has
+  std::vector<std::uint8_t> is_sheet;  ///< one per vertex: 1 where its body has triangles and no tetrahedra
 };
 /// Free bodies have tones in turn. held: vertices of bodies that are held as a whole, as in FrameContent.
 RenderMesh make_render_mesh(const std::vector<pliant::Body>& bodies, std::span<const std::uint32_t> held = {});
@@ -34,7 +37,7 @@ std::vector<Vec3f> to_floats(const pliant::Positions& x);
 struct FrameContent {
   std::vector<Vec3f> positions;        ///< one per vertex [m]
   std::vector<float> values;           ///< one per vertex, shown as colors; or empty
-  std::vector<std::uint32_t> markers;  ///< vertices with a red mark: pinned or under a test force
+  std::vector<std::uint32_t> markers;  ///< vertices with a mark: pinned or under a test force
   std::vector<DrawnCollider> colliders{};
   std::vector<std::uint32_t> held{};  ///< vertices of bodies that are held as a whole: in the tone of colliders
 };
@@ -47,7 +50,7 @@ Bounds bounds_of(const FrameContent& frame, const pliant::ViewSettings& appearan
 /// What these settings show of a frame: all, or all but its colliders.
 FrameContent visible_part(FrameContent frame, const pliant::ViewSettings& appearance);
 
-/// Area-weighted mean of the triangle normals at each vertex; zero where there are no triangles.
-std::vector<Vec3f> vertex_normals(const RenderMesh& render_mesh, std::span<const Vec3f> positions);
+/// Area-weighted mean of the triangle normals at each vertex and each copy; zero where there are no triangles.
+std::vector<Vec3f> corner_normals(const RenderMesh& render_mesh, std::span<const Vec3f> positions);
 
 }  // namespace pliant_render

@@ -31,11 +31,18 @@ RenderTarget::RenderTarget(int width, int height, int samples) : width_(width), 
     pliant::fail_input("size: " + std::to_string(std::max(width, height)) + " pixels are more than the " +
                        std::to_string(most_pixels) + " that the driver draws; give a smaller picture");
   }
-  samples = std::clamp(samples, 1, std::max(1, most_samples));
+  most_samples = std::max(1, most_samples);
+  if (samples > most_samples && 2 * std::max(width, height) <= most_pixels) factor_ = 2;
+  samples_ = std::clamp((samples + factor_ * factor_ - 1) / (factor_ * factor_), 1, most_samples);
   glBindFramebuffer(GL_FRAMEBUFFER, sampled_.id());
-  attach(sampled_color_, GL_COLOR_ATTACHMENT0, GL_RGBA8, width, height, samples);
-  attach(sampled_depth_, GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT24, width, height, samples);
+  attach(sampled_color_, GL_COLOR_ATTACHMENT0, GL_RGBA8, factor_ * width, factor_ * height, samples_);
+  attach(sampled_depth_, GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT24, factor_ * width, factor_ * height, samples_);
   check_complete(width, height);
+  if (factor_ > 1) {
+    glBindFramebuffer(GL_FRAMEBUFFER, large_.id());
+    attach(large_color_, GL_COLOR_ATTACHMENT0, GL_RGBA8, factor_ * width, factor_ * height, 1);
+    check_complete(width, height);
+  }
   glBindFramebuffer(GL_FRAMEBUFFER, plain_.id());
   attach(plain_color_, GL_COLOR_ATTACHMENT0, GL_RGBA8, width, height, 1);
   check_complete(width, height);
@@ -43,13 +50,22 @@ RenderTarget::RenderTarget(int width, int height, int samples) : width_(width), 
 
 void RenderTarget::begin() const {
   glBindFramebuffer(GL_FRAMEBUFFER, sampled_.id());
-  glViewport(0, 0, width_, height_);
+  glViewport(0, 0, factor_ * width_, factor_ * height_);
 }
 
 void RenderTarget::resolve() const {
   glBindFramebuffer(GL_READ_FRAMEBUFFER, sampled_.id());
+  if (factor_ > 1) {
+    const int width = factor_ * width_, height = factor_ * height_;
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, large_.id());
+    glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, large_.id());
+  }
+  // Between the four pixels that one is drawn as, their mean.
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, plain_.id());
-  glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  glBlitFramebuffer(0, 0, factor_ * width_, factor_ * height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT,
+                    factor_ > 1 ? GL_LINEAR : GL_NEAREST);
+  glViewport(0, 0, width_, height_);
   glBindFramebuffer(GL_FRAMEBUFFER, plain_.id());
 }
 

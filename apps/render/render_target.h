@@ -10,12 +10,16 @@ Image read_picture(int width, int height);
 
 class RenderTarget {
  public:
-  /// samples: per pixel, 1 for no antialiasing; limited to the driver's maximum.
+  /// samples: per pixel, 1 for no antialiasing. More than the driver has are had by drawing at twice the size.
   /// @throws pliant::Error (input) for a size that the driver does not support.
   RenderTarget(int width, int height, int samples);
 
   int width() const { return width_; }
   int height() const { return height_; }
+  /// What is drawn is so many times as wide and high: 1 or 2.
+  int factor() const { return factor_; }
+  /// Of a pixel of the picture, fewer than asked for where the driver has no more.
+  int samples() const { return samples_ * factor_ * factor_; }
   /// Starts a picture: what needs depth and several samples is drawn next.
   void begin() const;
   /// Resolves the samples: what is drawn flat on top comes next.
@@ -27,8 +31,10 @@ class RenderTarget {
  private:
   int width_;
   int height_;
-  Framebuffer sampled_, plain_;
-  Renderbuffer sampled_color_, sampled_depth_, plain_color_;
+  int factor_ = 1;
+  int samples_ = 1;  // of a pixel as drawn
+  Framebuffer sampled_, large_, plain_;
+  Renderbuffer sampled_color_, sampled_depth_, large_color_, plain_color_;
 };
 
 }  // namespace pliant_render

@@ -13,13 +13,15 @@ constexpr int mask_size = 192;
 constexpr float rope_width = 3.5F;         // pixels of a picture of 720 rows
 constexpr float rope_shadow_width = 1.5F;  // texels of the mask
 constexpr float edge_width = 1.0F;
-constexpr float marker_radius = 5.0F;
-const Vec3f pin_color(0.86F, 0.10F, 0.13F);  // and of vertices under a test force
+constexpr float marker_radius = 3.4F;
+constexpr float least_marker_radius = 2.2F;  // of the picture as it is
+const Vec3f pin_color(0.98F, 0.98F, 0.97F);  // and of vertices under a test force; no body has it
 const Vec3f edge_color(0.10F, 0.11F, 0.14F);
 constexpr int ground_rings = 24;
 constexpr int ground_sectors = 48;
 constexpr float shadow_darkness = 0.34F;
 constexpr float least_slope_of_light = 0.05F;  // over a floor, for a shadow on it
+constexpr float occlusion_reach = 0.2F;        // of the radius of the scene
 constexpr float lift = 1.5e-3F;  // towards the eye, of the radius of the scene, for lines on what they lie on
 
 Vec3f tone_of(const pliant::Color& color) {
@@ -87,8 +89,8 @@ GLsizei count_of(const std::vector<std::uint32_t>& list) {
 Renderer::Renderer(RenderMesh render_mesh)
     : render_mesh_(std::move(render_mesh)),
       setback_(setback_of(render_mesh_.rest_lengths)),
-      surface_(shaders::surface_vertex, "", shaders::surface_fragment),
-      flat_surface_(shaders::flat_vertex, shaders::flat_geometry, shaders::surface_fragment),
+      surface_(shaders::surface_vertex, "", shaders::lit(shaders::surface_fragment)),
+      flat_surface_(shaders::flat_vertex, shaders::flat_geometry, shaders::lit(shaders::surface_fragment)),
       line_(shaders::stroke_vertex, shaders::line_geometry, shaders::line_fragment),
       marker_(shaders::stroke_vertex, shaders::marker_geometry, shaders::marker_fragment),
       flatten_(shaders::flatten_vertex, "", shaders::flatten_fragment),
@@ -101,7 +103,7 @@ Renderer::Renderer(RenderMesh render_mesh)
     set_vertex_layout();
     upload(elements, GL_ELEMENT_ARRAY_BUFFER, list, GL_STATIC_DRAW);
   };
-  set_up(triangles_array_, triangles_, render_mesh_.triangles);
+  set_up(triangles_array_, triangles_, render_mesh_.corners);
   set_up(ropes_array_, ropes_, render_mesh_.ropes);
   set_up(edges_array_, edges_, render_mesh_.edges);
   set_up(markers_array_, markers_, {});
@@ -121,19 +123,27 @@ void Renderer::set_vertex_layout() const {
   attribute(0, 3, offsetof(Vertex, position));
   attribute(1, 3, offsetof(Vertex, normal));
   attribute(2, 1, offsetof(Vertex, value));
+  attribute(3, 1, offsetof(Vertex, sheen));
 }
 
 void Renderer::set_frame(const FrameContent& frame, pliant::ColorBy color) {
   bounds_ = bounds_of(frame);
   colliders_.set_frame(frame.colliders);
   has_values_ = frame.values.size() == frame.positions.size() && color != pliant::ColorBy::none;
-  const std::vector<Vec3f> normals = vertex_normals(render_mesh_, frame.positions);
+  const std::vector<Vec3f> normals = corner_normals(render_mesh_, frame.positions);
   vertices_.resize(frame.positions.size());
   for (std::size_t i = 0; i < vertices_.size(); ++i) {
-    vertices_[i] = {frame.positions[i], normals[i], has_values_ ? frame.values[i] : render_mesh_.tones[i]};
+    vertices_[i] = {frame.positions[i], normals[i], has_values_ ? frame.values[i] : render_mesh_.tones[i],
+                    render_mesh_.is_sheet[i] != 0 ? 1.0F : 0.0F};
   }
   if (!has_values_) {
     for (const std::uint32_t vertex : frame.held) vertices_[vertex].value = -1;
+  }
+  vertices_.reserve(normals.size());
+  for (const std::uint32_t vertex : render_mesh_.copies) {
+    const std::size_t copy = vertices_.size();
+    vertices_.push_back(vertices_[vertex]);
+    vertices_.back().normal = normals[copy];
   }
   upload(vertex_buffer_, GL_ARRAY_BUFFER, vertices_, GL_STREAM_DRAW);
   glBindVertexArray(markers_array_.id());
@@ -151,6 +161,7 @@ void Renderer::draw(const pliant::ViewSettings& appearance, const DrawOptions& o
   glGetIntegerv(GL_FRAMEBUFFER_BINDING, &target);
   const Vec2f picture = size_ = Vec2f(static_cast<float>(width), static_cast<float>(height));
   const Mat4f camera = options.viewpoint.projection(picture.x() / picture.y()) * options.viewpoint.view();
+  draw_light_maps(appearance, options);
   go_to_picture(static_cast<GLuint>(target));
   const Vec3f background = tone_of(appearance.background);
   glClearColor(background.x(), background.y(), background.z(), 1);
@@ -163,14 +174,68 @@ void Renderer::draw(const pliant::ViewSettings& appearance, const DrawOptions& o
     draw_floor(appearance, options, camera, static_cast<GLuint>(target));
   }
   glEnable(GL_BLEND);
+  light_.shade_floors();
   glEnable(GL_DEPTH_TEST);
-  colliders_.draw_solids(projection(options), {-options.viewpoint.forward(), light_of(appearance)});
+  colliders_.draw_solids(projection(options), light_);
   draw_surface(appearance, options, camera);
   draw_lines(appearance, options, camera, picture);
   draw_markers(options, camera, picture);
   glDisable(GL_BLEND);
   glDisable(GL_DEPTH_TEST);
   glBindVertexArray(0);
+}
+
+/// Shadows of bodies and colliders on each other, and how much of the sky is seen from where.
+void Renderer::draw_light_maps(const pliant::ViewSettings& appearance, const DrawOptions& options) {
+  light_.begin(options.viewpoint.eye, light_of(appearance));
+  if (options.quality == pliant::Quality::low || bounds_.is_empty()) return;
+  if (appearance.shadow) {
+    light_.draw_shadow_map(bounds_, setback_, [this](float setback) {
+      draw_rope_shadows();
+      draw_depths(setback);
+    });
+  }
+  light_.draw_occlusion(options.viewpoint, {size_, 0.5F / options.pixel, occlusion_reach * bounds_.radius()}, [&] {
+    draw_floor_depths(appearance, options);
+    draw_depths(projection(options).setback);
+  });
+}
+
+void Renderer::draw_depths(float setback) const {
+  const Program& depth = light_.depth_program();
+  depth.use();
+  depth.set("place", Mat4f::Identity().eval());
+  depth.set("setback", 0.0F);
+  glBindVertexArray(triangles_array_.id());
+  glDrawElements(GL_TRIANGLES, count_of(render_mesh_.triangles), GL_UNSIGNED_INT, nullptr);
+  depth.set("setback", setback);
+  colliders_.draw_triangles(depth, Mat4f::Identity());
+}
+
+void Renderer::draw_floor_depths(const pliant::ViewSettings& appearance, const DrawOptions& options) const {
+  const Vec3f middle = bounds_.center();
+  Mat4f grown = Mat4f::Identity();
+  grown.diagonal().head<2>().setConstant(std::max(12 * bounds_.radius(), 1.0F));
+  for (Mat4f plane : colliders_.planes(options.viewpoint.eye)) {
+    const Vec3f normal = plane.block<3, 1>(0, 2);
+    plane.topRightCorner<3, 1>() = middle - normal * normal.dot(middle - plane.topRightCorner<3, 1>());
+    light_.draw_square(plane * grown);
+  }
+  if (colliders_.has_planes() || !appearance.ground) return;
+  Mat4f ground = Mat4f::Identity();
+  ground.topRightCorner<3, 1>() = Vec3f(middle.x(), middle.y(), options.ground_height);
+  light_.draw_square(ground * grown);
+}
+
+void Renderer::draw_rope_shadows() const {
+  const Program& program = light_.rope_depth_program();
+  program.use();
+  program.set("place", Mat4f::Identity().eval());
+  program.set("setback", 0.0F);
+  program.set("width", rope_shadow_width);
+  program.set("lift", 0.0F);
+  glBindVertexArray(ropes_array_.id());
+  glDrawElements(GL_LINES, count_of(render_mesh_.ropes), GL_UNSIGNED_INT, nullptr);
 }
 
 Projection Renderer::projection(const DrawOptions& options) const {
@@ -215,7 +280,7 @@ void Renderer::draw_planes(const pliant::ViewSettings& appearance, const DrawOpt
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, mask_.id());
     colliders_.draw_plane(plane, {middle, extent, tone_of(appearance.background), has_shadow ? shadow_darkness : 0.0F},
-                          area, projection(options), {-options.viewpoint.forward(), light});
+                          area, projection(options), light);
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_BLEND);
   }
@@ -308,8 +373,7 @@ void Renderer::draw_surface(const pliant::ViewSettings& appearance, const DrawOp
   const Program& program = appearance.shading == pliant::Shading::flat ? flat_surface_ : surface_;
   program.use();
   program.set("camera", camera);
-  program.set("to_eye", Vec3f(-options.viewpoint.forward()));
-  program.set("light", light_of(appearance));
+  light_.set(program);
   set_tones(program, appearance);
   program.set("held", solid_tone);
   program.set("is_colored", has_values_ ? 1 : 0);
@@ -353,12 +417,12 @@ void Renderer::draw_lines(const pliant::ViewSettings& appearance, const DrawOpti
 }
 
 void Renderer::draw_markers(const DrawOptions& options, const Mat4f& camera, const Vec2f& picture) const {
-  if (marker_count_ == 0) return;
+  if (marker_count_ == 0 || !options.markers) return;
   marker_.use();
   marker_.set("camera", camera);
   marker_.set("picture", picture);
   marker_.set("lift", depth_shift(options.viewpoint, bounds_, 4 * lift * bounds_.radius()));
-  marker_.set("radius", marker_radius * options.scale);
+  marker_.set("radius", std::max(marker_radius * options.scale, least_marker_radius * options.pixel));
   marker_.set("tone", pin_color);
   glBindVertexArray(markers_array_.id());
   glDrawElements(GL_POINTS, marker_count_, GL_UNSIGNED_INT, nullptr);

@@ -12,6 +12,9 @@ struct DrawOptions {
   std::array<float, 2> range = {0, 1};  ///< values at the ends of the color map
   float ground_height = 0;              ///< [m]
   float scale = 1;                      ///< of line widths and markers: pixels per pixel of a picture of 720 rows
+  float pixel = 1;                      ///< pixels drawn for a pixel of the picture, along a side
+  bool markers = true;                  ///< on pinned vertices and those under a test force
+  pliant::Quality quality = pliant::Quality::high;  ///< `automatic` is `high` here
 };
 
 class Renderer {
@@ -29,12 +32,17 @@ class Renderer {
   struct Vertex {
     Vec3f position, normal;
     float value;  // without values the number of its tones, -1 of what is held
+    float sheen;
   };
 
   void set_vertex_layout() const;
   /// Both of space: from it to the frame of the floor, and where light comes from.
   ShadowArea draw_shadow(const Mat4f& to_floor, const Vec3f& light);
   Projection projection(const DrawOptions& options) const;
+  void draw_light_maps(const pliant::ViewSettings& appearance, const DrawOptions& options);
+  void draw_depths(float setback) const;
+  void draw_floor_depths(const pliant::ViewSettings& appearance, const DrawOptions& options) const;
+  void draw_rope_shadows() const;
   void go_to_picture(GLuint target) const;
   void draw_floor(const pliant::ViewSettings& appearance, const DrawOptions& options, const Mat4f& camera,
                   GLuint target);
@@ -49,6 +57,7 @@ class Renderer {
 
   RenderMesh render_mesh_;
   ColliderPainter colliders_;
+  SceneLight light_;
   Bounds bounds_;
   float setback_ = 0;    // of colliders [m]
   Vec2f size_ = {1, 1};  // of the picture [pixels]

@@ -6,29 +6,30 @@ const std::string_view surface_vertex = R"(#version 330 core
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in float value;
+layout(location = 3) in float sheen;
 uniform mat4 camera;
-out vec3 normal_here;
-out float value_here;
+out vec3 point_here, normal_here;
+out float value_here, sheen_here;
 void main() {
+  point_here = position;
   normal_here = normal;
   value_here = value;
+  sheen_here = sheen;
   gl_Position = camera * vec4(position, 1);
 })";
 
-// A key light, the sky above and the ground below, and a little from the eye, so that nothing is black; the back of a
-// sheet is lit as its front. Light is added up in linear light; there a tone times the light is, for the eye and in
-// sRGB, the tone times a root of the light.
-const std::string_view surface_fragment = R"(#version 330 core
-in vec3 normal_here;
-in float value_here;
-uniform vec3 to_eye, light, held;
+// The back of a sheet is lit as its front. Comes after `lighting`.
+const std::string_view surface_fragment = R"(
+in vec3 point_here, normal_here;
+in float value_here, sheen_here;
+uniform vec3 held;
 uniform vec3 fronts[7], backs[7];  // of body_tones
 uniform int is_colored;
 uniform float low, high;
 uniform sampler2D colors;
 out vec4 color;
 void main() {
-  vec3 n = normalize(normal_here + 1e-9 * to_eye);  // never of length zero
+  vec3 n = normalize(normal_here + 1e-9 * (eye - point_here));  // never of length zero
   if (!gl_FrontFacing) n = -n;
   vec3 tone = held;
   if (is_colored != 0) {
@@ -38,11 +39,7 @@ void main() {
     int number = int(value_here + 0.5);
     tone = gl_FrontFacing ? fronts[number] : backs[number];
   }
-  float towards = dot(n, light);
-  float sky = 0.5 + 0.5 * n.z;
-  float fill = max(dot(n, to_eye), 0.0);
-  float lit = 0.26 + 0.18 * sky + 0.26 * fill + 0.38 * max(towards, 0.0) + 0.1 * max(towards + 0.4, 0.0);
-  color = vec4(tone * pow(lit, 0.4545), 1);
+  color = vec4(lit(tone, point_here, n, sheen_here), 1);
 })";
 
 const std::string_view solid_vertex = R"(#version 330 core
@@ -50,12 +47,14 @@ layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 uniform mat4 camera, place;
 uniform float setback;
-out vec3 normal_here;
-out float value_here;
+out vec3 point_here, normal_here;
+out float value_here, sheen_here;
 void main() {
+  point_here = (place * vec4(position, 1)).xyz;
   normal_here = mat3(place) * normal;
   value_here = -1.0;  // held
-  gl_Position = camera * (place * vec4(position, 1));
+  sheen_here = 0.0;
+  gl_Position = camera * vec4(point_here, 1);
   gl_Position.z += setback * gl_Position.w;
 })";
 
@@ -63,12 +62,14 @@ void main() {
 const std::string_view flat_vertex = R"(#version 330 core
 layout(location = 0) in vec3 position;
 layout(location = 2) in float value;
+layout(location = 3) in float sheen;
 uniform mat4 camera;
 out vec3 place;
-out float value_at;
+out float value_at, sheen_at;
 void main() {
   place = position;
   value_at = value;
+  sheen_at = sheen;
   gl_Position = camera * vec4(position, 1);
 })";
 
@@ -76,15 +77,17 @@ const std::string_view flat_geometry = R"(#version 330 core
 layout(triangles) in;
 layout(triangle_strip, max_vertices = 3) out;
 in vec3 place[];
-in float value_at[];
-out vec3 normal_here;
-out float value_here;
+in float value_at[], sheen_at[];
+out vec3 point_here, normal_here;
+out float value_here, sheen_here;
 void main() {
   vec3 normal = cross(place[1] - place[0], place[2] - place[0]);
   float area = length(normal);
   for (int i = 0; i < 3; ++i) {
+    point_here = place[i];
     normal_here = area > 0.0 ? normal / area : vec3(0);
     value_here = value_at[i];
+    sheen_here = sheen_at[i];
     gl_Position = gl_in[i].gl_Position;
     EmitVertex();
   }
@@ -186,11 +189,8 @@ void main() {
   float distance = length(at);
   float inside = clamp(radius + 0.5 - distance, 0.0, 1.0);
   if (inside < 0.01) discard;
-  vec2 t = at / radius;
-  vec3 n = vec3(t, sqrt(max(0.0, 1.0 - dot(t, t))));
-  float rim = clamp(radius - 0.5 - distance, 0.0, 1.0);
-  float lit = 0.68 + 0.42 * max(dot(n, normalize(vec3(-0.35, 0.6, 0.72))), 0.0);
-  color = vec4(tone * mix(0.45, lit, rim), inside);
+  float core = clamp(min(0.7 * radius, radius - 0.8) + 0.5 - distance, 0.0, 1.0);
+  color = vec4(mix(vec3(0.13, 0.15, 0.18), tone, core), inside);
 })";
 
 const std::string_view flatten_vertex = R"(#version 330 core

@@ -1,5 +1,6 @@
 #pragma once
 // The programs of the renderer, in GLSL 3.30.
+#include <string>
 #include <string_view>
 
 namespace pliant_render::shaders {
@@ -9,6 +10,17 @@ extern const std::string_view surface_vertex;
 extern const std::string_view surface_fragment;
 extern const std::string_view flat_vertex;
 extern const std::string_view flat_geometry;
+
+// How light falls on surfaces, of which the fragment programs above are one part each.
+extern const std::string_view lighting;
+inline std::string lit(std::string_view fragment) {
+  return std::string(lighting).append(fragment);
+}
+extern const std::string_view depth_vertex;
+extern const std::string_view depth_fragment;
+extern const std::string_view occlusion_fragment;
+extern const std::string_view occlusion_blur_fragment;
+extern const std::string_view occlusion_floor_fragment;
 
 // Lines as ribbons of a width in pixels, and points as discs.
 extern const std::string_view stroke_vertex;

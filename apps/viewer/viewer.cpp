@@ -8,6 +8,7 @@
 #include <imgui.h>
 
 #include "pliant/core/error.h"
+#include "pliant/core/stopwatch.h"
 #include "viewer/gizmos.h"
 #include "viewer/live_scene.h"
 
@@ -111,6 +112,7 @@ void Viewer::update_render_mesh() {
   if (source_.render_mesh() == render_mesh_) return;
   render_mesh_ = source_.render_mesh();
   renderer_.emplace(*render_mesh_);
+  quality_.forget();
   is_frame_new_ = true;
 }
 
@@ -182,13 +184,33 @@ void Viewer::draw() {
   ui_.begin();
   draw_annotations();
   draw_panels();
-  const pliant_render::DrawOptions options{screen_.viewpoint, range_, ground_height_, static_cast<float>(height) / 720};
-  draw_picture(options, width, height);
+  draw_measured_picture(width, height);
   fill_panel(width, full_width - width, height);
   ui_.end();
   window_.swap();
   frames_.add({Clock::now()});
   ++frame_count_;
+}
+
+pliant_render::DrawOptions Viewer::draw_options(int height) const {
+  return {.viewpoint = screen_.viewpoint,
+          .range = range_,
+          .ground_height = ground_height_,
+          .scale = static_cast<float>(height) / 720,
+          .markers = appearance_.markers.value_or(true),
+          .quality = quality_.choose(appearance_.quality)};
+}
+
+/// Where the processor draws, pictures are waited for, to see whether they take too long.
+void Viewer::draw_measured_picture(int width, int height) {
+  if (measured_size_ != std::array{width, height}) quality_.forget();
+  measured_size_ = {width, height};
+  const pliant_render::DrawOptions options = draw_options(height);
+  const pliant::Stopwatch watch;
+  draw_picture(options, width, height);
+  if (!window_.is_software() || options.quality == pliant::Quality::low) return;
+  glFinish();
+  quality_.add(watch.seconds());
 }
 
 /// Draws into the window's framebuffer, through a multisampled one where several samples per pixel are wanted.
@@ -269,7 +291,7 @@ void Viewer::write_picture(int width, int height) {
   wants_picture_ = false;
   ui_.begin();
   draw_annotations();
-  draw_picture({screen_.viewpoint, range_, ground_height_, static_cast<float>(height) / 720}, width, height);
+  draw_picture(draw_options(height), width, height);
   ui_.end();
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   glReadBuffer(GL_BACK);

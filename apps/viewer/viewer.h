@@ -9,6 +9,7 @@
 #include "viewer/auto_range.h"
 #include "viewer/frame_statistics.h"
 #include "viewer/mouse_interaction.h"
+#include "viewer/quality_chooser.h"
 #include "viewer/ui.h"
 #include "viewer/view_source.h"
 
@@ -58,7 +59,9 @@ class Viewer {
   Vec2f picture_size() const;
   void fill_panel(int left, int width, int height) const;
   std::array<float, 2> color_range();
+  pliant_render::DrawOptions draw_options(int height) const;
   void draw_picture(const pliant_render::DrawOptions& options, int width, int height);
+  void draw_measured_picture(int width, int height);
   void draw_annotations();
   void draw_gizmos(const pliant_render::AnnotationCanvas& canvas);
   void draw_panels();
@@ -79,6 +82,8 @@ class Viewer {
   MouseInteraction interaction_;
   std::deque<KeyEvent> keys_;  // that the panels and the shortcuts have not taken yet
   AutoRange auto_range_;
+  QualityChooser quality_;
+  std::array<int, 2> measured_size_ = {0, 0};  // that quality_ knows about [pixels]
   std::optional<pliant_render::Renderer> renderer_;
   std::optional<pliant_render::RenderTarget> target_;
   int target_samples_ = 1;

@@ -56,7 +56,9 @@ void Viewer::draw_main_panel() {
     }
   }
   source_.draw_panel();
-  if (section_header("Picture") && draw_appearance_panel(appearance_, samples_, source_)) change_color();
+  if (section_header("Picture") &&
+      draw_appearance_panel(appearance_, samples_, quality_.choose(appearance_.quality), source_))
+    change_color();
   ImGui::Separator();
   ImGui::Spacing();
   if (ImGui::Button("Help", {third, 0})) is_help_open_ = !is_help_open_;

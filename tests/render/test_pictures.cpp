@@ -5,9 +5,8 @@
 
 #include "../mesh/meshes.h"
 #include "pliant/mesh/geometry.h"
-#include "pliant/mesh/shapes.h"
-#include "render/picture_maker.h"
 #include "render/scalar_fields.h"
+#include "studio.h"
 
 namespace test_pictures {
 
@@ -15,74 +14,6 @@ using namespace pliant_render;
 using namespace pliant_tests;
 
 namespace {
-
-using Rgb = std::array<int, 3>;
-
-/// A square of 1 m that stands upright, its normals towards -y, and a camera before it.
-struct Studio {
-  std::vector<pliant::Body> bodies;
-  PictureOptions options;
-  FrameContent frame;
-  std::optional<WindAnnotation> wind;
-
-  Studio() {
-    pliant::Mesh mesh = pliant::grid({.columns = 9, .rows = 9, .size = {1, 1}});
-    for (pliant::Index i = 0; i < mesh.vertex_count(); ++i) {
-      const pliant::Vec3 x = mesh.vertices.row(i).transpose();
-      const pliant::Real across = x.x(), along = x.y() + x.z();  // whichever way the grid lies
-      mesh.vertices.row(i) << across - 0.5, 0, along - 0.5;
-    }
-    bodies.push_back({"square", mesh, 0});
-    for (pliant::Index i = 0; i < mesh.vertex_count(); ++i) {
-      frame.positions.push_back(mesh.vertices.row(i).transpose().cast<float>());
-    }
-    options.appearance.size = {320, 240};
-    options.appearance.camera.position = pliant::Vec3(0, -3, 0);
-    options.appearance.camera.target = pliant::Vec3(0, 0, 0);
-    options.appearance.shadow = options.appearance.ground = false;
-    options.bounds = bounds_of(frame.positions);
-  }
-
-  /// None where the machine has no OpenGL.
-  std::optional<Image> draw() const {
-    try {
-      PictureMaker maker(make_render_mesh(bodies), options);
-      return maker.draw(frame, wind);
-    } catch (const pliant::Error& error) {
-      MESSAGE("skipped: ", std::string(error.what()));
-      return {};
-    }
-  }
-};
-
-/// u, v: from -1 to 1, as normalized device coordinates.
-Rgb at(const Image& image, double u, double v) {
-  const auto x = static_cast<std::size_t>((u + 1) / 2 * (image.width - 1) + 0.5);
-  const auto y = static_cast<std::size_t>((1 - v) / 2 * (image.height - 1) + 0.5);
-  const std::uint8_t* pixel = image.pixels.data() + 3 * (y * static_cast<std::size_t>(image.width) + x);
-  return {pixel[0], pixel[1], pixel[2]};
-}
-
-int distance(const Rgb& a, const Rgb& b) {
-  return std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]);
-}
-
-Rgb rgb(const pliant::Color& color) {
-  return {static_cast<int>(std::lround(255 * color.red)), static_cast<int>(std::lround(255 * color.green)),
-          static_cast<int>(std::lround(255 * color.blue))};
-}
-
-/// Share of pixels in which two pictures differ visibly.
-double difference(const Image& a, const Image& b) {
-  REQUIRE(a.pixels.size() == b.pixels.size());
-  std::size_t count = 0;
-  for (std::size_t i = 0; i + 2 < a.pixels.size(); i += 3) {
-    int sum = 0;
-    for (std::size_t c = 0; c < 3; ++c) sum += std::abs(int{a.pixels[i + c]} - int{b.pixels[i + c]});
-    count += sum > 12;
-  }
-  return static_cast<double>(count) / (static_cast<double>(a.pixels.size()) / 3);
-}
 
 /// The edge of the square, seen from 3 m with 40 degrees.
 const double edge_v = 0.5 / 3 / std::tan(20 * 3.14159265358979 / 180);
@@ -167,16 +98,18 @@ TEST_CASE("what is held as a whole has the tone of colliders on both sides, unle
   CHECK(difference(*with_values, *free) == 0);
 }
 
-TEST_CASE("markers are red, edges are drawn when asked for, and both have the size of the picture") {
+TEST_CASE("marks are drawn only when asked for, in a tone that no body has, edges too, and both are small") {
   Studio studio;
   studio.options.appearance.front = studio.options.appearance.back = pliant::Color{0.3, 0.6, 0.4};
   const std::optional<Image> plain = studio.draw();
   if (!plain) return;
   studio.frame.markers = {40};  // the middle of 9 x 9
+  CHECK(difference(*plain, *studio.draw()) == 0);
+  studio.options.appearance.markers = true;
   const std::optional<Image> marked = studio.draw();
-  const Rgb red = at(*marked, 0, 0);
-  CHECK(red[0] > 2 * red[1]);
-  CHECK(red[0] > 2 * red[2]);
+  const Rgb mark = at(*marked, 0, 0);
+  CHECK(*std::ranges::min_element(mark) > 215);
+  CHECK(difference(*plain, *marked) > 0);
   CHECK(difference(*plain, *marked) < 0.003);
   studio.frame.markers.clear();
   studio.options.appearance.wireframe = true;

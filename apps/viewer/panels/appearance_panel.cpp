@@ -4,7 +4,8 @@
 
 namespace pliant_viewer {
 
-bool draw_appearance_panel(pliant::ViewSettings& appearance, int& samples, const ViewSource& source) {
+bool draw_appearance_panel(pliant::ViewSettings& appearance, int& samples, pliant::Quality quality,
+                           const ViewSource& source) {
   bool has_changed = false;
   row_label("color", "C: what the colors of the bodies tell");
   constexpr auto names = choice_names(pliant::ColorBy{});
@@ -33,9 +34,12 @@ bool draw_appearance_panel(pliant::ViewSettings& appearance, int& samples, const
   row_label("", "");
   ImGui::Checkbox("ground", &appearance.ground);
   ImGui::SameLine();
-  ImGui::BeginDisabled(!appearance.ground);
   ImGui::Checkbox("shadow", &appearance.shadow);
-  ImGui::EndDisabled();
+  explain("on the ground, and with light of bodies on bodies");
+  ImGui::SameLine();
+  bool is_lit = quality != pliant::Quality::low;
+  if (ImGui::Checkbox("light", &is_lit)) appearance.quality = is_lit ? pliant::Quality::high : pliant::Quality::low;
+  explain("shadows of bodies on bodies, darker where little of the sky is seen; off at first where it would be slow");
   if (!source.frame().content.colliders.empty()) {
     row_label("", "");
     ImGui::Checkbox("colliders", &appearance.colliders);

@@ -7,6 +7,8 @@
 namespace pliant_viewer {
 
 /// Draws a row for each setting; `samples` per pixel, 1 or 4. Returns whether the user chose another color field.
-bool draw_appearance_panel(pliant::ViewSettings& appearance, int& samples, const ViewSource& source);
+/// quality: the one in use, of which the settings may leave the choice to the window.
+bool draw_appearance_panel(pliant::ViewSettings& appearance, int& samples, pliant::Quality quality,
+                           const ViewSource& source);
 
 }  // namespace pliant_viewer

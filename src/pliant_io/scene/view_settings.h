@@ -43,6 +43,12 @@ constexpr std::array<std::string_view, 2> choice_names(Shading) {
   return {"smooth", "flat"};
 }
 
+/// How much light is followed: `low` leaves out the shadows of bodies on bodies, and how much of the sky they see.
+enum class Quality { automatic, low, high };
+constexpr std::array<std::string_view, 3> choice_names(Quality) {
+  return {"automatic", "low", "high"};
+}
+
 /// The tones of a surface's two sides.
 struct BodyTones {
   Color front;  ///< of the side that normals point from
@@ -70,9 +76,11 @@ struct ViewSettings {
   Shading shading = Shading::smooth;     ///< smooth, or each face by itself
   bool wireframe = false;                ///< draw the edges of the elements too
   bool colliders = true;                 ///< draw them; hidden ones act all the same
+  std::optional<bool> markers{};         ///< on pinned vertices and test forces; none: in windows, not in films
   bool ground = true;                    ///< draw a plane below the bodies
   std::optional<Real> ground_height{};   ///< z of that plane [m]; none: a little below everything
-  bool shadow = true;                    ///< on the ground
+  bool shadow = true;                    ///< on the ground, and of bodies on bodies
+  Quality quality = Quality::automatic;  ///< automatic: high, and low in a window that would be slow
   Vec3 light{-0.5, -0.8, 1.6};           ///< direction that the light comes from, of any length but zero
   std::array<Index, 2> size{1280, 720};  ///< width and height of the picture [pixels], 16 to 8192
 
@@ -93,9 +101,15 @@ struct ViewSettings {
     field(OptionInfo{"shading", "", "`smooth`, or `flat`: each face by itself"}, self.shading);
     field(OptionInfo{"wireframe", "", "draw the edges of the elements too"}, self.wireframe);
     field(OptionInfo{"colliders", "", "draw them; hidden ones act all the same"}, self.colliders);
+    field(OptionInfo{"markers", "", "mark pinned vertices, and those under a test force; default: in a window only"},
+          self.markers);
     field(OptionInfo{"ground", "", "draw a plane below the bodies"}, self.ground);
     field(OptionInfo{"ground_height", "m", "of that plane; default: a little below everything"}, self.ground_height);
-    field(OptionInfo{"shadow", "", "on the ground"}, self.shadow);
+    field(OptionInfo{"shadow", "", "on the ground, and of bodies on bodies"}, self.shadow);
+    field(OptionInfo{"quality", "",
+                     "`high`, or `low`: no shadows of bodies on bodies, no soft darkening where little of the sky is "
+                     "seen; `automatic`: high, and low in a window that would be slow"},
+          self.quality);
     field(OptionInfo{"light", "", "direction that the light comes from, of any length but zero"}, self.light);
     field(OptionInfo{"size", "pixels", "width and height of the picture", Range{16, 8192}}, self.size);
   }

@@ -1,0 +1,198 @@
+#include "render/scene_light.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "render/shaders.h"
+
+namespace pliant_render {
+namespace {
+
+/// A texture of numbers with this target drawing into it.
+void set_up(const Texture& texture, const Framebuffer& target, GLenum format, int width, int height) {
+  const bool is_depth = format == GL_DEPTH_COMPONENT24;
+  glBindTexture(GL_TEXTURE_2D, texture.id());
+  glTexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(format), width, height, 0, is_depth ? GL_DEPTH_COMPONENT : GL_RG,
+               GL_FLOAT, nullptr);
+  const GLint filter = is_depth ? GL_NEAREST : GL_LINEAR;
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  glBindFramebuffer(GL_FRAMEBUFFER, target.id());
+  glFramebufferTexture2D(GL_FRAMEBUFFER, is_depth ? GL_DEPTH_ATTACHMENT : GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
+                         texture.id(), 0);
+  if (!is_depth) return;
+  glDrawBuffer(GL_NONE);
+  glReadBuffer(GL_NONE);
+}
+
+/// Compared with a depth, between texels; what lies outside is in the light.
+void compare_depths(const Texture& texture) {
+  glBindTexture(GL_TEXTURE_2D, texture.id());
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
+  const std::array<float, 4> far = {1, 1, 1, 1};
+  glTexParameterfv(GL_TEXTURE_2D, GL_TEXTURE_BORDER_COLOR, far.data());
+}
+
+void begin_depths(const Framebuffer& target, int width, int height) {
+  glBindFramebuffer(GL_FRAMEBUFFER, target.id());
+  glViewport(0, 0, width, height);
+  glDisable(GL_BLEND);
+  glEnable(GL_DEPTH_TEST);
+  glClear(GL_DEPTH_BUFFER_BIT);
+}
+
+/// From space to where light that comes from `to_light` sees a ball of this radius: -1 to 1 in all directions.
+Mat4f seen_by_light(const Vec3f& center, float radius, const Vec3f& to_light) {
+  const Vec3f aside = std::abs(to_light.z()) < 0.9F ? Vec3f::UnitZ().eval() : Vec3f::UnitY().eval();
+  const Vec3f right = aside.cross(to_light).normalized();
+  Mat4f m = Mat4f::Identity();
+  m.block<1, 3>(0, 0) = right.transpose() / radius;
+  m.block<1, 3>(1, 0) = to_light.cross(right).transpose() / radius;
+  m.block<1, 3>(2, 0) = -to_light.transpose() / radius;
+  m.topRightCorner<3, 1>() = -m.topLeftCorner<3, 3>() * center;
+  return m;
+}
+
+void draw_screen(const VertexArray& empty_array) {
+  glBindVertexArray(empty_array.id());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void bind(GLenum unit, const Texture& texture) {
+  glActiveTexture(unit);
+  glBindTexture(GL_TEXTURE_2D, texture.id());
+}
+
+}  // namespace
+
+SceneLight::SceneLight()
+    : depth_(shaders::depth_vertex, "", shaders::depth_fragment),
+      rope_depth_(shaders::depth_vertex, shaders::line_geometry, shaders::depth_fragment),
+      occlusion_(shaders::screen_vertex, "", shaders::occlusion_fragment),
+      occlusion_blur_(shaders::screen_vertex, "", shaders::occlusion_blur_fragment),
+      floors_(shaders::screen_vertex, "", shaders::occlusion_floor_fragment) {
+  set_up(shadow_map_, shadow_target_, GL_DEPTH_COMPONENT24, map_size, map_size);
+  compare_depths(shadow_map_);
+  const std::vector<Vec3f> corners = {{-1, -1, 0}, {1, -1, 0}, {-1, 1, 0}, {1, 1, 0}};
+  glBindVertexArray(square_array_.id());
+  upload(square_, GL_ARRAY_BUFFER, corners, GL_STATIC_DRAW);
+  glEnableVertexAttribArray(0);
+  glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(Vec3f), nullptr);
+  glBindVertexArray(0);
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+void SceneLight::begin(const Vec3f& eye, const Vec3f& to_light) {
+  eye_ = eye;
+  to_light_ = to_light;
+  has_shadows_ = has_occlusion_ = false;
+}
+
+void SceneLight::draw_shadow_map(const Bounds& bounds, float setback, const DrawDepths& draw) {
+  if (bounds.is_empty()) return;
+  const float radius = std::max(1.05F * bounds.radius(), 1e-3F);
+  const Mat4f camera = seen_by_light(bounds.center(), radius, to_light_);
+  begin_depths(shadow_target_, map_size, map_size);
+  for (const Program* program : {&rope_depth_, &depth_}) {
+    program->use();
+    program->set("camera", camera);
+    program->set("picture", Vec2f(map_size, map_size));
+  }
+  glEnable(GL_DEPTH_CLAMP);
+  glEnable(GL_POLYGON_OFFSET_FILL);
+  glPolygonOffset(2, 2);
+  draw(setback / radius);
+  glDisable(GL_POLYGON_OFFSET_FILL);
+  glDisable(GL_DEPTH_CLAMP);
+  Mat4f to_texture = Mat4f::Identity();
+  to_texture.diagonal().head<3>().setConstant(0.5F);
+  to_texture.topRightCorner<3, 1>().setConstant(0.5F);
+  to_shadow_map_ = to_texture * camera;
+  texel_ = 2 * radius / map_size;
+  has_shadows_ = true;
+}
+
+void SceneLight::set_up_occlusion(int width, int height) {
+  if (width == width_ && height == height_) return;
+  width_ = width;
+  height_ = height;
+  set_up(depths_, depth_target_, GL_DEPTH_COMPONENT24, width, height);
+  set_up(raw_, raw_target_, GL_RG16F, width, height);
+  set_up(shares_, share_target_, GL_RG16F, width, height);
+}
+
+void SceneLight::draw_occlusion(const Viewpoint& viewpoint, const OcclusionLook& look,
+                                const std::function<void()>& draw) {
+  const Vec2f size = (look.share * look.picture).array().floor().max(1);
+  set_up_occlusion(static_cast<int>(size.x()), static_cast<int>(size.y()));
+  occlusion_scale_ = size.cwiseQuotient(look.picture);
+  const Mat4f projection = viewpoint.projection(look.picture.x() / look.picture.y());
+  begin_depths(depth_target_, width_, height_);
+  for (const Program* program : {&rope_depth_, &depth_}) {
+    program->use();
+    program->set("camera", Mat4f(projection * viewpoint.view()));
+    program->set("picture", look.picture);
+  }
+  draw();
+  glDisable(GL_DEPTH_TEST);
+  find_occlusion(projection, look.reach);
+  has_occlusion_ = true;
+}
+
+void SceneLight::draw_square(const Mat4f& place) const {
+  depth_.use();
+  depth_.set("place", place);
+  depth_.set("setback", 0.0F);
+  glBindVertexArray(square_array_.id());
+  glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+}
+
+void SceneLight::find_occlusion(const Mat4f& projection, float reach) const {
+  glBindFramebuffer(GL_FRAMEBUFFER, raw_target_.id());
+  bind(GL_TEXTURE0, depths_);
+  occlusion_.use();
+  occlusion_.set("depths", 0);
+  occlusion_.set("lens", Vec4f(1 / projection(0, 0), 1 / projection(1, 1), projection(2, 2), projection(2, 3)));
+  occlusion_.set("inset", projection(0, 2));
+  occlusion_.set("reach", reach);
+  occlusion_.set("pixels", projection(1, 1) * static_cast<float>(height_) / 2);
+  draw_screen(empty_array_);
+  glBindFramebuffer(GL_FRAMEBUFFER, share_target_.id());
+  bind(GL_TEXTURE0, raw_);
+  occlusion_blur_.use();
+  occlusion_blur_.set("occlusion", 0);
+  draw_screen(empty_array_);
+}
+
+void SceneLight::shade_floors() const {
+  if (!has_occlusion_) return;
+  floors_.use();
+  floors_.set("occlusion", 0);
+  bind(GL_TEXTURE0, shares_);
+  draw_screen(empty_array_);
+}
+
+void SceneLight::set(const Program& program) const {
+  program.set("eye", eye_);
+  program.set("light", to_light_);
+  program.set("has_shadows", has_shadows_ ? 1 : 0);
+  program.set("has_occlusion", has_occlusion_ ? 1 : 0);
+  program.set("to_shadow_map", to_shadow_map_);
+  program.set("texel", texel_);
+  program.set("shadow_map", 1);
+  program.set("occlusion", 2);
+  program.set("occlusion_scale", occlusion_scale_);
+  bind(GL_TEXTURE1, shadow_map_);
+  bind(GL_TEXTURE2, shares_);
+  glActiveTexture(GL_TEXTURE0);
+}
+
+}  // namespace pliant_render

@@ -1,0 +1,58 @@
+#pragma once
+// What light meets on its way: the shadow map, and how much of the sky each point of the picture sees.
+#include <functional>
+
+#include "render/camera.h"
+
+namespace pliant_render {
+
+/// Draws all that stands in the way of light with the two programs of a SceneLight; colliders give way to what touches
+/// them by `setback`, in the depths of OpenGL.
+using DrawDepths = std::function<void(float setback)>;
+
+class SceneLight {
+ public:
+  /// Needs a current OpenGL context, as do all members.
+  SceneLight();
+
+  /// Takes all light as unhindered, until the maps below are drawn anew.
+  void begin(const Vec3f& eye, const Vec3f& to_light);
+  /// Draws the shadow map of what lies in the box. setback: of colliders [m].
+  void draw_shadow_map(const Bounds& bounds, float setback, const DrawDepths& draw);
+  /// Draws the depths of the picture, and from them which share of the sky each point sees.
+  struct OcclusionLook {
+    Vec2f picture;  ///< size [pixels]
+    float share;    ///< of its width and height that the depths are drawn with
+    float reach;    ///< how far away what stands in the way is looked for [m]
+  };
+  void draw_occlusion(const Viewpoint& viewpoint, const OcclusionLook& look, const std::function<void()>& draw);
+  /// Darkens floors where they see less of the sky, over the bound framebuffer.
+  void shade_floors() const;
+
+  /// A square with sides of 2 in the plane z = 0 of this frame, with the program of depths.
+  void draw_square(const Mat4f& place) const;
+  const Program& depth_program() const { return depth_; }
+  const Program& rope_depth_program() const { return rope_depth_; }
+  /// Sets the uniforms of shaders::lighting in a program that is in use, and binds textures 1 and 2.
+  void set(const Program& program) const;
+  const Vec3f& to_light() const { return to_light_; }
+  static constexpr int map_size = 1024;
+
+ private:
+  void find_occlusion(const Mat4f& projection, float reach) const;
+  void set_up_occlusion(int width, int height);
+
+  Vec3f eye_ = Vec3f::Zero(), to_light_ = Vec3f::UnitZ();
+  bool has_shadows_ = false, has_occlusion_ = false;
+  Mat4f to_shadow_map_ = Mat4f::Identity();
+  float texel_ = 1;             // of the shadow map [m]
+  int width_ = 0, height_ = 0;  // of the occlusion [pixels]
+  Vec2f occlusion_scale_ = {1, 1};
+  Program depth_, rope_depth_, occlusion_, occlusion_blur_, floors_;
+  Texture shadow_map_, depths_, raw_, shares_;
+  Framebuffer shadow_target_, depth_target_, raw_target_, share_target_;
+  VertexArray square_array_, empty_array_;
+  Buffer square_;
+};
+
+}  // namespace pliant_render

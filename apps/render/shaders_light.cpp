@@ -1,0 +1,162 @@
+// How light falls: shadows of bodies on bodies, and how much of the sky a point sees.
+#include "render/shaders.h"
+
+namespace pliant_render::shaders {
+
+// Put before the fragment programs of surfaces. Light is added up in linear light, and rolls off where a tone would be
+// brighter than white; a tone in full light comes out about as it was given.
+const std::string_view lighting = R"(#version 330 core
+uniform vec3 eye, light;              // in space [m]; to the light, of length 1
+uniform int has_shadows, has_occlusion;
+uniform sampler2DShadow shadow_map;   // depths as the light sees them
+uniform mat4 to_shadow_map;           // from space to its texture
+uniform float texel;                  // of the map [m]
+uniform sampler2D occlusion;          // share of the sky, and depth [m], in a smaller picture
+uniform vec2 occlusion_scale;         // pixels of that for a pixel drawn
+
+const vec3 key_light = vec3(0.80, 0.755, 0.69), sky = vec3(0.37, 0.41, 0.46), ground = vec3(0.22, 0.205, 0.19);
+const float from_eye = 0.08;
+
+/// Sixteen places in a disc of three texels; where the four outer ones agree, the others would too.
+float key_share(vec3 point, vec3 n, float towards) {
+  if (has_shadows == 0) return 1.0;
+  vec3 from = point + n * (texel * (1.0 + 2.5 * sqrt(1.0 - min(towards * towards, 1.0))));
+  vec3 at = (to_shadow_map * vec4(from, 1)).xyz;
+  vec2 unit = 3.0 / vec2(textureSize(shadow_map, 0));
+  float sum = 0.0;
+  for (int i = 15; i >= 0; --i) {
+    float reach = sqrt((float(i) + 0.5) / 16.0), angle = 2.39996 * float(i);
+    sum += texture(shadow_map, vec3(at.xy + unit * reach * vec2(cos(angle), sin(angle)), at.z));
+    if (i == 12 && (sum < 0.001 || sum > 3.999)) return sum / 4.0;
+  }
+  return sum / 16.0;
+}
+
+/// Between texels that are at the depth of this point.
+float sky_share() {
+  if (has_occlusion == 0) return 1.0;
+  float depth = 1.0 / gl_FragCoord.w;
+  vec2 at = occlusion_scale * gl_FragCoord.xy - 0.5;
+  ivec2 corner = ivec2(floor(at)), last = textureSize(occlusion, 0) - 1;
+  vec2 share = at - vec2(corner);
+  float sum = 0.0, weights = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    ivec2 aside = ivec2(i & 1, i >> 1);
+    vec2 seen = texelFetch(occlusion, clamp(corner + aside, ivec2(0), last), 0).rg;
+    vec2 near = mix(1.0 - share, share, vec2(aside));
+    float weight = (near.x * near.y + 0.01) / (0.001 + abs(seen.y / depth - 1.0));
+    sum += weight * seen.x;
+    weights += weight;
+  }
+  return sum / weights;
+}
+
+vec3 roll_off(vec3 c) {
+  const float from = 0.75;
+  vec3 over = max(c - from, 0.0) / (1.0 - from);
+  return min(c, from) + (1.0 - from) * (1.0 - exp(-over));
+}
+
+/// sheen: 1 of cloth, whose fibers catch light at grazing angles; 0 of what is solid and has a soft highlight.
+vec3 lit(vec3 tone, vec3 point, vec3 n, float sheen) {
+  vec3 to_eye = normalize(eye - point);
+  float towards = dot(n, light);
+  float key = towards > 0.0 ? towards * key_share(point, n, towards) : 0.0;
+  float open = sky_share();
+  float facing = clamp(dot(n, to_eye), 0.0, 1.0);
+  vec3 around = open * (mix(ground, sky, 0.5 + 0.5 * n.z) + from_eye * facing);
+  vec3 base = pow(tone, vec3(2.2));
+  vec3 color = base * ((0.6 + 0.4 * open) * key * key_light + around);
+  float rim = pow(1.0 - facing, 4.0);
+  color += sheen * 0.30 * rim * mix(vec3(1), base, 0.6) * (0.6 * key * key_light + around);
+  float glance = max(dot(n, normalize(light + to_eye)), 0.0);
+  color += (1.0 - sheen) * (0.10 * key * pow(glance, 40.0) * key_light + 0.10 * rim * open * sky);
+  return pow(roll_off(color), vec3(0.4545));
+}
+)";
+
+const std::string_view depth_vertex = R"(#version 330 core
+layout(location = 0) in vec3 position;
+uniform mat4 camera, place;
+uniform float setback;
+out float value_at;  // as line_geometry takes it
+void main() {
+  value_at = 0.0;
+  gl_Position = camera * (place * vec4(position, 1));
+  gl_Position.z += setback * gl_Position.w;
+})";
+
+const std::string_view depth_fragment = R"(#version 330 core
+void main() {})";
+
+// After McGuire, Osman, Bukowski and Hennessy, "The Alchemy Screen-Space Ambient Obscurance Algorithm", 2011, eq. 10,
+// with the falloff of their "Scalable Ambient Obscurance", 2012.
+const std::string_view occlusion_fragment = R"(#version 330 core
+uniform sampler2D depths;
+uniform vec4 lens;         // of the projection: 1/m00, 1/m11, m22, m23
+uniform float inset;       // m02
+uniform float reach;       // how far away what occludes is looked for [m]
+uniform float pixels;      // of this picture, that 1 m at a distance of 1 m has
+out vec4 color;
+
+vec3 point_at(ivec2 pixel) {
+  ivec2 size = textureSize(depths, 0);
+  pixel = clamp(pixel, ivec2(0), size - 1);
+  vec2 ndc = (vec2(pixel) + 0.5) / vec2(size) * 2.0 - 1.0;
+  float z = -lens.w / (texelFetch(depths, pixel, 0).r * 2.0 - 1.0 + lens.z);
+  return vec3(-z * (ndc + vec2(inset, 0)) * lens.xy, z);
+}
+
+/// Of two neighbors the one that lies nearer is on the same surface.
+vec3 slope(vec3 here, ivec2 at, ivec2 along) {
+  vec3 a = here - point_at(at - along), b = point_at(at + along) - here;
+  return abs(a.z) < abs(b.z) ? a : b;
+}
+
+void main() {
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  if (texelFetch(depths, at, 0).r == 1.0) {
+    color = vec4(1, 1e6, 0, 1);
+    return;
+  }
+  vec3 here = point_at(at);
+  vec3 n = normalize(cross(slope(here, at, ivec2(1, 0)), slope(here, at, ivec2(0, 1))));
+  const int count = 12;
+  float radius = min(pixels * reach / -here.z, 120.0);
+  float turn = 6.2831853 * fract(0.25 * float(((at.x & 3) + 4 * (at.y & 3)) * 5 % 16) / 4.0);
+  float sum = 0.0;
+  for (int i = 0; i < count; ++i) {
+    float far = radius * (float(i) + 0.5) / float(count), angle = 2.39996 * float(i) + turn;
+    vec3 v = point_at(at + ivec2(far * vec2(cos(angle), sin(angle)))) - here;
+    float square = dot(v, v), left = max(1.0 - square / (reach * reach), 0.0);
+    sum += left * left * left * max(dot(v, n) + 0.004 * here.z, 0.0) / (square + 1e-4 * reach * reach) * reach;
+  }
+  color = vec4(clamp(1.0 - 1.5 * sum / float(count), 0.0, 1.0), -here.z, 0, 1);
+})";
+
+// The directions looked at differ in squares of 4 by 4 pixels, over which this takes the mean of one surface.
+const std::string_view occlusion_blur_fragment = R"(#version 330 core
+uniform sampler2D occlusion;
+out vec4 color;
+void main() {
+  ivec2 at = ivec2(gl_FragCoord.xy), last = textureSize(occlusion, 0) - 1;
+  float depth = texelFetch(occlusion, at, 0).g, sum = 0.0, weights = 0.0;
+  for (int y = -2; y < 2; ++y) {
+    for (int x = -2; x < 2; ++x) {
+      vec2 seen = texelFetch(occlusion, clamp(at + ivec2(x, y), ivec2(0), last), 0).rg;
+      float weight = max(1e-3, 1.0 - 12.0 * abs(seen.g / depth - 1.0));
+      sum += weight * seen.r;
+      weights += weight;
+    }
+  }
+  color = vec4(sum / weights, depth, 0, 1);
+})";
+
+// Over floors, before anything stands on them.
+const std::string_view occlusion_floor_fragment = R"(#version 330 core
+in vec2 place;
+uniform sampler2D occlusion;
+out vec4 color;
+void main() { color = vec4(0, 0, 0, 0.7 * (1.0 - textureLod(occlusion, place, 0.0).r)); })";
+
+}  // namespace pliant_render::shaders
