@@ -15,7 +15,8 @@ uniform sampler2D occlusion;          // share of the sky, and depth [m], in a s
 uniform vec2 occlusion_scale;         // pixels of that for a pixel drawn
 
 const vec3 key_light = vec3(0.80, 0.755, 0.69), sky = vec3(0.37, 0.41, 0.46), ground = vec3(0.22, 0.205, 0.19);
-const float from_eye = 0.08;
+const float from_eye = 0.12;
+const float through = 0.3;  // of the light on the other side of cloth
 
 /// Sixteen places in a disc of three texels; where the four outer ones agree, the others would too.
 float key_share(vec3 point, vec3 n, float towards) {
@@ -57,11 +58,13 @@ vec3 roll_off(vec3 c) {
   return min(c, from) + (1.0 - from) * (1.0 - exp(-over));
 }
 
-/// sheen: 1 of cloth, whose fibers catch light at grazing angles; 0 of what is solid and has a soft highlight.
+/// sheen: 1 of cloth, whose fibers catch light at grazing angles and let some through; 0 of what is solid and has a soft highlight.
 vec3 lit(vec3 tone, vec3 point, vec3 n, float sheen) {
   vec3 to_eye = normalize(eye - point);
   float towards = dot(n, light);
-  float key = towards > 0.0 ? towards * key_share(point, n, towards) : 0.0;
+  float key = 0.0;
+  if (towards > 0.0) key = towards * key_share(point, n, towards);
+  else if (sheen > 0.5) key = -through * towards * key_share(point, -n, -towards);
   float open = sky_share();
   float facing = clamp(dot(n, to_eye), 0.0, 1.0);
   vec3 around = open * (mix(ground, sky, 0.5 + 0.5 * n.z) + from_eye * facing);
