@@ -32,7 +32,8 @@ bool is_text(py::handle value) {
 
 /// Numbers in an array of any shape; null when they are none.
 Numbers numbers_in(py::handle given) {
-  if (is_text(given) || given.is_none() || py::isinstance<py::dict>(given)) return Numbers(py::object());
+  if (is_text(given) || given.is_none() || py::isinstance<py::dict>(given))
+    return py::reinterpret_steal<Numbers>(py::handle());
   Numbers array = Numbers::ensure(given);
   PyErr_Clear();
   return array;
@@ -116,7 +117,7 @@ void read(const Place& place, py::handle given, Real& number) {
 void read(const Place& place, py::handle given, std::int64_t& number) {
   Real real = 0;
   read(place, given, real);
-  if (real != std::floor(real) || std::abs(real) > 9e15) fail_type(place, given, "a whole number");
+  if (real != std::floor(real) || std::abs(real) > 9007199254740992.0) fail_type(place, given, "a whole number");
   number = static_cast<std::int64_t>(real);
 }
 

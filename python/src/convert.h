@@ -104,7 +104,7 @@ std::vector<std::array<pliant::Index, n>> read_elements(py::handle given, const 
 /// An array of its own with these numbers.
 py::array_t<double> copied_rows(const pliant::Positions& rows);
 
-/// Passes over the options that keyword arguments give, into a struct of options.
+/// Reads each option that the keyword arguments give into a struct of options; None leaves the default.
 struct OptionReader {
   const py::dict& given;
   std::string_view owner;
@@ -115,6 +115,7 @@ struct OptionReader {
     const py::str name(info.name.data(), info.name.size());
     if (!given.contains(name)) return;
     const py::object value = given[name];
+    if (value.is_none()) return;
     if constexpr (std::is_same_v<Option, pliant::Index>) {
       if (!info.word.empty() && py::isinstance<py::str>(value) && value.cast<std::string>() == info.word) {
         option = info.number_of_word;

@@ -1,11 +1,11 @@
 #include "option_types.h"
 
+#include "added_types.h"
 #include "pliant/collision/colliders/builtin.h"
 #include "pliant/constraints/builtin.h"
 #include "pliant/forces/builtin.h"
 #include "pliant/mesh/lattice.h"
 #include "pliant_io/mesh/mesh_file.h"
-#include "typed_options.h"
 
 namespace pliant_python {
 
