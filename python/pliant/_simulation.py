@@ -423,6 +423,11 @@ class Scene:
             raise Error(f"run: steps: {left} is out of range; give a number from 0 up")
         self._made.run("" if out is None else os.fspath(out), left)
 
+    @overload
+    def save(self) -> bytes: ...
+    @overload
+    def save(self, path: Union[str, "os.PathLike[str]"]) -> None: ...
+
     def save(self, path: Union[str, "os.PathLike[str]", None] = None) -> Optional[bytes]:
         """Writes a checkpoint to a file; without a path, returns its bytes."""
         if path is not None:
