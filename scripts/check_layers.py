@@ -58,6 +58,7 @@ THIRD_PARTY = {
     "backends/imgui": ["apps/render", "apps/viewer"],
     "stb/": ["apps/render", "tests"],
     "doctest/": ["tests"],
+    "pybind11/": ["python"],
 }
 IN_PUBLIC_HEADERS = ["Eigen/"]
 

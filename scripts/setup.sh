@@ -10,10 +10,11 @@ packages=(
   libeigen3-dev libfmt-dev zlib1g-dev libpugixml-dev nlohmann-json3-dev libcli11-dev doctest-dev
   libsuitesparse-dev libopenblas-serial-dev
   pkg-config libepoxy-dev libegl-dev libglfw3-dev libgl1 libgl1-mesa-dri libimgui-dev libstb-dev fonts-inter ffmpeg
-  python3 python3-numpy python3-jsonschema assimp-utils xvfb xauth xdotool
+  python3 python3-numpy python3-scipy python3-jsonschema python3-dev python3-pip python3-venv python3-setuptools python3-wheel
+  pybind11-dev assimp-utils xvfb xauth xdotool
 )
 dev_packages=(ccache man-db groff mandoc zsh fish clang clang-format clang-tidy git libclang-rt-14-dev libtinyobjloader-dev
-  librsvg2-bin)
+  librsvg2-bin mypy)
 # Whoever has them from elsewhere could not install Debian's beside them.
 command -v node >/dev/null || dev_packages+=(nodejs)
 command -v npm >/dev/null || dev_packages+=(npm)

@@ -14,7 +14,7 @@
 #include "pliant_io/mesh/mesh_file.h"
 #include "pliant_io/scene/detail/option_reader.h"
 #include "pliant_io/scene/detail/scene_files.h"
-#include "pliant_io/scene/detail/shape_options.h"
+#include "pliant_io/scene/shape_options.h"
 
 namespace pliant {
 namespace {

@@ -10,8 +10,8 @@
 #include "pliant_io/scene/animation_options.h"
 #include "pliant_io/scene/detail/collider_options.h"
 #include "pliant_io/scene/detail/force_options.h"
-#include "pliant_io/scene/detail/shape_options.h"
 #include "pliant_io/scene/event_options.h"
+#include "pliant_io/scene/shape_options.h"
 
 namespace pliant {
 namespace {

@@ -1,0 +1,29 @@
+# The compiled module. What it has besides is for the package itself.
+import os
+from typing import Any, Optional, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+version: str
+
+class Mesh:
+    """The rest shape of a body: vertices (m x 3, in meters) and the elements between them."""
+
+    def __init__(self, vertices: ArrayLike, triangles: Optional[ArrayLike] = None, *,
+                 tetrahedra: Optional[ArrayLike] = None, edges: Optional[ArrayLike] = None) -> None: ...
+    @property
+    def vertices(self) -> NDArray[np.float64]: ...
+    @property
+    def triangles(self) -> NDArray[np.int32]: ...
+    @property
+    def tetrahedra(self) -> NDArray[np.int32]: ...
+    @property
+    def edges(self) -> NDArray[np.int32]: ...
+    @property
+    def unique_edges(self) -> NDArray[np.int32]: ...
+    @property
+    def boundary(self) -> NDArray[np.int32]: ...
+    def write(self, path: Union[str, os.PathLike[str]], positions: Optional[ArrayLike] = None) -> None: ...
+
+def __getattr__(name: str) -> Any: ...
