@@ -95,7 +95,7 @@ std::vector<DrawnCollider> between(std::vector<DrawnCollider> colliders, const s
 /// From the frames of a cache to other times: pins and wind are those of the frame before.
 RunAnnotations at_times(RunAnnotations of_cache, const pliant::PointCache& cache, const std::vector<Real>& times) {
   constexpr Real rounding = 1e-6;  // of the time from frame to frame
-  RunAnnotations result{std::move(of_cache.entries), {}};
+  RunAnnotations result{std::move(of_cache.entries), {}, std::move(of_cache.looks)};
   std::int64_t frame = 0;
   for (const Real time : times) {
     Real share = 0;
@@ -144,6 +144,12 @@ RenderMesh make_render_mesh(const pliant::Simulation& simulation) {
   return make_render_mesh(simulation.bodies(), find_held(simulation));
 }
 
+RenderMesh make_render_mesh(const pliant::Scene& scene) {
+  RenderMesh render_mesh = make_render_mesh(scene.simulation);
+  render_mesh.looks = vertex_looks(scene.simulation.bodies(), scene.appearances);
+  return render_mesh;
+}
+
 /// Of bodies that are held as a whole, figures say, markers would hide the surface.
 std::vector<std::uint32_t> pinned_vertices(const pliant::Simulation& simulation) {
   const std::vector<char> held = held_vertices(simulation);
@@ -178,7 +184,7 @@ ClipFrame capture_frame(const pliant::Simulation& simulation, const RenderMesh& 
 }
 
 Clip clip_from_scene(pliant::Scene& scene, std::int64_t every, const std::function<bool(std::int64_t)>& go_on) {
-  Clip clip{make_render_mesh(scene.simulation), scene.view, {}};
+  Clip clip{make_render_mesh(scene), scene.view, {}};
   check_size((scene.steps - scene.simulation.state().step) / every + 2, clip.render_mesh.vertex_count);
   ColliderSurfaces surfaces;
   const auto keep = [&] {
@@ -199,6 +205,7 @@ RunAnnotations annotate_run(pliant::Scene scene, const pliant::Animation& animat
                                    animation.cache.vertex_count()));
   }
   RunAnnotations annotations;
+  annotations.looks = vertex_looks(simulation.bodies(), scene.appearances);
   ColliderSurfaces surfaces;
   replay(scene, animation.cache, [&](std::int64_t step) {
     RunAnnotations::Entry entry{find_markers(simulation, step), find_wind(simulation), surfaces.find(simulation),
@@ -219,6 +226,9 @@ RunFrames::RunFrames(pliant::Animation animation, RunAnnotations annotations)
   const std::vector<std::size_t>& entries = annotations_.entry_of_frame;
   render_mesh_ = make_render_mesh(animation_.bodies, entries.empty() ? std::span<const std::uint32_t>()
                                                                      : annotations_.entries[entries.front()].held);
+  if (annotations_.looks.size() == static_cast<std::size_t>(render_mesh_.vertex_count)) {
+    render_mesh_.looks = std::move(annotations_.looks);
+  }
   pliant::Positions x;
   animation_.cache.sample(animation_.times.front(), x);
   rest_at(render_mesh_, x);

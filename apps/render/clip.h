@@ -26,6 +26,8 @@ struct Clip {
 
 /// Of the bodies as they are held now, see make_render_mesh of the bodies.
 RenderMesh make_render_mesh(const pliant::Simulation& simulation);
+/// The same with what bodies look like.
+RenderMesh make_render_mesh(const pliant::Scene& scene);
 
 /// Vertices pinned by position constraints, ascending; none of bodies that are held as a whole.
 std::vector<std::uint32_t> pinned_vertices(const pliant::Simulation& simulation);
@@ -50,6 +52,7 @@ struct RunAnnotations {
   };
   std::vector<Entry> entries;
   std::vector<std::size_t> entry_of_frame;  ///< empty where nothing is known
+  std::vector<VertexLook> looks;            ///< one per vertex, or none
 };
 
 /// Those at the times of an animation, by the scene that its run was made from, as it was at the start (replay).

@@ -128,7 +128,9 @@ void ColliderPainter::draw_plane(const Mat4f& plane, const PlaneLook& look, cons
   plane_.set("darkness", look.darkness);
   plane_.set("mask", 0);
   glBindVertexArray(empty_array_.id());
+  glEnable(GL_DEPTH_CLAMP);  // as of the ground
   glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 2 * (plane_sectors + 1), plane_rings);
+  glDisable(GL_DEPTH_CLAMP);
 }
 
 }  // namespace pliant_render

@@ -1,5 +1,6 @@
 #pragma once
 // What is drawn of the bodies: surfaces, ropes and edges. Made once; frames bring the positions.
+#include <map>
 #include <span>
 #include <vector>
 
@@ -12,6 +13,19 @@ namespace pliant_render {
 
 using pliant::Index;
 
+/// Colors of a vertex whose body has an appearance of its own, as OpenGL takes them.
+struct VertexLook {
+  std::array<std::uint8_t, 4> front{};   ///< red, green, blue, and 255 where there is an appearance, else 0
+  std::array<std::uint8_t, 4> back{};    ///< and the number of the pattern
+  std::array<std::uint8_t, 4> second{};  ///< of the pattern
+  Vec3f place = Vec3f::Zero();           ///< in the pattern, in its fields; stripes go by x
+
+  bool operator==(const VertexLook&) const = default;
+};
+/// One for each vertex, by the bodies at rest; none where no body has an appearance.
+std::vector<VertexLook> vertex_looks(const std::vector<pliant::Body>& bodies,
+                                     const std::map<pliant::BodyId, pliant::BodyAppearance>& appearances);
+
 /// Index lists as OpenGL takes them, with vertices numbered through all bodies.
 struct RenderMesh {
   Index vertex_count = 0;                ///< of all bodies
@@ -23,6 +37,7 @@ struct RenderMesh {
   std::vector<std::uint32_t> springs;  ///< all edges, which define the stretch, two vertices each
   std::vector<float> rest_lengths;     ///< of the springs [m]
   std::vector<std::uint8_t> tones;     ///< one per vertex: which of pliant::body_tones its body has
+  std::vector<VertexLook> looks;       ///< one per vertex, or none
   std::vector<std::uint8_t> is_sheet;  ///< one per vertex: 1 where its body has triangles and no tetrahedra
 };
 /// Free bodies have tones in turn. held: vertices of bodies that are held as a whole, as in FrameContent.

@@ -98,6 +98,7 @@ Renderer::Renderer(RenderMesh render_mesh)
       blur_(shaders::screen_vertex, "", shaders::blur_fragment),
       ground_(shaders::ground_vertex, "", shaders::ground_fragment),
       shadow_(shaders::shadow_vertex, "", shaders::shadow_fragment) {
+  upload_looks();
   const auto set_up = [this](const VertexArray& array, const Buffer& elements, const std::vector<std::uint32_t>& list) {
     glBindVertexArray(array.id());
     set_vertex_layout();
@@ -123,7 +124,26 @@ void Renderer::set_vertex_layout() const {
   attribute(0, 3, offsetof(Vertex, position));
   attribute(1, 3, offsetof(Vertex, normal));
   attribute(2, 1, offsetof(Vertex, value));
-  attribute(3, 1, offsetof(Vertex, sheen));
+  glBindBuffer(GL_ARRAY_BUFFER, looks_.id());
+  const auto look = [](GLuint place, GLint size, GLenum type, std::size_t offset) {
+    glEnableVertexAttribArray(place);
+    glVertexAttribPointer(place, size, type, type == GL_FLOAT ? GL_FALSE : GL_TRUE, sizeof(VertexLook),
+                          reinterpret_cast<const void*>(offset));  // NOLINT: as OpenGL wants it
+  };
+  look(3, 4, GL_UNSIGNED_BYTE, offsetof(VertexLook, front));
+  look(4, 4, GL_UNSIGNED_BYTE, offsetof(VertexLook, back));
+  look(5, 4, GL_UNSIGNED_BYTE, offsetof(VertexLook, second));
+  look(6, 3, GL_FLOAT, offsetof(VertexLook, place));
+}
+
+/// Once: bodies keep what they look like. Copies look like their vertices; sheets have the sheen of cloth.
+void Renderer::upload_looks() const {
+  std::vector<VertexLook> looks = render_mesh_.looks;
+  looks.resize(static_cast<std::size_t>(render_mesh_.vertex_count));
+  for (std::size_t i = 0; i < looks.size(); ++i) looks[i].second[3] = render_mesh_.is_sheet[i] != 0 ? 255 : 0;
+  looks.reserve(looks.size() + render_mesh_.copies.size());
+  for (const std::uint32_t vertex : render_mesh_.copies) looks.push_back(looks[vertex]);
+  upload(looks_, GL_ARRAY_BUFFER, looks, GL_STATIC_DRAW);
 }
 
 void Renderer::set_frame(const FrameContent& frame, pliant::ColorBy color) {
@@ -133,8 +153,7 @@ void Renderer::set_frame(const FrameContent& frame, pliant::ColorBy color) {
   const std::vector<Vec3f> normals = corner_normals(render_mesh_, frame.positions);
   vertices_.resize(frame.positions.size());
   for (std::size_t i = 0; i < vertices_.size(); ++i) {
-    vertices_[i] = {frame.positions[i], normals[i], has_values_ ? frame.values[i] : render_mesh_.tones[i],
-                    render_mesh_.is_sheet[i] != 0 ? 1.0F : 0.0F};
+    vertices_[i] = {frame.positions[i], normals[i], has_values_ ? frame.values[i] : render_mesh_.tones[i]};
   }
   if (!has_values_) {
     for (const std::uint32_t vertex : frame.held) vertices_[vertex].value = -1;
@@ -350,7 +369,9 @@ void Renderer::draw_ground(const pliant::ViewSettings& appearance, const DrawOpt
   ground_.set("rings", ground_rings);
   ground_.set("sectors", ground_sectors);
   glBindVertexArray(empty_array_.id());
+  glEnable(GL_DEPTH_CLAMP);  // it goes on in front of what the camera is made for
   glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 2 * (ground_sectors + 1), ground_rings);
+  glDisable(GL_DEPTH_CLAMP);
 }
 
 void Renderer::lay_shadow(const ShadowArea& area, float height, const Mat4f& camera) const {

@@ -32,10 +32,10 @@ class Renderer {
   struct Vertex {
     Vec3f position, normal;
     float value;  // without values the number of its tones, -1 of what is held
-    float sheen;
   };
 
   void set_vertex_layout() const;
+  void upload_looks() const;
   /// Both of space: from it to the frame of the floor, and where light comes from.
   ShadowArea draw_shadow(const Mat4f& to_floor, const Vec3f& light);
   Projection projection(const DrawOptions& options) const;
@@ -67,7 +67,7 @@ class Renderer {
   std::vector<Vertex> vertices_;
   Program surface_, flat_surface_, line_, marker_, flatten_, flatten_ropes_, blur_, ground_, shadow_;
   VertexArray triangles_array_, ropes_array_, edges_array_, markers_array_, empty_array_;
-  Buffer vertex_buffer_, triangles_, ropes_, edges_, markers_;
+  Buffer vertex_buffer_, looks_, triangles_, ropes_, edges_, markers_;
   Texture map_, mask_, half_blurred_;
   Framebuffer mask_target_, half_blurred_target_;
 };

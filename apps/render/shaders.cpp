@@ -6,28 +6,52 @@ const std::string_view surface_vertex = R"(#version 330 core
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in float value;
-layout(location = 3) in float sheen;
+layout(location = 3) in vec4 front;
+layout(location = 4) in vec4 back;
+layout(location = 5) in vec4 second;
+layout(location = 6) in vec3 in_pattern;
 uniform mat4 camera;
-out vec3 point_here, normal_here;
-out float value_here, sheen_here;
+out vec3 point_here, normal_here, in_pattern_here;
+out float value_here;
+flat out vec4 front_here, back_here, second_here;
 void main() {
   point_here = position;
   normal_here = normal;
   value_here = value;
-  sheen_here = sheen;
+  in_pattern_here = in_pattern;
+  front_here = front;
+  back_here = back;
+  second_here = second;
   gl_Position = camera * vec4(position, 1);
 })";
 
-// The back of a sheet is lit as its front. Comes after `lighting`.
+// The back of a sheet is lit as its front. Comes after `lighting`. Front, back and second are as in VertexLook, but for
+// the last number of `second`, which is the sheen.
 const std::string_view surface_fragment = R"(
-in vec3 point_here, normal_here;
-in float value_here, sheen_here;
+in vec3 point_here, normal_here, in_pattern_here;
+in float value_here;
+flat in vec4 front_here, back_here, second_here;
 uniform vec3 held;
 uniform vec3 fronts[7], backs[7];  // of body_tones
 uniform int is_colored;
 uniform float low, high;
 uniform sampler2D colors;
 out vec4 color;
+
+/// 1 and -1 in turn between whole numbers, and on the way where a pixel has both.
+vec3 in_turn(vec3 at) {
+  vec3 away = abs(mod(at + 0.5, 2.0) - 1.0) - 0.5;
+  return clamp(away / max(fwidth(at), 1e-5), -0.5, 0.5) * 2.0;
+}
+
+vec3 own_tone() {
+  int pattern = int(255.0 * back_here.a + 0.5);
+  vec3 base = gl_FrontFacing ? front_here.rgb : back_here.rgb;
+  vec3 turns = in_turn(in_pattern_here);
+  float turn = pattern == 1 ? turns.x * turns.y * turns.z : turns.x;
+  return pattern == 0 ? base : mix(base, second_here.rgb, 0.5 + 0.5 * turn);
+}
+
 void main() {
   vec3 n = normalize(normal_here + 1e-9 * (eye - point_here));  // never of length zero
   if (!gl_FrontFacing) n = -n;
@@ -35,11 +59,13 @@ void main() {
   if (is_colored != 0) {
     float place = clamp((value_here - low) / (high - low), 0.002, 0.998);
     tone = textureLod(colors, vec2(place, 0.5), 0.0).rgb;
+  } else if (front_here.a > 0.5) {
+    tone = own_tone();
   } else if (value_here > -0.5) {
     int number = int(value_here + 0.5);
     tone = gl_FrontFacing ? fronts[number] : backs[number];
   }
-  color = vec4(lit(tone, point_here, n, sheen_here), 1);
+  color = vec4(lit(tone, point_here, n, second_here.a), 1);
 })";
 
 const std::string_view solid_vertex = R"(#version 330 core
@@ -47,13 +73,15 @@ layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 uniform mat4 camera, place;
 uniform float setback;
-out vec3 point_here, normal_here;
-out float value_here, sheen_here;
+out vec3 point_here, normal_here, in_pattern_here;
+out float value_here;
+flat out vec4 front_here, back_here, second_here;
 void main() {
   point_here = (place * vec4(position, 1)).xyz;
   normal_here = mat3(place) * normal;
   value_here = -1.0;  // held
-  sheen_here = 0.0;
+  in_pattern_here = vec3(0);
+  front_here = back_here = second_here = vec4(0);
   gl_Position = camera * vec4(point_here, 1);
   gl_Position.z += setback * gl_Position.w;
 })";
@@ -62,24 +90,33 @@ void main() {
 const std::string_view flat_vertex = R"(#version 330 core
 layout(location = 0) in vec3 position;
 layout(location = 2) in float value;
-layout(location = 3) in float sheen;
+layout(location = 3) in vec4 front;
+layout(location = 4) in vec4 back;
+layout(location = 5) in vec4 second;
+layout(location = 6) in vec3 in_pattern;
 uniform mat4 camera;
-out vec3 place;
-out float value_at, sheen_at;
+out vec3 place, in_pattern_at;
+out float value_at;
+out vec4 front_at, back_at, second_at;
 void main() {
   place = position;
   value_at = value;
-  sheen_at = sheen;
+  in_pattern_at = in_pattern;
+  front_at = front;
+  back_at = back;
+  second_at = second;
   gl_Position = camera * vec4(position, 1);
 })";
 
 const std::string_view flat_geometry = R"(#version 330 core
 layout(triangles) in;
 layout(triangle_strip, max_vertices = 3) out;
-in vec3 place[];
-in float value_at[], sheen_at[];
-out vec3 point_here, normal_here;
-out float value_here, sheen_here;
+in vec3 place[], in_pattern_at[];
+in float value_at[];
+in vec4 front_at[], back_at[], second_at[];
+out vec3 point_here, normal_here, in_pattern_here;
+out float value_here;
+flat out vec4 front_here, back_here, second_here;
 void main() {
   vec3 normal = cross(place[1] - place[0], place[2] - place[0]);
   float area = length(normal);
@@ -87,7 +124,10 @@ void main() {
     point_here = place[i];
     normal_here = area > 0.0 ? normal / area : vec3(0);
     value_here = value_at[i];
-    sheen_here = sheen_at[i];
+    in_pattern_here = in_pattern_at[i];
+    front_here = front_at[i];
+    back_here = back_at[i];
+    second_here = second_at[i];
     gl_Position = gl_in[i].gl_Position;
     EmitVertex();
   }
@@ -97,10 +137,13 @@ void main() {
 const std::string_view stroke_vertex = R"(#version 330 core
 layout(location = 0) in vec3 position;
 layout(location = 2) in float value;
+layout(location = 3) in vec4 front;
 uniform mat4 camera;
 out float value_at;
+out vec4 front_at;
 void main() {
   value_at = value;
+  front_at = front;
   gl_Position = camera * vec4(position, 1);
 })";
 
@@ -108,10 +151,12 @@ const std::string_view line_geometry = R"(#version 330 core
 layout(lines) in;
 layout(triangle_strip, max_vertices = 4) out;
 in float value_at[];
+in vec4 front_at[];
 uniform vec2 picture;  // pixels
 uniform float width, lift;
 out float across, value_here;
 out vec2 sideways;
+flat out vec4 front_here;
 void main() {
   vec4 a = gl_in[0].gl_Position, b = gl_in[1].gl_Position;
   float va = value_at[0], vb = value_at[1];
@@ -131,6 +176,7 @@ void main() {
     for (int s = -1; s <= 1; s += 2) {
       across = float(s) * reach;
       value_here = end == 0 ? va : vb;
+      front_here = front_at[0];
       gl_Position = p + vec4(float(s) * side * p.w, 0, 0);
       EmitVertex();
     }
@@ -141,6 +187,7 @@ void main() {
 const std::string_view line_fragment = R"(#version 330 core
 in float across, value_here;
 in vec2 sideways;
+flat in vec4 front_here;
 uniform float width, opacity, low, high;
 uniform vec3 tone, fronts[7];
 uniform int is_round, is_colored, has_tones;
@@ -149,6 +196,7 @@ out vec4 color;
 void main() {
   float edge = clamp(width / 2.0 + 0.5 - abs(across), 0.0, 1.0);
   vec3 base = has_tones != 0 && is_colored == 0 ? fronts[max(int(value_here + 0.5), 0)] : tone;
+  if (has_tones != 0 && is_colored == 0 && front_here.a > 0.5) base = front_here.rgb;
   if (is_colored != 0) base = texture(colors, vec2(clamp((value_here - low) / (high - low), 0.002, 0.998), 0.5)).rgb;
   if (is_round != 0) {
     float t = clamp(across / (width / 2.0), -1.0, 1.0);
@@ -199,8 +247,10 @@ uniform mat4 place;  // to the frame of the floor, where the light is given too
 uniform vec3 light;
 uniform vec2 middle, reach;
 out float value_at;  // as line_geometry takes it
+out vec4 front_at;
 void main() {
   value_at = 0.0;
+  front_at = vec4(0);
   vec3 p = (place * vec4(position, 1)).xyz;
   p -= light * (max(p.z, 0.0) / light.z);
   gl_Position = vec4((p.xy - middle) / reach, 0, 1);

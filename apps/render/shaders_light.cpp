@@ -83,8 +83,10 @@ layout(location = 0) in vec3 position;
 uniform mat4 camera, place;
 uniform float setback;
 out float value_at;  // as line_geometry takes it
+out vec4 front_at;
 void main() {
   value_at = 0.0;
+  front_at = vec4(0);
   gl_Position = camera * (place * vec4(position, 1));
   gl_Position.z += setback * gl_Position.w;
 })";

@@ -13,7 +13,7 @@ constexpr Seconds freshness{0.008};  // age at which a snapshot is replaced
 
 bool is_same(const pliant_render::RenderMesh& a, const pliant_render::RenderMesh& b) {
   return a.vertex_count == b.vertex_count && a.triangles == b.triangles && a.ropes == b.ropes && a.edges == b.edges &&
-         a.springs == b.springs && a.rest_lengths == b.rest_lengths && a.tones == b.tones;
+         a.springs == b.springs && a.rest_lengths == b.rest_lengths && a.tones == b.tones && a.looks == b.looks;
 }
 
 }  // namespace
@@ -182,7 +182,7 @@ void LiveScene::step() {
 
 void LiveScene::update_render_mesh() {
   auto render_mesh =
-      std::make_shared<const pliant_render::RenderMesh>(pliant_render::make_render_mesh(session_.simulation()));
+      std::make_shared<const pliant_render::RenderMesh>(pliant_render::make_render_mesh(session_.scene()));
   if (render_mesh_ == nullptr || !is_same(*render_mesh, *render_mesh_)) render_mesh_ = std::move(render_mesh);
 }
 

@@ -121,6 +121,7 @@ void read_simulation(const Node& root, Scene& scene) {
   choose_open_settings(root, mean_damping(scene.simulation, reader.material_of), scene.simulation);
   reader.read_events(root);
   scene.materials = std::move(reader.material_of);
+  scene.appearances = std::move(reader.appearance_of);
   scene.has_surfaces = scene.simulation.contact().surfaces || reader.has_later_surfaces;
   std::ranges::move(reader.warnings, std::back_inserter(scene.warnings));
   if (!scene.has_surfaces && !reader.warning_without_surfaces.empty()) {

@@ -39,13 +39,14 @@ struct Scene {
   ViewSettings view;
   Simulation simulation;
   Timeline timeline;
-  SceneSource source;                       ///< what it was read from, for parse_scene
-  std::vector<SceneFile> files;             ///< of its meshes and maps, each once
-  std::map<BodyId, Material> materials;     ///< of the bodies that are made of one
-  std::vector<Material> own_materials;      ///< those that the scene itself has, by name
-  std::vector<std::string> group_names;     ///< of the groups there are, and behind them those that events add
-  std::vector<std::string> collider_names;  ///< the same of colliders
-  bool has_surfaces = false;                ///< whether surfaces touch at the start, or once an event has acted
+  SceneSource source;                            ///< what it was read from, for parse_scene
+  std::vector<SceneFile> files;                  ///< of its meshes and maps, each once
+  std::map<BodyId, Material> materials;          ///< of the bodies that are made of one
+  std::map<BodyId, BodyAppearance> appearances;  ///< of the bodies that have one of their own
+  std::vector<Material> own_materials;           ///< those that the scene itself has, by name
+  std::vector<std::string> group_names;          ///< of the groups there are, and behind them those that events add
+  std::vector<std::string> collider_names;       ///< the same of colliders
+  bool has_surfaces = false;                     ///< whether surfaces touch at the start, or once an event has acted
 
   std::vector<std::string> warnings;  ///< with their places: keys whose names are old, loose vertices
 

@@ -96,7 +96,8 @@ SchemaJson body_schema() {
                                      {"constraints", list_schema(constraint_schema())},
                                      {"contact", schema_reference("body_contact")},
                                      {"animation", schema_reference("animation")},
-                                     {"solid", schema_reference("solid")}},
+                                     {"solid", schema_reference("solid")},
+                                     {"appearance", object_schema(options_properties<BodyAppearance>())}},
                                     {"mesh"});
   schema["anyOf"] = {{{"required", {"mass"}}}, {{"required", {"material"}}}, {{"required", {"animation"}}}};
   return schema;

@@ -3,16 +3,9 @@
 #include <array>
 #include <optional>
 
-#include "pliant/core/options.h"
+#include "pliant_io/scene/body_appearance.h"
 
 namespace pliant {
-
-/// Shares of red, green and blue, each from 0 to 1 (sRGB).
-struct Color {
-  Real red = 0;    ///< 0 to 1
-  Real green = 0;  ///< 0 to 1
-  Real blue = 0;   ///< 0 to 1
-};
 
 struct Camera {
   std::optional<Vec3> position{};  ///< [m]; none: where all that moves is in the picture
@@ -70,8 +63,8 @@ struct ViewSettings {
   ColorBy color = ColorBy::none;                     ///< none: two tones, front and back
   std::optional<std::array<Real, 2>> color_range{};  ///< low, high, in the unit of `color`; none: those of all frames
   bool legend = true;                                ///< show the color map and its range
-  /// Of the side that normals point from, and of the other, of all bodies; none of both: of several free bodies each
-  /// has tones of its own, see body_tones
+  /// Of the side that normals point from, and of the other, of all bodies without an appearance of their own; none of
+  /// both: of several free bodies each has tones of its own, see body_tones
   std::optional<Color> front{}, back{};
   Shading shading = Shading::smooth;     ///< smooth, or each face by itself
   bool wireframe = false;                ///< draw the edges of the elements too
@@ -95,9 +88,11 @@ struct ViewSettings {
     field(OptionInfo{"color_range", "", "values at the two ends of the color map; default: those of all frames"},
           self.color_range);
     field(OptionInfo{"legend", "", "show the color map and its range"}, self.legend);
-    field(OptionInfo{"front", "", "tone of the side that normals point from; default: of several bodies one each"},
+    field(OptionInfo{"front", "",
+                     "tone of the side that normals point from, of bodies without an `appearance`; default: of several "
+                     "bodies one each"},
           self.front);
-    field(OptionInfo{"back", "", "tone of the other side; default: of several bodies one each"}, self.back);
+    field(OptionInfo{"back", "", "tone of the other side, likewise"}, self.back);
     field(OptionInfo{"shading", "", "`smooth`, or `flat`: each face by itself"}, self.shading);
     field(OptionInfo{"wireframe", "", "draw the edges of the elements too"}, self.wireframe);
     field(OptionInfo{"colliders", "", "draw them; hidden ones act all the same"}, self.colliders);

@@ -50,7 +50,7 @@ Mass read_body_mass(const Node& body, const Mesh& mesh, const std::string& name,
 
 void SceneReader::read_body(const Node& node) {
   node.check_keys({"name", "mesh", "transform", "mass", "start_positions", "velocity", "velocities", "constraints",
-                   "contact", "animation", "material", "solid"});
+                   "contact", "animation", "material", "solid", "appearance"});
   BodyOptions options;
   options.name = fmt::format("body {}", bodies.size());
   read_optional(node, "name", options.name);
@@ -95,6 +95,7 @@ void SceneReader::read_body(const Node& node) {
   const BodyId id = node.locate([&] { return simulation.add_body(std::move(mesh), mass, std::move(options)); });
   bodies.emplace(name, id);
   bodies_of[&node.origin()].push_back(id);
+  if (const auto appearance = node.find("appearance")) read_options(*appearance, appearance_of[id]);
   if (animation_node) add_animation(*animation_node, id, std::move(animation.path));
   if (material) add_material(*material_node, id, *material);
   if (const auto constraints = node.find("constraints")) {

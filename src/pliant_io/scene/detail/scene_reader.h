@@ -29,6 +29,7 @@ struct SceneReader {
                                                 ///< surface, before its transform; empty: it has none
   OwnMaterials materials = {};                  ///< of the scene
   std::map<BodyId, Material> material_of = {};  ///< of the bodies that have one
+  std::map<BodyId, BodyAppearance> appearance_of = {};
   std::map<std::string, BodyId, std::less<>> bodies = {};
   std::map<const Origin*, std::vector<BodyId>> bodies_of = {};  ///< by the text that they stand in
   std::map<std::string, GroupEntry, std::less<>> groups = {};

@@ -1,0 +1,63 @@
+#include <algorithm>
+#include <cmath>
+
+#include "render/render_mesh.h"
+
+namespace pliant_render {
+namespace {
+
+constexpr float off_the_edge = 0.37F;  // of a field: what is flat does not lie between two layers of fields
+
+std::array<std::uint8_t, 4> bytes(const pliant::Color& color, std::uint8_t fourth) {
+  const auto byte = [](pliant::Real share) { return static_cast<std::uint8_t>(std::lround(255 * share)); };
+  return {byte(color.red), byte(color.green), byte(color.blue), fourth};
+}
+
+/// The axes of the body at rest, from the one along which it is longest; those along which it is flat come last.
+std::array<Eigen::Index, 3> axes_by_length(const pliant::Positions& rest) {
+  const pliant::Vec3 extent = (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).transpose();
+  std::array<Eigen::Index, 3> axes = {0, 1, 2};
+  // Equal ones stay in their order, whatever rounding does.
+  std::ranges::stable_sort(axes, [&](Eigen::Index a, Eigen::Index b) { return extent[a] > 1.001 * extent[b]; });
+  return axes;
+}
+
+void look_at(std::span<VertexLook> looks, const pliant::Positions& rest, const pliant::BodyAppearance& appearance,
+             const pliant::BodyTones& tones) {
+  VertexLook look;
+  const pliant::Color front = appearance.front.value_or(tones.front);
+  look.front = bytes(front, 255);
+  look.back = bytes(appearance.back.value_or(appearance.front ? front : tones.back),
+                    static_cast<std::uint8_t>(appearance.pattern));
+  look.second = bytes(appearance.pattern_color, 0);
+  const std::array<Eigen::Index, 3> axes = axes_by_length(rest);
+  for (std::size_t i = 0; i < looks.size(); ++i) {
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      const pliant::Real along = rest(static_cast<Eigen::Index>(i), axes[static_cast<std::size_t>(k)]);
+      look.place[k] = static_cast<float>(along / appearance.pattern_size) + off_the_edge;
+    }
+    looks[i] = look;
+  }
+}
+
+}  // namespace
+
+std::vector<VertexLook> vertex_looks(const std::vector<pliant::Body>& bodies,
+                                     const std::map<pliant::BodyId, pliant::BodyAppearance>& appearances) {
+  std::vector<VertexLook> looks;
+  if (appearances.empty() || bodies.empty()) return looks;
+  Index count = 0;
+  for (const pliant::Body& body : bodies) count = std::max(count, body.first_vertex + body.mesh.vertex_count());
+  looks.resize(static_cast<std::size_t>(count));
+  for (const auto& [id, appearance] : appearances) {
+    const auto number = static_cast<std::size_t>(id);
+    const pliant::Body& body = bodies[number];
+    if (body.mesh.vertex_count() == 0) continue;
+    const auto vertices = std::span(looks).subspan(static_cast<std::size_t>(body.first_vertex),
+                                                   static_cast<std::size_t>(body.mesh.vertex_count()));
+    look_at(vertices, body.mesh.vertices, appearance, pliant::body_tones[number % pliant::body_tones.size()]);
+  }
+  return looks;
+}
+
+}  // namespace pliant_render
