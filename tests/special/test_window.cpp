@@ -107,7 +107,7 @@ TEST_CASE("a click pins, another lets go, and a pin is dragged to where the mous
   desk.turn_until([&] { return desk.shown().pins.size() == 3; });
   // The sheet hangs almost still: the nearest vertex is the one that was aimed at.
   CHECK(desk.is_pinned(middle));
-  const Vec2f to = desk.place(middle) + Vec2f(-50, -70);
+  const Vec2f to = desk.place(middle) + Vec2f(-25, 45);  // down, where the sheet is taut: no fold lies before the pin
   desk.drag(desk.place(middle), to);
   desk.turn_until([&] { return (desk.place(middle) - to).norm() < 2; });
   desk.release();
