@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "render/render_mesh.h"
 
@@ -17,8 +18,9 @@ std::array<std::uint8_t, 4> bytes(const pliant::Color& color, std::uint8_t fourt
 std::array<Eigen::Index, 3> axes_by_length(const pliant::Positions& rest) {
   const pliant::Vec3 extent = (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).transpose();
   std::array<Eigen::Index, 3> axes = {0, 1, 2};
-  // Equal ones stay in their order, whatever rounding does.
-  std::ranges::stable_sort(axes, [&](Eigen::Index a, Eigen::Index b) { return extent[a] > 1.001 * extent[b]; });
+  // In thousandths of the longest, so that equal ones stay in their order, whatever rounding does.
+  const auto length = [&](Eigen::Index axis) { return std::round(1000 * extent[axis] / extent.maxCoeff()); };
+  if (extent.maxCoeff() > 0) std::ranges::stable_sort(axes, std::ranges::greater(), length);
   return axes;
 }
 

@@ -9,6 +9,8 @@
 namespace pliant_render {
 namespace {
 
+constexpr int shadow_map_size = 1024;  // of shadows [texels]
+
 /// A texture of numbers with this target drawing into it.
 void set_up(const Texture& texture, const Framebuffer& target, GLenum format, int width, int height) {
   const bool is_depth = format == GL_DEPTH_COMPONENT24;
@@ -79,7 +81,7 @@ SceneLight::SceneLight()
       occlusion_(shaders::screen_vertex, "", shaders::occlusion_fragment),
       occlusion_blur_(shaders::screen_vertex, "", shaders::occlusion_blur_fragment),
       floors_(shaders::screen_vertex, "", shaders::occlusion_floor_fragment) {
-  set_up(shadow_map_, shadow_target_, GL_DEPTH_COMPONENT24, map_size, map_size);
+  set_up(shadow_map_, shadow_target_, GL_DEPTH_COMPONENT24, shadow_map_size, shadow_map_size);
   compare_depths(shadow_map_);
   const std::vector<Vec3f> corners = {{-1, -1, 0}, {1, -1, 0}, {-1, 1, 0}, {1, 1, 0}};
   glBindVertexArray(square_array_.id());
@@ -100,11 +102,11 @@ void SceneLight::draw_shadow_map(const Bounds& bounds, float setback, const Draw
   if (bounds.is_empty()) return;
   const float radius = std::max(1.05F * bounds.radius(), 1e-3F);
   const Mat4f camera = seen_by_light(bounds.center(), radius, to_light_);
-  begin_depths(shadow_target_, map_size, map_size);
+  begin_depths(shadow_target_, shadow_map_size, shadow_map_size);
   for (const Program* program : {&rope_depth_, &depth_}) {
     program->use();
     program->set("camera", camera);
-    program->set("picture", Vec2f(map_size, map_size));
+    program->set("picture", Vec2f(shadow_map_size, shadow_map_size));
   }
   glEnable(GL_DEPTH_CLAMP);
   glEnable(GL_POLYGON_OFFSET_FILL);
@@ -116,7 +118,7 @@ void SceneLight::draw_shadow_map(const Bounds& bounds, float setback, const Draw
   to_texture.diagonal().head<3>().setConstant(0.5F);
   to_texture.topRightCorner<3, 1>().setConstant(0.5F);
   to_shadow_map_ = to_texture * camera;
-  texel_ = 2 * radius / map_size;
+  texel_ = 2 * radius / shadow_map_size;
   has_shadows_ = true;
 }
 
@@ -136,11 +138,8 @@ void SceneLight::draw_occlusion(const Viewpoint& viewpoint, const OcclusionLook&
   occlusion_scale_ = size.cwiseQuotient(look.picture);
   const Mat4f projection = viewpoint.projection(look.picture.x() / look.picture.y());
   begin_depths(depth_target_, width_, height_);
-  for (const Program* program : {&rope_depth_, &depth_}) {
-    program->use();
-    program->set("camera", Mat4f(projection * viewpoint.view()));
-    program->set("picture", look.picture);
-  }
+  depth_.use();
+  depth_.set("camera", Mat4f(projection * viewpoint.view()));
   draw();
   glDisable(GL_DEPTH_TEST);
   find_occlusion(projection, look.reach);

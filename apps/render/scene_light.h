@@ -6,8 +6,8 @@
 
 namespace pliant_render {
 
-/// Draws all that stands in the way of light with the two programs of a SceneLight; colliders give way to what touches
-/// them by `setback`, in the depths of OpenGL.
+/// Draws all that stands in the way of light with the programs of a SceneLight for depths; colliders give way to what
+/// touches them by `setback`, in the depths of OpenGL.
 using DrawDepths = std::function<void(float setback)>;
 
 class SceneLight {
@@ -25,6 +25,7 @@ class SceneLight {
     float share;    ///< of its width and height that the depths are drawn with
     float reach;    ///< how far away what stands in the way is looked for [m]
   };
+  /// Only depth_program() may draw here.
   void draw_occlusion(const Viewpoint& viewpoint, const OcclusionLook& look, const std::function<void()>& draw);
   /// Darkens floors where they see less of the sky, over the bound framebuffer.
   void shade_floors() const;
@@ -35,8 +36,6 @@ class SceneLight {
   const Program& rope_depth_program() const { return rope_depth_; }
   /// Sets the uniforms of shaders::lighting in a program that is in use, and binds textures 1 and 2.
   void set(const Program& program) const;
-  const Vec3f& to_light() const { return to_light_; }
-  static constexpr int map_size = 1024;
 
  private:
   void find_occlusion(const Mat4f& projection, float reach) const;

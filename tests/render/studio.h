@@ -38,6 +38,16 @@ struct Studio {
     options.bounds = pliant_render::bounds_of(frame.positions);
   }
 
+  /// A rope of 1 m from left to right in place of the square.
+  void show_rope() {
+    pliant::Mesh rope;
+    rope.vertices.resize(2, 3);
+    rope.vertices << -0.5, 0, 0, 0.5, 0, 0;
+    rope.edges = {{0, 1}};
+    bodies = {{"rope", rope, 0}};
+    frame.positions = {{-0.5F, 0, 0}, {0.5F, 0, 0}};
+  }
+
   /// None where the machine has no OpenGL.
   std::optional<pliant_render::Image> draw() const {
     try {

@@ -115,12 +115,7 @@ TEST_CASE("fields of a checker and stripes have their size on the body at rest, 
 
 TEST_CASE("ropes have the front's color") {
   Studio studio;
-  pliant::Mesh rope;
-  rope.vertices.resize(2, 3);
-  rope.vertices << -0.5, 0, 0, 0.5, 0, 0;
-  rope.edges = {{0, 1}};
-  studio.bodies = {{"rope", rope, 0}};
-  studio.frame.positions = {{-0.5F, 0, 0}, {0.5F, 0, 0}};
+  studio.show_rope();
   const std::optional<Image> image = draw(studio, {.front = green});
   if (!image) return;
   CHECK(is_green(at(*image, 0.1, 0)));

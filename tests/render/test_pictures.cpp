@@ -187,12 +187,7 @@ TEST_CASE("flat shading has an edge where smooth shading has none, and samples s
 
 TEST_CASE("ropes are drawn, the wind has its arrow, and a frame of nothing is the background") {
   Studio studio;
-  pliant::Mesh rope;
-  rope.vertices.resize(2, 3);
-  rope.vertices << -0.5, 0, 0, 0.5, 0, 0;
-  rope.edges = {{0, 1}};
-  studio.bodies = {{"rope", rope, 0}};
-  studio.frame.positions = {{-0.5F, 0, 0}, {0.5F, 0, 0}};
+  studio.show_rope();
   const std::optional<Image> image = studio.draw();
   if (!image) return;
   const Rgb background = rgb(studio.options.appearance.background);
