@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs a finished build to a place of its own, sees that all is there, then builds and runs examples/consumer against
-# what was installed; then builds and installs the algorithm alone, with headers in the way that refuse JSON, zlib and
-# XML, and examples/algorithm_only.
+# what was installed; then builds (without optimizing, which is quick) and installs the algorithm alone, with headers in
+# the way that refuse JSON, zlib and XML, and examples/algorithm_only.
 #   scripts/check_install.sh [PRESET]   release when none is given; it must have been built
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -36,7 +36,8 @@ echo '#error "the algorithm needs no zlib"' >"$work/refused/zlib.h"
 echo '#error "the algorithm needs no XML"' >"$work/refused/pugixml.hpp"
 without_files=(-DCMAKE_CXX_FLAGS="-I$work/refused" -DCMAKE_DISABLE_FIND_PACKAGE_ZLIB=ON
   -DCMAKE_DISABLE_FIND_PACKAGE_pugixml=ON -DCMAKE_DISABLE_FIND_PACKAGE_nlohmann_json=ON)
-cmake --preset "$preset" -B "$work/algorithm" -DPLIANT_BUILD_IO=OFF "${without_files[@]}"
+cmake --preset "$preset" -B "$work/algorithm" -DPLIANT_BUILD_IO=OFF -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 \
+  "${without_files[@]}"
 cmake --build "$work/algorithm"
 cmake --install "$work/algorithm" --prefix "$work/algorithm/prefix" >>"$work/install.log"
 run_example algorithm_only "$work/algorithm/prefix" "${without_files[@]}"

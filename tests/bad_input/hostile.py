@@ -35,9 +35,10 @@ LONGEST_LINE = 1000  # characters
 MEMORY_FACTOR = 10  # times the input
 JSON_MEMORY_FACTOR = 25  # where it is all JSON: a value of 3 characters, "{},", takes up to 70 bytes (json_text.h)
 MEMORY_CONSTANT = 64 << 20  # [bytes], above the program's own
-# Past so many cases of a test, one in so many is run; a sanitized program takes ten times as long. HOSTILE_ALL=1: all.
+# Past so many cases of a test, one in so many is run; a sanitized program takes ten times as long, and the fuzz targets
+# feed the readers under sanitizers too. HOSTILE_ALL=1: all.
 DENSE_CASES, STRIDE = 30, 10
-SANITIZED_DENSE_CASES, SANITIZED_STRIDE = 15, 25
+SANITIZED_DENSE_CASES, SANITIZED_STRIDE = 6, 75
 
 
 @functools.cache

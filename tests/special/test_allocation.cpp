@@ -8,6 +8,7 @@
 
 #include "../collision/soups.h"
 #include "../simulation/everything.h"
+#include "../support/sanitizers.h"
 #include "pliant/collision/colliders/builtin.h"
 #include "pliant/collision/pairs/pair_search.h"
 #include "pliant/collision/pairs/planes.h"
@@ -15,24 +16,13 @@
 #include "pliant/mesh/shapes.h"
 #include "pliant/timeline/timeline.h"
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define PLIANT_OWN_MALLOC 0
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-#define PLIANT_OWN_MALLOC 0
-#endif
-#endif
-#ifndef PLIANT_OWN_MALLOC
-#define PLIANT_OWN_MALLOC 1
-#endif
-
 namespace {
 
 std::atomic<long> allocations = 0;
 
 }  // namespace
 
-#if PLIANT_OWN_MALLOC
+#if !PLIANT_IS_SANITIZED
 extern "C" {
 // NOLINTBEGIN(readability-identifier-naming): glibc's names for what is behind malloc
 void* __libc_malloc(std::size_t size);
@@ -59,14 +49,24 @@ void* aligned_alloc(std::size_t alignment, std::size_t size) {
 }
 }
 #else
-// Inlined, a pair of these looks to the compiler as if the one did not belong to the other.
+#if !defined(__clang__)
+// Inlined, a pair of these looks to GCC as if the one did not belong to the other.
 #pragma GCC diagnostic ignored "-Wmismatched-new-delete"
+#endif
 void* operator new(std::size_t size) {
   ++allocations;
   if (void* memory = std::malloc(size)) return memory;
   throw std::bad_alloc();
 }
+// std::stable_sort asks by this for its buffer, and does without where there is none.
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  ++allocations;
+  return std::malloc(size);
+}
 void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, const std::nothrow_t&) noexcept {
   std::free(memory);
 }
 void operator delete(void* memory, std::size_t) noexcept {

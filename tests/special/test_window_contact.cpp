@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include "../support/sanitizers.h"
 #include "desk.h"
 #include "pliant/collision/crossings.h"
 #include "pliant_io/scene/builtin_scenes.h"
@@ -42,7 +43,7 @@ struct CrossingWatch {
 
 /// The built-in scene crate_on_cloth, whose bodies the mouse takes along paths in simulated time.
 struct ThrowingDesk : Desk {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if PLIANT_IS_SANITIZED
   static constexpr std::size_t side_of_cloth = 16;  // steps take twenty times as long
 #else
   static constexpr std::size_t side_of_cloth = 40;  // as in the scene
