@@ -25,7 +25,7 @@ run_target() {
   local target="$1" seconds="$2" log="build/asan/fuzzing/$1.log" dictionary=()
   [[ ! -e "fuzz/$target.dict" ]] || dictionary=("-dict=fuzz/$target.dict")
   mkdir -p "build/asan/fuzzing/corpus/$target" "fuzz/seeds/$target"
-  if ! "build/asan/fuzz/fuzz/$target" "build/asan/fuzzing/corpus/$target" "fuzz/seeds/$target" -max_total_time="$seconds" \
+  if ! "build/asan/fuzz/$target" "build/asan/fuzzing/corpus/$target" "fuzz/seeds/$target" -max_total_time="$seconds" \
     -timeout=10 -rss_limit_mb=2048 -max_len=65536 -artifact_prefix="build/asan/fuzzing/found/$target-" \
     "${dictionary[@]}" -print_final_stats=1 -close_fd_mask=1 >"$log" 2>&1; then
     tail -n 40 "$log" >&2
