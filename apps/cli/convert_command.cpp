@@ -174,23 +174,52 @@ void warn_of_tolerance(const pliant::ExportOptions& options, const pliant::Expor
                   report.largest_error, wanted, options.max_keyframes));
 }
 
-/// What a view gives of both; none where it gives neither.
-std::optional<pliant::SurfaceColors> surface_colors(const pliant::ViewSettings& view) {
-  if (!view.front && !view.back) return {};
+pliant::SurfaceColors surface_colors(const pliant::Color& front, const pliant::Color& back) {
   const auto shares = [](const pliant::Color& color) {
     return std::array<pliant::Real, 3>{color.red, color.green, color.blue};
   };
-  const pliant::BodyTones& plain = pliant::body_tones.front();
-  return pliant::SurfaceColors{shares(view.front.value_or(plain.front)), shares(view.back.value_or(plain.back))};
+  return {shares(front), shares(back)};
 }
 
-/// Those that the scene of a run gives its surfaces; none where it leaves them as they are, or is not known.
-std::optional<pliant::SurfaceColors> colors_of_run(const fs::path& folder) {
+/// What a view gives of both; none where it gives neither.
+std::optional<pliant::SurfaceColors> colors_of_view(const pliant::ViewSettings& view) {
+  if (!view.front && !view.back) return {};
+  const pliant::BodyTones& plain = pliant::body_tones.front();
+  return surface_colors(view.front.value_or(plain.front), view.back.value_or(plain.back));
+}
+
+/// Of a body with an appearance, as pictures show it; number: of the body in its scene.
+pliant::SurfaceColors colors_of_body(const pliant::BodyAppearance& appearance, std::size_t number) {
+  const pliant::BodyTones& tones = pliant::body_tones[number % pliant::body_tones.size()];
+  const pliant::Color front = appearance.front.value_or(tones.front);
+  return surface_colors(front, appearance.back.value_or(appearance.front ? front : tones.back));
+}
+
+bool mentions(const pliant::SceneSource& source, std::string_view word) {
+  const auto has_word = [&](const std::string& text) { return text.find(word) != text.npos; };
+  return std::ranges::any_of(source.texts, has_word, &pliant::SceneText::text) ||
+         std::ranges::any_of(source.overrides.set, has_word);
+}
+
+/// Those that the scene of a run gives the bodies of an animation, of which there may be fewer; none where it leaves
+/// them as they are, or is not known. A scene without any appearance is not made again, which may take long.
+std::vector<std::optional<pliant::SurfaceColors>> colors_of_run(const fs::path& folder, const Animation& animation) {
   const fs::path checkpoint = folder / pliant::checkpoint_name;
   std::error_code ignored;
   if (!fs::exists(checkpoint, ignored)) return {};
   try {
-    return surface_colors(pliant::read_checkpoint(checkpoint).view);
+    pliant::Scene known = pliant::read_checkpoint(checkpoint);
+    std::vector<std::optional<pliant::SurfaceColors>> colors(animation.bodies.size(), colors_of_view(known.view));
+    if (!mentions(known.source, "appearance")) return colors;
+    const pliant::Scene scene = pliant::parse_scene(std::move(known.source));
+    for (const auto& [id, appearance] : scene.appearances) {
+      const pliant::Body& body = scene.simulation.body(id);
+      const auto found = std::ranges::find(animation.bodies, body.name, &pliant::Body::name);
+      if (found == animation.bodies.end()) continue;
+      colors[static_cast<std::size_t>(found - animation.bodies.begin())] =
+          colors_of_body(appearance, static_cast<std::size_t>(id));
+    }
+    return colors;
   } catch (const pliant::Error& error) {
     print_to_stderr("warning: the colors of the scene are not known, so each body has one of its own: " +
                     pliant::printable_place(error.what(), message_limit) + "\n");
@@ -228,13 +257,6 @@ std::optional<pliant::Scene> scene_of_run(const fs::path& folder, Animation& ani
   }
 }
 
-/// A scene without any is not made again, which may take long.
-bool mentions_colliders(const pliant::SceneSource& source) {
-  const auto mentions = [](const std::string& text) { return text.find("collider") != text.npos; };
-  return std::ranges::any_of(source.texts, mentions, &pliant::SceneText::text) ||
-         std::ranges::any_of(source.overrides.set, mentions);
-}
-
 /// Those of the scene of a run, where it is known.
 std::vector<pliant::AnimatedCollider> colliders_of_run(const fs::path& folder, const pliant::PointCache& frames) {
   const fs::path checkpoint = folder / pliant::checkpoint_name;
@@ -242,7 +264,7 @@ std::vector<pliant::AnimatedCollider> colliders_of_run(const fs::path& folder, c
   if (!fs::exists(checkpoint, ignored)) return {};
   try {
     pliant::SceneSource source = pliant::read_checkpoint(checkpoint).source;
-    if (!mentions_colliders(source)) return {};
+    if (!mentions(source, "collider")) return {};  // it is not made again, which may take long
     return pliant_render::recorded_colliders(pliant::parse_scene(std::move(source)), frames);
   } catch (const pliant::Error& error) {
     if (error.kind() != pliant::ErrorKind::input) throw;
@@ -266,13 +288,15 @@ void agree_to_thin(const fs::path& out, const pliant::ExportReport& report) {
 }
 
 /// What the export needs to know beside its options.
-pliant::ExportOptions complete_options(const ConvertOptions& options) {
+pliant::ExportOptions complete_options(const ConvertOptions& options, const Animation& animation) {
   pliant::ExportOptions exported = options.exported;
   exported.max_keyframes = options.max_keyframes.value_or(exported.max_keyframes);
+  std::error_code ignored;
+  if (holds(options, pliant::AnimationFormat::Beside::colliders) && fs::is_directory(options.in, ignored)) {
+    exported.colors = colors_of_run(options.in, animation);
+  }
   const auto format = pliant::animation_format(options.out);
   if (!format || format->thins != pliant::AnimationFormat::Thins::always) return exported;
-  std::error_code ignored;
-  if (fs::is_directory(options.in, ignored)) exported.colors = colors_of_run(options.in);
   if (!options.yes && !options.exported.tolerance && !options.max_keyframes) {
     exported.before_thinning = [&options](const pliant::ExportReport& report) { agree_to_thin(options.out, report); };
   }
@@ -292,7 +316,7 @@ void convert(const ConvertOptions& options) {
   if (holds(options, pliant::AnimationFormat::Beside::values)) scene = scene_of_run(options.in, animation);
   select(animation, options);
   if (!is_mesh) {
-    pliant::ExportOptions exported = complete_options(options);
+    pliant::ExportOptions exported = complete_options(options, animation);
     std::optional<pliant_render::RunValues> values;
     if (holds(options, pliant::AnimationFormat::Beside::values) && !animation.bodies.empty()) {
       values.emplace(animation, std::move(scene));

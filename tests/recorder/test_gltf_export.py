@@ -3,6 +3,7 @@ import unittest
 
 import numpy
 
+import usd_reader
 from export_case import ExportCase
 from gltf_reader import Gltf
 
@@ -136,6 +137,29 @@ class GltfExport(ExportCase):
         done = self.pliant("convert", "two", "two.glb", "--tolerance", 0.01)
         self.assertIn("warning: the colors of the scene are not known, so each body has one of its own: ", done.stderr)
         self.assertEqual(len(Gltf(self.folder / "two.glb").json["materials"]), 5)
+        dressed = ('--set=bodies[bar].appearance={"front": "#ff0000", "back": "#00ff00", "pattern": "checker"}',
+                   '--set=bodies[rope].appearance={"front": "#0000ff"}')
+        self.pliant("run", "scene.json", "--out", "dressed", *dressed)
+        self.pliant("convert", "dressed", "dressed.glb", "--tolerance", 0.01)
+        gltf = Gltf(self.folder / "dressed.glb")
+
+        def materials(name):
+            return [(gltf.json["materials"][part["material"]]["pbrMetallicRoughness"]["baseColorFactor"][:3],
+                     gltf.json["materials"][part["material"]]["doubleSided"]) for part in gltf.primitives(name)]
+
+        self.assertEqual(materials("bar"), [([1, 0, 0], False), ([0, 1, 0], False)])
+        self.assertEqual(materials("rope"), [([0, 0, 1], True)])
+        (muted, is_double), = materials("1 sheet/ä")
+        self.assertTrue(is_double)
+        self.assertEqual(muted, plain.json["materials"][1]["pbrMetallicRoughness"]["baseColorFactor"][:3])
+        self.pliant("convert", "dressed", "bar.glb", "--tolerance", 0.01, "--body", "bar")
+        gltf = Gltf(self.folder / "bar.glb")
+        self.assertEqual(materials("bar"), [([1, 0, 0], False), ([0, 1, 0], False)])
+        self.pliant("convert", "dressed", "dressed.usda")
+        root = usd_reader.read(self.folder / "dressed.usda").find("all_sorts")
+        for name, kind, color in (("bar", "mesh", [1, 0, 0]), ("rope", "edges", [0, 0, 1])):
+            numpy.testing.assert_array_equal(root.find(name, kind).attributes["primvars:displayColor"], [color])
+        self.assertNotIn("primvars:displayColor", root.find("patch", "mesh").attributes)
         same = [f"--set=view.{side}=#ff8000" for side in colors]
         self.pliant("run", "scene.json", "--out", "same", *same)
         self.pliant("convert", "same", "same.glb", "--tolerance", 0.01)

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "pliant/core/options.h"
 #include "pliant_io/export/animation.h"
@@ -49,9 +50,9 @@ struct ExportOptions {
   /// are what every browser has for them.
   std::int64_t max_keyframes = 256;
   Normals normals = Normals::smooth;  ///< of glTF
-  /// Of glTF, for all bodies; where the two sides differ, each has triangles of its own. Default: a muted color for
-  /// each body.
-  std::optional<SurfaceColors> colors = {};
+  /// Of glTF and USD, of the first bodies in turn; where the two sides differ, each has triangles of its own in glTF,
+  /// and USD has the front's. None: in glTF a muted color for each body, in USD the reader's.
+  std::vector<std::optional<SurfaceColors>> colors = {};
   /// Of pvd: what vertices have beside positions in a frame, given by its index. Called for one frame after the other.
   /// Default: nothing.
   std::function<std::vector<VertexValues>(std::size_t frame)> values = {};

@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <optional>
 
@@ -12,6 +13,7 @@
 #include "pliant/core/error.h"
 #include "pliant/core/version.h"
 #include "pliant_io/export/detail/export_formats.h"
+#include "pliant_io/export/detail/gltf_materials.h"
 #include "pliant_io/export/detail/gltf_surface.h"
 #include "pliant_io/files/atomic_file.h"
 #include "pliant_io/files/base64.h"
@@ -124,37 +126,6 @@ class GltfDocument {
   std::string buffer_;
 };
 
-/// The share of light that a share of a color stands for (IEC 61966-2-1); materials have light (Sec. 3.9.2).
-double light_of(double share) {
-  return share <= 0.04045 ? share / 12.92 : std::pow((share + 0.055) / 1.055, 2.4);
-}
-
-enum class Sides { one, both };
-
-OrderedJson material(const std::array<double, 3>& light, Sides sides) {
-  const auto& [red, green, blue] = light;
-  return {{"pbrMetallicRoughness",
-           {{"baseColorFactor", {red, green, blue, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 0.8}}},
-          {"doubleSided", sides == Sides::both}};
-}
-
-OrderedJson material_of_color(const std::array<Real, 3>& color, Sides sides) {
-  return material({light_of(color[0]), light_of(color[1]), light_of(color[2])}, sides);
-}
-
-/// A muted color of its own for each of the first bodies.
-OrderedJson material_of_body(std::size_t body) {
-  constexpr std::array<std::array<double, 3>, 6> lights = {{{0.28, 0.45, 0.69},
-                                                            {0.77, 0.36, 0.22},
-                                                            {0.33, 0.56, 0.38},
-                                                            {0.80, 0.64, 0.26},
-                                                            {0.52, 0.40, 0.62},
-                                                            {0.45, 0.45, 0.45}}};
-  return material(lights[body % lights.size()], Sides::both);
-}
-
-constexpr std::array<double, 3> collider_light = {0.32, 0.38, 0.46};
-
 /// The same triangles seen from the other side.
 std::vector<Index> turned(std::vector<Index> triangles) {
   for (std::size_t i = 0; i + 2 < triangles.size(); i += 3) std::swap(triangles[i + 1], triangles[i + 2]);
@@ -209,28 +180,25 @@ class GltfExport {
       if (!side.targets.empty()) primitive["targets"] = side.targets;
       primitives.push_back(std::move(primitive));
     };
-    const bool has_two_tones = colors_ && colors_->front != colors_->back && !surface.triangles.empty();
-    const std::size_t tone = front_material(number, has_two_tones ? Sides::one : Sides::both);
+    const std::optional<SurfaceColors> colors = number < colors_.size() ? colors_[number] : std::nullopt;
+    const bool has_two_tones = colors && colors->front != colors->back && !surface.triangles.empty();
+    const std::size_t tone = colors ? colored(colors->front, has_two_tones ? Sides::one : Sides::both)
+                                    : document_.add("materials", gltf_material_of_body(number));
     if (!surface.triangles.empty()) add_primitive(Mode::triangles, surface.triangles, front, tone);
     if (has_two_tones) {
-      add_primitive(Mode::triangles, turned(surface.triangles), back_side(body, surface, rest, front), back_material());
+      add_primitive(Mode::triangles, turned(surface.triangles), back_side(body, surface, rest, front),
+                    colored(colors->back, Sides::one));
     }
     if (!surface.lines.empty()) add_primitive(Mode::lines, surface.lines, front, tone);
     if (primitives.empty()) add_primitive(Mode::points, {}, front, tone);
     add_node(body.name, std::move(primitives), is_moving);
   }
 
-  /// One for all bodies, or one for each.
-  std::size_t front_material(std::size_t body, Sides sides) {
-    if (!colors_) return document_.add("materials", material_of_body(body));
-    std::optional<std::size_t>& known = sides == Sides::one ? front_material_ : double_sided_material_;
-    if (!known) known = document_.add("materials", material_of_color(colors_->front, sides));
-    return *known;
-  }
-
-  std::size_t back_material() {
-    if (!back_material_) back_material_ = document_.add("materials", material_of_color(colors_->back, Sides::one));
-    return *back_material_;
+  /// Bodies of one color share a material.
+  std::size_t colored(const std::array<Real, 3>& color, Sides sides) {
+    const auto [known, is_new] = materials_.try_emplace({color, sides});
+    if (is_new) known->second = document_.add("materials", gltf_material(light_of(color), sides));
+    return known->second;
   }
 
   Side front_side(const Body& body, const GltfSurface& surface, const Shape& rest, bool is_moving) {
@@ -271,7 +239,8 @@ class GltfExport {
       positions.push_back(y_up(single_precision(corners.positions, static_cast<Index>(i))));
       normals.push_back(y_up(corners.normals.row(i).transpose().cast<float>().normalized()));
     }
-    if (!collider_material_) collider_material_ = document_.add("materials", material(collider_light, Sides::both));
+    if (!collider_material_)
+      collider_material_ = document_.add("materials", gltf_material(collider_light, Sides::both));
     OrderedJson attributes = {{"POSITION", document_.add_vectors(positions, true)}};
     if (normals_ == Normals::smooth) attributes["NORMAL"] = document_.add_vectors(normals, false);
     const OrderedJson primitive = {{"attributes", std::move(attributes)},
@@ -417,8 +386,9 @@ class GltfExport {
   const Animation& animation_;
   const std::vector<std::size_t>& frames_;
   Normals normals_;
-  std::optional<SurfaceColors> colors_;
-  std::optional<std::size_t> front_material_, back_material_, double_sided_material_, collider_material_;
+  std::vector<std::optional<SurfaceColors>> colors_;
+  std::map<std::pair<std::array<Real, 3>, Sides>, std::size_t> materials_;
+  std::optional<std::size_t> collider_material_;
   GltfDocument document_;
   std::vector<std::size_t> moving_nodes_;
   std::vector<MovingCollider> moving_colliders_;

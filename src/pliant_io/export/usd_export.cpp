@@ -8,6 +8,7 @@
 
 #include "pliant/core/version.h"
 #include "pliant_io/export/detail/export_formats.h"
+#include "pliant_io/export/detail/gltf_materials.h"
 #include "pliant_io/files/atomic_file.h"
 #include "pliant_io/recorder/detail/array_format.h"
 #include "pliant_io/recorder/detail/one_mesh.h"
@@ -117,8 +118,13 @@ struct Curves {
 
 class UsdExport {
  public:
-  UsdExport(UsdText& text, const Animation& animation, const std::vector<std::size_t>& frames)
-      : text_(text), animation_(animation), frames_(frames), rate_(frame_rate(animation.times)) {
+  UsdExport(UsdText& text, const Animation& animation, const std::vector<std::size_t>& frames,
+            const ExportOptions& options)
+      : text_(text),
+        animation_(animation),
+        frames_(frames),
+        colors_(options.colors),
+        rate_(frame_rate(animation.times)) {
     constexpr Real rate_of_uneven_frames = 24;
     if (rate_ == 0) rate_ = rate_of_uneven_frames;
   }
@@ -141,7 +147,10 @@ class UsdExport {
     text_.open(fmt::format("def Xform \"{}\"", root));
     const std::vector<Real> sizes = body_sizes(animation_);
     PrimNames bodies;
-    for (std::size_t i = 0; i < animation_.bodies.size(); ++i) write_body(animation_.bodies[i], bodies, sizes[i]);
+    for (std::size_t i = 0; i < animation_.bodies.size(); ++i) {
+      color_ = i < colors_.size() ? colors_[i] : std::nullopt;
+      write_body(animation_.bodies[i], bodies, sizes[i]);
+    }
     for (const AnimatedCollider& collider : animation_.colliders) write_collider(collider, bodies);
     text_.close();
   }
@@ -200,7 +209,7 @@ class UsdExport {
     text_.line("    interpolation = \"faceVarying\"");
     text_.line(")");
     text_.line("point3f[] points = " + list(points, append_point));
-    text_.line("color3f[] primvars:displayColor = [(0.32, 0.38, 0.46)]");
+    write_color(collider_light);
     text_.line("uniform token subdivisionScheme = \"none\"");
     text_.close();
     text_.close();
@@ -240,6 +249,11 @@ class UsdExport {
       last = is_there;
     }
     text_.line("}");
+  }
+
+  void write_color(const std::array<double, 3>& light) {
+    text_.line(fmt::format("color3f[] primvars:displayColor = [({}, {}, {})]", static_cast<float>(light[0]),
+                           static_cast<float>(light[1]), static_cast<float>(light[2])));
   }
 
   static std::vector<Eigen::Vector3f> rows_of(const Positions& rows) {
@@ -297,6 +311,7 @@ class UsdExport {
     write_over_time("point3f[] points", [&] {
       return list(vertices, [&](std::string& text, Index v) { append_point(text, point(body, v)); });
     });
+    if (color_) write_color(light_of(color_->front));
   }
 
   Eigen::Vector3f point(const Body& body, Index vertex) const {
@@ -334,6 +349,8 @@ class UsdExport {
   UsdText& text_;
   const Animation& animation_;
   const std::vector<std::size_t>& frames_;
+  const std::vector<std::optional<SurfaceColors>>& colors_;
+  std::optional<SurfaceColors> color_;  ///< of the body that is being written
   Real rate_;
   Positions positions_;  ///< of the frame that is being written
 };
@@ -341,10 +358,10 @@ class UsdExport {
 }  // namespace
 
 void write_usda(const std::filesystem::path& path, const Animation& animation, const std::vector<std::size_t>& frames,
-                const ExportOptions& /*options*/) {
+                const ExportOptions& options) {
   AtomicFile file(path);
   UsdText text(file);
-  UsdExport(text, animation, frames).write();
+  UsdExport(text, animation, frames, options).write();
   text.flush();
   file.commit();
 }
