@@ -30,9 +30,10 @@ struct RenderArguments : AppearanceArguments {
   std::int64_t fps = 30;      ///< frames a second of a film, 1 to 240
   std::int64_t samples = 16;  ///< of a pixel, 1 to 16
   std::optional<std::int64_t>
-      frames;          ///< how many, spread evenly, 1 to 100,000; none: all for a film, the last for a picture
-  bool sheet = false;  ///< all frames in one picture
-  bool quiet = false;  ///< print warnings and errors only
+      frames;              ///< how many, spread evenly, 1 to 100,000; none: all for a film, the last for a picture
+  bool sheet = false;      ///< all frames in one picture
+  bool turntable = false;  ///< the camera goes around once
+  bool quiet = false;      ///< print warnings and errors only
 };
 
 bool is_picture(const RenderArguments& arguments) {
@@ -43,8 +44,15 @@ void show(const RenderArguments& arguments, const std::string& what) {
   if (!arguments.quiet && has_error_terminal()) print_to_stderr("\r\x1b[K" + what);
 }
 
+void check_turntable(const RenderArguments& arguments, const pliant::ViewSettings& view) {
+  if (!arguments.turntable || view.camera.keyframes.empty()) return;
+  pliant::fail_input(
+      "--turntable: the camera of the scene goes through keyframes; give --set view.camera.keyframes=[]");
+}
+
 Clip clip_of_run(const RenderArguments& arguments) {
   ShownRun run = shown_run(arguments);
+  check_turntable(arguments, run.appearance);
   pliant::Animation animation = pliant::read_run(arguments.scene);
   const bool is_film = !is_picture(arguments) && animation.times.size() > 1;
   if (is_film) pliant::resample(animation, static_cast<pliant::Real>(arguments.fps));
@@ -66,6 +74,7 @@ Clip clip_of_scene(const RenderArguments& arguments) {
     std::fflush(stdout);  // before it takes its time
   }
   apply_appearance(arguments, scene.view);
+  check_turntable(arguments, scene.view);
   scene.simulation.set_stop(waits_no_longer);
   return pliant_render::clip_from_scene(scene, steps_a_frame(scene, arguments.fps), [&](std::int64_t step) {
     if (step % 16 == 0) show(arguments, fmt::format("simulating: step {} of {}", step, scene.steps));
@@ -116,7 +125,7 @@ class FrameDrawer {
   pliant_render::Image draw(std::size_t i) {
     show(arguments_, fmt::format("drawing: frame {} of {}", i + 1, chosen_.size()));
     const pliant_render::ClipFrame& frame = clip_.frames[chosen_[i]];
-    return maker_.draw(frame.content, frame.wind);
+    return maker_.draw(frame.content, frame.wind, frame.time);
   }
   /// What the frames show lasts [s].
   pliant::Real duration() const { return clip_.frames[chosen_.back()].time - clip_.frames[chosen_.front()].time; }
@@ -126,7 +135,17 @@ class FrameDrawer {
     pliant_render::PictureOptions options{clip_.appearance, static_cast<int>(arguments_.samples), bounds_of(clip_),
                                           ground_height(clip_), color_range(clip_)};
     options.appearance.size = size;
+    options.appearance.camera = camera_of(clip_, size);
+    if (arguments_.turntable) options.appearance.camera.turn_rate = turntable_rate();
     return options;
+  }
+  /// Once around from the first frame to the one that would follow the last, so that the film can go on from its start.
+  pliant::Real turntable_rate() const {
+    if (!(duration() > 0)) {
+      pliant::fail_input("--turntable: the frames are all of one time, there is no turning; give more --steps");
+    }
+    const auto frames = static_cast<pliant::Real>(count());
+    return 360 * (frames - 1) / frames / duration();
   }
 
   const RenderArguments& arguments_;
@@ -194,6 +213,9 @@ void check(const RenderArguments& arguments) {
   if (arguments.sheet && *format != pliant_render::FilmFormat::png) {
     pliant::fail_input("--sheet: the frames of a sheet are one picture; give --out a name that ends in .png");
   }
+  if (arguments.turntable && is_picture(arguments) && !arguments.sheet && arguments.frames.value_or(1) == 1) {
+    pliant::fail_input("--turntable: a single picture does not turn; give --sheet, --frames, or --out a film");
+  }
 }
 
 /// That pictures can be drawn and written there is known before anything is simulated.
@@ -246,6 +268,7 @@ void add_render_command(CLI::App& program, int& exit_code) {
   add_number(*command, "--frames", arguments->frames, {1, 100'000},
              "Number of frames, spread evenly; default: all for a film, the last for a picture");
   command->add_flag("--sheet", arguments->sheet, "All frames in one picture; default: 12 of them");
+  command->add_flag("--turntable", arguments->turntable, "The camera goes around once while the film lasts");
   command->add_flag("--quiet", arguments->quiet, "No progress");
   add_setting_options(*command, *arguments);
   add_simulated_import_options(*command, arguments->import);
@@ -253,7 +276,8 @@ void add_render_command(CLI::App& program, int& exit_code) {
       "Examples:\n"
       "  pliant render curtain_wind --out curtain.mp4\n"
       "  pliant render torus --out torus.png --frames 9 --sheet\n"
-      "  pliant render out/flag --out flag.webm --color stretch --size 1920x1080");
+      "  pliant render out/flag --out flag.webm --color stretch --size 1920x1080\n"
+      "  pliant render pillow --out pillow.webm --turntable");
   command->callback([arguments, &exit_code] { exit_code = render(*arguments); });
 }
 

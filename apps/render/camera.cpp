@@ -3,11 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
+
+#include <Eigen/Geometry>
 
 namespace pliant_render {
 namespace {
 
 constexpr float picture_margin = 1.12F;  // of the picture around what is in it
+// From the front, somewhat from the right and from above [degrees].
+constexpr pliant::Real default_azimuth = 24.2, default_elevation = 21;
 
 Vec3f to_float(const pliant::Vec3& x) {
   return x.cast<float>();
@@ -20,16 +25,41 @@ Vec3f upright(const Vec3f& up, const Vec3f& direction) {
   return result.normalized();
 }
 
-/// The nearest eye that sees all corners of the box in this direction: each edge of the picture asks for a distance.
-Vec3f fit(const Bounds& bounds, const Vec3f& forward, const Vec3f& up, float tan_x, float tan_y) {
-  const Vec3f right = forward.cross(up);
-  constexpr float lowest = -std::numeric_limits<float>::infinity();
-  float left_edge = lowest, right_edge = lowest, lower_edge = lowest, upper_edge = lowest;
+std::vector<Vec3f> corners_of(const Bounds& bounds) {
+  std::vector<Vec3f> corners;
   for (int corner = 0; corner < 8; ++corner) {
-    Vec3f p = bounds.low;
+    Vec3f& p = corners.emplace_back(bounds.low);
     for (int axis = 0; axis < 3; ++axis) {
       if ((corner >> axis & 1) != 0) p[axis] = bounds.high[axis];
     }
+  }
+  return corners;
+}
+
+/// A single point has no room around it.
+Bounds with_room(Bounds bounds) {
+  bounds.add(bounds.center() + Vec3f::Constant(1e-3F));
+  return bounds;
+}
+
+/// Where points get to that turn about an axis.
+std::vector<Vec3f> turned_around(const std::vector<Vec3f>& points, const Vec3f& center, const Vec3f& axis) {
+  constexpr int parts = 72;
+  std::vector<Vec3f> swept;
+  for (int part = 0; part < parts; ++part) {
+    const auto angle = static_cast<float>(2 * std::numbers::pi * part / parts);
+    const Eigen::Matrix3f turn = Eigen::AngleAxisf(angle, axis).toRotationMatrix();
+    for (const Vec3f& point : points) swept.emplace_back(center + turn * (point - center));
+  }
+  return swept;
+}
+
+/// The nearest eye that sees all points in this direction: each edge of the picture asks for a distance.
+Vec3f fit(const std::vector<Vec3f>& points, const Vec3f& forward, const Vec3f& up, float tan_x, float tan_y) {
+  const Vec3f right = forward.cross(up);
+  constexpr float lowest = -std::numeric_limits<float>::infinity();
+  float left_edge = lowest, right_edge = lowest, lower_edge = lowest, upper_edge = lowest;
+  for (const Vec3f& p : points) {
     const float x = p.dot(right), y = p.dot(up), depth = p.dot(forward);
     right_edge = std::max(right_edge, x - tan_x * depth);
     left_edge = std::max(left_edge, -x - tan_x * depth);
@@ -38,6 +68,26 @@ Vec3f fit(const Bounds& bounds, const Vec3f& forward, const Vec3f& up, float tan
   }
   const float depth = std::min(-(right_edge + left_edge) / (2 * tan_x), -(upper_edge + lower_edge) / (2 * tan_y));
   return (right_edge - left_edge) / 2 * right + (upper_edge - lower_edge) / 2 * up + depth * forward;
+}
+
+/// Moves the camera without turning it to where the points just fit into the picture, and looks at what is at the depth
+/// of `middle`.
+void fit_points(Viewpoint& view, const std::vector<Vec3f>& points, const Vec3f& middle, float aspect) {
+  const Vec3f forward = view.forward();
+  const float tan_y = std::tan(view.field_of_view / 2) / picture_margin;
+  const float free_width = 1 - std::min(std::abs(view.inset), 0.9F);
+  view.eye = fit(points, forward, view.up, tan_y * aspect * free_width, tan_y);
+  view.target = view.eye + (middle - view.eye).dot(forward) * forward;
+}
+
+/// From the eye to what it looks at, by azimuth and elevation, whatever is up.
+Vec3f direction_of(const pliant::Camera& camera, const Vec3f& up) {
+  const auto radians = [](pliant::Real degrees) { return static_cast<float>(degrees * std::numbers::pi / 180); };
+  const float azimuth = radians(camera.azimuth.value_or(default_azimuth));
+  const float elevation = radians(camera.elevation.value_or(default_elevation));
+  const Vec3f front = upright(std::abs(up.y()) < 0.9F ? Vec3f(0, -1, 0) : Vec3f(0, 0, 1), up);
+  const Vec3f side = std::cos(azimuth) * front + std::sin(azimuth) * up.cross(front);
+  return -(std::cos(elevation) * side + std::sin(elevation) * up);
 }
 
 }  // namespace
@@ -79,15 +129,19 @@ Viewpoint place_camera(const pliant::Camera& camera, const Bounds& given, float 
       view.target = view.eye + Vec3f(0, 1, 0);
     view.up = upright(up, view.forward());
   } else {
-    // From the front and the right and from above, whatever is up.
-    const Vec3f side = upright(std::abs(up.y()) < 0.9F ? Vec3f(0, -1, 0) : Vec3f(0, 0, 1), up);
-    const Vec3f forward = -(side + 0.45F * up.cross(side) + 0.42F * up).normalized();
+    const Vec3f forward = direction_of(camera, up);
     view.up = upright(up, forward);
     view.eye = bounds.center() - forward;
     view.target = bounds.center();
-    fit_into_picture(view, bounds, aspect);
+    const Vec3f target = camera.target ? to_float(*camera.target) : bounds.center();
+    std::vector<Vec3f> points = corners_of(with_room(bounds));
+    Vec3f middle = bounds.center();
+    if (camera.turn_rate != 0) {
+      points = turned_around(points, target, up);
+      middle = target + up.dot(middle - target) * up;
+    }
+    fit_points(view, points, middle, aspect);
     if (camera.target) {
-      const Vec3f target = to_float(*camera.target);
       view.eye += target - view.target;
       view.target = target;
     }
@@ -97,13 +151,7 @@ Viewpoint place_camera(const pliant::Camera& camera, const Bounds& given, float 
 }
 
 void fit_into_picture(Viewpoint& view, const Bounds& bounds, float aspect) {
-  const Vec3f forward = view.forward();
-  const float tan_y = std::tan(view.field_of_view / 2) / picture_margin;
-  const float free_width = 1 - std::min(std::abs(view.inset), 0.9F);
-  Bounds room = bounds;  // a single point has none
-  room.add(bounds.center() + Vec3f::Constant(1e-3F));
-  view.eye = fit(room, forward, view.up, tan_y * aspect * free_width, tan_y);
-  view.target = view.eye + (bounds.center() - view.eye).dot(forward) * forward;
+  fit_points(view, corners_of(with_room(bounds)), bounds.center(), aspect);
 }
 
 void set_depth_range(Viewpoint& view, const Bounds& bounds) {

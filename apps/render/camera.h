@@ -37,8 +37,9 @@ struct Viewpoint {
   Mat4f projection(float aspect) const;
 };
 
-/// Chooses what the scene leaves open so that the box fits into the picture: the target at its center, the position in
-/// front and somewhat above, as far away as necessary.
+/// Chooses what the scene leaves open so that the box fits into the picture: the target at its center, the position by
+/// azimuth and elevation, else in front and somewhat above, as far away as necessary; of a camera that turns, so far
+/// that the box stays in the picture all around. Keyframes are not looked at.
 Viewpoint place_camera(const pliant::Camera& camera, const Bounds& bounds, float aspect, float inset = 0);
 
 /// Moves the camera without turning it to where the box just fits into the picture.

@@ -8,6 +8,7 @@
 #include "pliant/forces/test_force.h"
 #include "pliant/forces/wind.h"
 #include "pliant/simulation/held.h"
+#include "render/choose_direction.h"
 #include "render/run_replay.h"
 #include "render/scalar_fields.h"
 
@@ -276,6 +277,18 @@ Bounds bounds_of(const Clip& clip) {
     bounds.add(here.high);
   }
   return bounds;
+}
+
+pliant::Camera camera_of(const Clip& clip, const std::array<pliant::Index, 2>& size) {
+  constexpr std::size_t most = 5;
+  std::vector<FrameContent> frames;
+  const std::size_t count = std::min(most, clip.frames.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const ClipFrame& frame = clip.frames[count == 1 ? 0 : i * (clip.frames.size() - 1) / (count - 1)];
+    frames.push_back(visible_part(frame.content, clip.appearance));
+  }
+  const float aspect = static_cast<float>(size[0]) / static_cast<float>(size[1]);
+  return choose_direction(clip.appearance.camera, clip.render_mesh, frames, bounds_of(clip), aspect);
 }
 
 float ground_height(const Clip& clip) {

@@ -5,15 +5,15 @@ namespace pliant_render {
 PictureMaker::PictureMaker(RenderMesh render_mesh, PictureOptions options)
     : options_(std::move(options)),
       target_(options_.appearance.size[0], options_.appearance.size[1], options_.samples),
+      legend_(make_legend(options_.appearance, options_.range, target_.width(), target_.height())),
+      camera_(options_.appearance.camera, options_.bounds,
+              static_cast<float>(target_.width()) / static_cast<float>(target_.height()),
+              legend_ ? legend_width(target_.height()) / static_cast<float>(target_.width()) : 0),
       renderer_(std::move(render_mesh)) {}
 
-Image PictureMaker::draw(const FrameContent& frame, const std::optional<WindAnnotation>& wind) {
-  const float aspect = static_cast<float>(target_.width()) / static_cast<float>(target_.height());
+Image PictureMaker::draw(const FrameContent& frame, const std::optional<WindAnnotation>& wind, pliant::Real time) {
   DrawOptions options;
-  const std::optional<Legend> colors =
-      make_legend(options_.appearance, options_.range, target_.width(), target_.height());
-  options.viewpoint = place_camera(options_.appearance.camera, options_.bounds, aspect,
-                                   colors ? legend_width(target_.height()) / static_cast<float>(target_.width()) : 0);
+  options.viewpoint = camera_.at(time);
   options.range = options_.range;
   options.quality = options_.appearance.quality;
   options.ground_height = options_.ground_height;
@@ -29,7 +29,7 @@ Image PictureMaker::draw(const FrameContent& frame, const std::optional<WindAnno
   target_.begin();
   renderer_.draw(options_.appearance, options, width, height);
   target_.resolve();
-  overlay_.draw(options_.appearance, options.viewpoint, colors, wind, target_.width(), target_.height());
+  overlay_.draw(options_.appearance, options.viewpoint, legend_, wind, target_.width(), target_.height());
   return target_.read();
 }
 

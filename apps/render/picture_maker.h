@@ -2,6 +2,7 @@
 // Makes pictures of frames without a window: OpenGL context, renderer and annotations in one.
 #include <memory>
 
+#include "render/camera_path.h"
 #include "render/image.h"
 #include "render/offscreen_context.h"
 #include "render/overlay.h"
@@ -25,12 +26,15 @@ class PictureMaker {
 
   const std::string& driver() const { return context_.renderer(); }
   int samples() const { return target_.samples(); }  ///< fewer than asked for where the driver has no more
-  Image draw(const FrameContent& frame, const std::optional<WindAnnotation>& wind);
+  /// time: at which the camera is there [s]
+  Image draw(const FrameContent& frame, const std::optional<WindAnnotation>& wind, pliant::Real time = 0);
 
  private:
   PictureOptions options_;
   OffscreenContext context_;
   RenderTarget target_;
+  std::optional<Legend> legend_;
+  CameraPath camera_;
   Renderer renderer_;
   Overlay overlay_;
 };

@@ -9,6 +9,8 @@
 
 #include "pliant/core/error.h"
 #include "pliant/core/stopwatch.h"
+#include "render/camera_path.h"
+#include "render/choose_direction.h"
 #include "viewer/gizmos.h"
 #include "viewer/live_scene.h"
 
@@ -21,15 +23,25 @@ using pliant_render::Viewpoint;
 constexpr double most_frames_a_second = 60;
 constexpr double idle_turn = 0.25;  // [s]
 
-Viewpoint first_viewpoint(const ViewSource& source, const pliant::ViewSettings& appearance, const Vec2f& size) {
-  if (const auto known = source.known_bounds()) return place_camera(appearance.camera, *known, size.x() / size.y());
+/// Around all frames where they are known, else around the first and room for motion, whose direction is not known yet.
+Bounds first_bounds(const ViewSource& source, const pliant::ViewSettings& appearance) {
+  if (const auto known = source.known_bounds()) return *known;
   Bounds bounds = bounds_of(source.frame().content, appearance);
   if (bounds.is_empty()) bounds.add(Vec3f::Zero());
-  // Leave room for motion, whose direction is not known yet.
   const Vec3f room = Vec3f::Constant(0.12F * bounds.radius());
   bounds.add(bounds.low - room);
   bounds.add(bounds.high + room);
-  return place_camera(appearance.camera, bounds, size.x() / size.y());
+  return bounds;
+}
+
+/// As the scene has it at the start; from there on the mouse moves it.
+Viewpoint first_viewpoint(const ViewSource& source, const pliant::ViewSettings& appearance, const Vec2f& size) {
+  const Bounds bounds = first_bounds(source, appearance);
+  const float aspect = size.x() / size.y();
+  const pliant_render::FrameContent frame = visible_part(source.frame().content, appearance);
+  const pliant::Camera camera =
+      choose_direction(appearance.camera, *source.render_mesh(), std::span(&frame, 1), bounds, aspect);
+  return pliant_render::CameraPath(camera, bounds, aspect).at(source.frame().time);
 }
 
 /// A magnitude that few values exceed, so that single vertices beside pins do not take the whole range of colors.

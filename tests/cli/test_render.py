@@ -1,4 +1,5 @@
 """pliant render, as its users meet it: pictures and films of scenes and runs, without a display."""
+import json
 import os
 import pathlib
 import shutil
@@ -109,6 +110,35 @@ class Render(unittest.TestCase):
         width, height, _ = read_png(self.folder / "sheet.png")
         self.assertEqual((width, height), (2 * 32 + 3 * 2, 2 * 24 + 3 * 2))
 
+    def test_a_turntable_goes_around_once(self):
+        # All is held, so that nothing but the camera moves.
+        scene = {"pliant": 1, "steps": 6, "settings": {"time_step": 0.125}, "gravity": None,
+                 "bodies": [{"mesh": {"shape": "grid", "columns": 3, "rows": 3, "plane": "xz"}, "mass": {"total": 1}}],
+                 "view": {"shadow": False, "ground": False, "camera": {"azimuth": 0, "elevation": 0}}}
+        (self.folder / "still.json").write_text(json.dumps(scene))
+        options = ("--size", "96x96", "--frames", 4, "--fps", 8)
+
+        def widths(*more):
+            self.render("still.json", "--out", "t.png", *options, *more)
+            pictures = [read_png(self.folder / f"t-000{i}.png")[2] for i in range(4)]
+            background = bytes(pictures[0][0][:3])
+            return [sum(bytes(rows[48][i:i + 3]) != background for i in range(0, 3 * 96, 3)) for rows in pictures]
+
+        still = widths()
+        self.assertEqual(still, [still[0]] * 4)
+        front, side, back, other_side = widths("--turntable")
+        self.assertGreater(front, 30)
+        self.assertLess(side, 4)
+        self.assertAlmostEqual(back, front, delta=2)
+        self.assertLess(other_side, 4)
+        moved = ["--set", 'view.camera={"keyframes": [{"time": 0, "position": [0.5, -9, 0.5], "target": [0.5, 0, 0.5]}, '
+                          '{"time": 0.75, "position": [0.5, -3, 0.5], "target": [0.5, 0, 0.5]}]}']
+        nearer = widths(*moved)
+        self.assertEqual(nearer, sorted(nearer))
+        self.assertGreater(nearer[3], 2 * nearer[0])
+        self.assertIn("--turntable: the camera of the scene goes through keyframes",
+                      self.render("still.json", "--out", "t.png", *options, *moved, "--turntable", expect=2).stderr)
+
     def test_films_have_a_frame_for_every_thirtieth_of_a_second(self):
         if shutil.which("ffmpeg") is None or shutil.which("ffprobe") is None:
             self.skipTest("ffmpeg is not installed")
@@ -175,7 +205,9 @@ class Render(unittest.TestCase):
                                (["--out", "c.png", "--fps", "2.5"], "--fps: '2.5' is not a number of that kind; give a whole"),
                                (["--out", "c.png", "--samples", "99"], "--samples: '99' is out of range; give a whole"),
                                (["--out", "c.png", "--frames", "0"], "--frames: '0' is out of range; give a whole"),
-                               (["--out", "c.mp4", "--sheet"], "--sheet: the frames of a sheet are one picture")):
+                               (["--out", "c.mp4", "--sheet"], "--sheet: the frames of a sheet are one picture"),
+                               (["--out", "c.png", "--turntable"], "--turntable: a single picture does not turn"),
+                               (["--out", "c.mp4", "--steps", "0", "--turntable"], "--turntable: the frames are all")):
             with self.subTest(words):
                 self.assertIn(message, self.render("chain", *words, expect=2).stderr)
         self.assertIn("neither a file nor a built-in scene", self.render("chian", "--out", "c.png", expect=2).stderr)

@@ -126,6 +126,7 @@ TEST_CASE("the tables list every option") {
   check_rows<OutputSettings>();
   check_rows<ViewSettings>();
   check_rows<Camera>();
+  check_rows<CameraKeyframe>();
   check_rows<ImportOptions>();
   check_shape<GridOptions>();
   check_shape<PanelOptions>();

@@ -1,7 +1,12 @@
+#include <numbers>
+#include <span>
+
 #include <doctest/doctest.h>
 
 #include "../core/random.h"
-#include "render/camera.h"
+#include "pliant/mesh/shapes.h"
+#include "render/camera_path.h"
+#include "render/choose_direction.h"
 
 namespace test_camera {
 
@@ -105,6 +110,147 @@ TEST_CASE("a target alone is in the middle as well, and nothing is divided by ze
     CHECK(view.view().allFinite());
     CHECK(view.projection(1).allFinite());
   }
+}
+
+TEST_CASE("azimuth and elevation say from where it looks, whatever is up") {
+  Bounds box;
+  box.add({-1, -1, -1});
+  box.add({1, 1, 1});
+  pliant::Camera camera;
+  const auto from = [&](pliant::Real azimuth, pliant::Real elevation) -> Vec3f {
+    camera.azimuth = azimuth;
+    camera.elevation = elevation;
+    return -place_camera(camera, box, 1).forward();
+  };
+  CHECK((from(0, 0) - Vec3f(0, -1, 0)).norm() < 1e-5F);
+  CHECK((from(90, 0) - Vec3f(1, 0, 0)).norm() < 1e-5F);
+  CHECK((from(180, 0) - Vec3f(0, 1, 0)).norm() < 1e-5F);
+  CHECK((from(90, 30) - Vec3f(std::sqrt(3.0F) / 2, 0, 0.5F)).norm() < 1e-5F);
+  camera.up = pliant::Vec3(0, 2, 0);
+  CHECK((from(0, 0) - Vec3f(0, 0, 1)).norm() < 1e-5F);
+  CHECK((from(90, 0) - Vec3f(1, 0, 0)).norm() < 1e-5F);
+  CHECK(from(0, 80).y() == doctest::Approx(std::sin(80 * std::numbers::pi / 180)));
+}
+
+TEST_CASE("a camera that turns keeps its height and distance, has all in the picture, and is back after a turn") {
+  Random random;
+  for (int i = 0; i < 60; ++i) {
+    const Bounds box = random_box(random);
+    const auto aspect = static_cast<float>(random.uniform(0.4, 2.5));
+    pliant::Camera camera;
+    camera.turn_rate = random.uniform(5, 90) * (i % 2 == 0 ? 1 : -1);
+    if (i % 3 == 0) camera.up = random.unit_vector();
+    const CameraPath path(camera, box, aspect);
+    const Vec3f up = camera.up.cast<float>().normalized();
+    const Viewpoint start = path.at(0);
+    for (const double turn : {0.0, 0.1, 0.25, 0.6}) {
+      const Viewpoint view = path.at(360 * turn / std::abs(camera.turn_rate));
+      const Bounds seen = in_picture(view, aspect, box);
+      CHECK(seen.low.head<2>().minCoeff() > -1);
+      CHECK(seen.high.head<2>().maxCoeff() < 1);
+      CHECK(seen.low.z() > -1);
+      CHECK(seen.high.z() < 1);
+      const Vec3f way = view.eye - start.eye;
+      CHECK(std::abs(way.dot(up)) < 1e-3F * box.radius());
+      CHECK((view.eye - box.center()).norm() == doctest::Approx((start.eye - box.center()).norm()).epsilon(1e-3));
+    }
+    const Viewpoint end = path.at(360 / camera.turn_rate);
+    CHECK((end.eye - start.eye).norm() < 1e-3F * (start.eye - box.center()).norm());
+  }
+  pliant::Camera camera;
+  camera.position = pliant::Vec3(0, -4, 1);
+  camera.target = pliant::Vec3(0, 0, 1);
+  camera.turn_rate = 45;
+  Bounds box;
+  box.add({-1, -1, 0});
+  box.add({1, 1, 2});
+  CHECK((CameraPath(camera, box, 1).at(2).eye - Vec3f(4, 0, 1)).norm() < 1e-4F);
+}
+
+TEST_CASE("keyframes are met, nothing swings past them, and it moves smoothly from one to the next") {
+  pliant::Camera camera;
+  camera.target = pliant::Vec3(0, 0, 0);
+  camera.keyframes = {{.time = 1, .position = {0, -4, 1}},
+                      {.time = 2, .position = {4, 0, 1}, .field_of_view = 20},
+                      {.time = 2.5, .position = {4, 0, 3}, .target = pliant::Vec3(0, 0, 2)},
+                      {.time = 6, .position = {9, 0, 3}}};
+  Bounds box;
+  box.add({-1, -1, -1});
+  box.add({1, 1, 1});
+  const CameraPath path(camera, box, 1.5F);
+  for (const pliant::CameraKeyframe& each : camera.keyframes) {
+    const Viewpoint view = path.at(each.time);
+    CHECK((view.eye - each.position.cast<float>()).norm() < 1e-5F);
+    CHECK((view.target - each.target.value_or(pliant::Vec3::Zero()).cast<float>()).norm() < 1e-5F);
+    CHECK(view.field_of_view == doctest::Approx(each.field_of_view.value_or(40) * std::numbers::pi / 180));
+  }
+  CHECK((path.at(0).eye - path.at(1).eye).norm() == 0);
+  CHECK((path.at(60).eye - path.at(6).eye).norm() == 0);
+  Vec3f before = path.at(1).eye, step = Vec3f::Zero();
+  for (int i = 1; i <= 5000; ++i) {
+    const Vec3f eye = path.at(1 + i / 1000.0).eye;
+    CHECK_MESSAGE((eye - before - step).norm() < 1e-4F, i);  // the speed has no jumps
+    step = eye - before;
+    before = eye;
+    CHECK_MESSAGE((eye.array() >= Eigen::Array3f(0, -4, 1) && eye.array() <= Eigen::Array3f(9, 0, 3)).all(), i);
+  }
+}
+
+/// A sheet that stands upright, its normal turned about z from the front by these degrees.
+struct Screen {
+  RenderMesh render_mesh;
+  FrameContent frame;
+
+  explicit Screen(float degrees) {
+    pliant::Mesh mesh = pliant::grid({.columns = 5, .rows = 5, .size = {1, 1}});
+    const Eigen::Matrix3f turn =
+        Eigen::AngleAxisf(degrees * std::numbers::pi_v<float> / 180, Vec3f::UnitZ()).toRotationMatrix();
+    for (pliant::Index i = 0; i < mesh.vertex_count(); ++i) {
+      const Vec3f x = mesh.vertices.row(i).transpose().cast<float>();
+      frame.positions.push_back(turn * Vec3f(x.x() - 0.5F, 0, x.y() + x.z() - 0.5F));
+    }
+    render_mesh = make_render_mesh({{"sheet", mesh, 0}});
+  }
+
+  pliant::Camera choose(const pliant::Camera& camera = {}) const {
+    return choose_direction(camera, render_mesh, std::span(&frame, 1), bounds_of(frame.positions), 1.5F);
+  }
+};
+
+TEST_CASE("an open camera looks from where most of the bodies is seen") {
+  CHECK(Screen(24).choose().azimuth == 24.2);
+  CHECK(Screen(-24).choose().azimuth == -24.2);
+  CHECK(Screen(80).choose().azimuth == 65.8);
+  CHECK(Screen(-80).choose().azimuth == -65.8);
+  CHECK(Screen(0).choose().azimuth == 24.2);  // as much as from the other side: the first
+  CHECK(Screen(0).choose().elevation == 21);
+
+  pliant::Camera given;
+  given.elevation = 5;
+  CHECK(Screen(-80).choose(given).elevation == 5);
+  CHECK_FALSE(Screen(-80).choose(given).azimuth.has_value());
+  given = {.position = pliant::Vec3(1, 1, 1)};
+  CHECK_FALSE(Screen(-80).choose(given).azimuth.has_value());
+
+  Screen lying(0);
+  for (Vec3f& x : lying.frame.positions) x = Vec3f(x.x(), x.z(), 0);
+  CHECK(lying.choose().elevation == 38);
+}
+
+TEST_CASE("what is held does not count, and hides what is behind it") {
+  Screen screen(0);
+  for (std::uint32_t i = 0; i < screen.frame.positions.size(); ++i) screen.frame.held.push_back(i);
+  CHECK(screen.choose().azimuth == 24.2);  // nothing is seen from anywhere
+
+  // A held wall on the right of the sheet, which the first direction looks through.
+  Screen both(0), wall(90);
+  pliant::Mesh mesh = pliant::grid({.columns = 5, .rows = 5, .size = {1, 1}});
+  both.render_mesh = make_render_mesh({{"sheet", mesh, 0}, {"wall", mesh, 25}});
+  for (const Vec3f& x : wall.frame.positions) {
+    both.frame.held.push_back(static_cast<std::uint32_t>(both.frame.positions.size()));
+    both.frame.positions.push_back(x * 1.5F + Vec3f(0.55F, -0.5F, 0));
+  }
+  CHECK(both.choose().azimuth == -24.2);
 }
 
 }  // namespace test_camera

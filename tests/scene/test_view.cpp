@@ -58,6 +58,23 @@ TEST_CASE("every key of a view") {
   CHECK(with_view("{}").view.colliders);
 }
 
+TEST_CASE("a camera by its direction, that turns, or goes through keyframes") {
+  const Camera turning = with_view(R"({"camera": {"azimuth": 200, "elevation": -10, "turn_rate": -36}})").view.camera;
+  CHECK(turning.azimuth == 200);
+  CHECK(turning.elevation == -10);
+  CHECK(turning.turn_rate == -36);
+  CHECK(turning.keyframes.empty());
+  const Camera moving = with_view(R"({"camera": {"keyframes": [{"time": 0, "position": [1, 2, 3]},
+    {"time": 0.5, "position": [2, 2, 3], "target": [0, 1, 0], "field_of_view": 20}]}})")
+                            .view.camera;
+  REQUIRE(moving.keyframes.size() == 2);
+  CHECK(moving.keyframes[0].position == Vec3(1, 2, 3));
+  CHECK_FALSE(moving.keyframes[0].target.has_value());
+  CHECK(moving.keyframes[1].time == 0.5);
+  CHECK(moving.keyframes[1].target.value_or(Vec3::Zero()) == Vec3(0, 1, 0));
+  CHECK(moving.keyframes[1].field_of_view.value_or(0) == 20);
+}
+
 TEST_CASE("keys of 0.1.0 are read, with a warning that names both") {
   const auto scene = [](const std::string& view, const SceneOverrides& overrides = {}) {
     return parse_scene(R"({"pliant": 1, "view": )" + view + R"(, "bodies": [{"mesh": {"shape": "chain", "links": 2},
@@ -105,6 +122,21 @@ TEST_CASE("a view that cannot be drawn") {
   check(R"({"camera": {"position": [1, 1, 1], "target": [1, 1, 1]}})", ".camera: the camera stands at its target");
   check(R"({"camera": {"position": [0, 0, 9], "target": [0, 0, 1]}})", ".camera: the camera looks along its up");
   check(R"({"camera": {"positon": [0, 0, 9]}})", ".camera.positon: unknown key");
+  check(R"({"camera": {"elevation": 90}})", ".camera.elevation: 90 is out of range");
+  check(R"({"camera": {"position": [1, 1, 1], "azimuth": 20}})",
+        ".camera.azimuth: 'position' says already where the camera is; keep one of the two");
+  const std::string here = R"({"time": 0, "position": [1, 1, 1]})";
+  check(R"({"camera": {"turn_rate": 5, "keyframes": [)" + here + "]}}",
+        ".camera.turn_rate: 'keyframes' says already where the camera is");
+  check(R"({"camera": {"keyframes": {}}})", ".camera.keyframes: found an object; give a list");
+  check(R"({"camera": {"keyframes": [{"time": 1}]}})", ".camera.keyframes[0]: the key 'position' is missing");
+  check(R"({"camera": {"keyframes": [{"position": [0, 0, 1]}]}})", ".camera.keyframes[0]: the key 'time' is missing");
+  check(R"({"camera": {"keyframes": [{"time": 1, "position": [0, 0, 1], "fov": 3}]}})",
+        ".camera.keyframes[0].fov: unknown key");
+  check(R"({"camera": {"keyframes": [)" + here + ", " + here + "]}}",
+        ".camera.keyframes[1].time: 0 s is not later than the keyframe before, 0 s; give them in order of time");
+  check(R"({"camera": {"target": [1, 1, 1], "keyframes": [)" + here + "]}}",
+        ".camera.keyframes[0]: the camera stands at its target");
   check(R"({"color_range": [2, 1]})", ".color_range: the first value is not below the second");
   check(R"({"wireframe": 1})", ".wireframe: found a number; give true or false");
   check(R"({"size": [10, 480]})", ".size[0]: 10 is out of range");

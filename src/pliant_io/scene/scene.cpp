@@ -27,23 +27,57 @@ std::vector<std::string> all_names(std::vector<std::string> names, std::vector<s
   return names;
 }
 
+/// Refuses a camera that looks nowhere, or has what is up before or behind it.
+void check_direction(const Node& node, const Vec3& position, const Vec3& target, const Vec3& up) {
+  const Vec3 direction = target - position;
+  if (!(direction.stableNorm() > 0)) node.fail("the camera stands at its target; move one of the two");
+  if (!(direction.stableNormalized().cross(up.stableNormalized()).norm() > 1e-9)) {
+    node.fail("the camera looks along its up direction; give another");
+  }
+}
+
+void check_keyframes(const Node& node, const Camera& camera) {
+  for (std::size_t i = 0; i < camera.keyframes.size(); ++i) {
+    const CameraKeyframe& each = camera.keyframes[i];
+    const Node entry = node[i];
+    if (const Node time = entry.require("time"); i > 0 && !(each.time > camera.keyframes[i - 1].time)) {
+      time.fail(fmt::format("{} s is not later than the keyframe before, {} s; give them in order of time", each.time,
+                            camera.keyframes[i - 1].time));
+    }
+    entry.require("position");
+    const std::optional<Vec3> target = each.target ? each.target : camera.target;
+    if (target) check_direction(entry, each.position, *target, camera.up);
+  }
+}
+
+void check_camera(const Node& node, const Camera& camera) {
+  const auto refuse_beside = [&node](std::string_view given, std::initializer_list<std::string_view> others) {
+    for (const std::string_view other : others) {
+      if (const auto found = node.find(other)) {
+        found->fail(fmt::format("'{}' says already where the camera is; keep one of the two", given));
+      }
+    }
+  };
+  if (camera.position) {
+    refuse_beside("position", {"azimuth", "elevation"});
+    if (camera.target) check_direction(node, *camera.position, *camera.target, camera.up);
+  }
+  if (!camera.keyframes.empty()) {
+    refuse_beside("keyframes", {"position", "azimuth", "elevation", "turn_rate"});
+    check_keyframes(node.require("keyframes"), camera);
+  }
+}
+
 /// What no option can tell by itself.
 void check_view(const Node& node, const ViewSettings& view) {
   const auto refuse_zero = [](const Node& parent, std::string_view key, const Vec3& direction) {
     if (direction.stableNorm() > 0) return;
     parent.find(key).value_or(parent).fail("the direction has length 0; give another");
   };
-  const Camera& camera = view.camera;
-  const Node camera_node = node.find("camera").value_or(node);
-  refuse_zero(camera_node, "up", camera.up);
+  const std::optional<Node> camera = node.find("camera");
+  refuse_zero(camera.value_or(node), "up", view.camera.up);
   refuse_zero(node, "light", view.light);
-  if (camera.position && camera.target) {
-    const Vec3 direction = *camera.target - *camera.position;
-    if (!(direction.stableNorm() > 0)) camera_node.fail("the camera stands at its target; move one of the two");
-    if (!(direction.stableNormalized().cross(camera.up.stableNormalized()).norm() > 1e-9)) {
-      camera_node.fail("the camera looks along its up direction; give another");
-    }
-  }
+  if (camera) check_camera(*camera, view.camera);
   if (view.color_range && !((*view.color_range)[0] < (*view.color_range)[1])) {
     node.require("color_range").fail("the first value is not below the second; give [low, high]");
   }

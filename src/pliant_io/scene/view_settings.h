@@ -4,25 +4,9 @@
 #include <optional>
 
 #include "pliant_io/scene/body_appearance.h"
+#include "pliant_io/scene/camera.h"
 
 namespace pliant {
-
-struct Camera {
-  std::optional<Vec3> position{};  ///< [m]; none: where all that moves is in the picture
-  std::optional<Vec3> target{};    ///< [m]; none: the middle of the bodies
-  Vec3 up{0, 0, 1};                ///< direction that is up in the picture, of any length but zero
-  Real field_of_view = 40;         ///< [degrees], from the lower edge of the picture to the upper, 1 to 170
-
-  template <class Self, class Visitor>
-  static void visit(Self& self, Visitor&& field) {
-    field(OptionInfo{"position", "m", "where it stands; default: where all that moves is in the picture"},
-          self.position);
-    field(OptionInfo{"target", "m", "what it looks at; default: the middle of the bodies"}, self.target);
-    field(OptionInfo{"up", "", "direction that is up in the picture, of any length but zero"}, self.up);
-    field(OptionInfo{"field_of_view", "degrees", "from the lower edge of the picture to the upper", Range{1, 170}},
-          self.field_of_view);
-  }
-};
 
 /// What the color of a surface tells.
 enum class ColorBy { none, stretch, energy, speed, gap, contact_force };
