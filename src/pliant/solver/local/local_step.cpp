@@ -26,6 +26,32 @@ std::size_t slots_of(const ConstraintGroup& group) {
   return static_cast<std::size_t>(takes_forces(group) ? group.shape().vertices : group.shape().rows);
 }
 
+/// Between begin_local_step() and end_local_step() of every group.
+class OpenLocalStep {
+ public:
+  OpenLocalStep(std::span<ConstraintGroup* const> groups, const Positions& q) : groups_(groups) {
+    for (; begun_ < groups.size(); ++begun_) {
+      try {
+        groups[begun_]->begin_local_step(q);
+      } catch (...) {
+        end();
+        throw;
+      }
+    }
+  }
+  ~OpenLocalStep() { end(); }
+  OpenLocalStep(const OpenLocalStep&) = delete;
+  OpenLocalStep& operator=(const OpenLocalStep&) = delete;
+
+ private:
+  void end() const {
+    for (ConstraintGroup* group : groups_.first(begun_)) group->end_local_step();
+  }
+
+  std::span<ConstraintGroup* const> groups_;
+  std::size_t begun_ = 0;
+};
+
 /// The larger one; NaN when one is NaN, so that no tolerance is ever reached with it.
 Real larger(Real a, Real b) {
   return a > b || std::isnan(a) ? a : b;
@@ -189,10 +215,13 @@ LocalResult LocalStep::run(const Positions& q, const Positions& s, std::span<con
   const Stopwatch projections;
   slots_.resize(static_cast<std::size_t>(threads.thread_count()));
   for (std::vector<Real>& slots : slots_) slots.resize(3 * most_chunk_slots);
-  threads.parallel_for(static_cast<Index>(chunks_.size()), [&](Index i, int thread) {
-    const auto chunk = static_cast<std::size_t>(i);
-    chunk_energies_[chunk] = project(chunks_[chunk], q, slots_[static_cast<std::size_t>(thread)]);
-  });
+  {
+    const OpenLocalStep open(groups_, q);
+    threads.parallel_for(static_cast<Index>(chunks_.size()), [&](Index i, int thread) {
+      const auto chunk = static_cast<std::size_t>(i);
+      chunk_energies_[chunk] = project(chunks_[chunk], q, slots_[static_cast<std::size_t>(thread)]);
+    });
+  }
   still_linear();
   result.seconds_projections = projections.seconds();
   const auto vertex_count = static_cast<Index>(q.rows());
