@@ -40,7 +40,7 @@ Next:
   see the other scenes and options:
     $pliant scenes
     $pliant run --help
-  build the rest (pliant sweep, experiment and bench, the tests):
+  build the rest (pliant sweep, experiment, plot and bench, the tests):
     cmake --preset release && cmake --build --preset release
 EOF
 

@@ -10,9 +10,9 @@
 
 namespace pliant_cli {
 
-/// Whether bench, sweep and experiment are part of the program (PLIANT_BUILD_STUDIES).
+/// Whether bench, sweep, experiment and plot are part of the program (PLIANT_BUILD_STUDIES).
 inline constexpr bool has_studies = PLIANT_HAS_STUDIES;
-inline constexpr std::array<std::string_view, 3> study_commands = {"bench", "sweep", "experiment"};
+inline constexpr std::array<std::string_view, 4> study_commands = {"bench", "sweep", "experiment", "plot"};
 
 inline constexpr int exit_interrupted = 130;
 inline constexpr std::size_t message_limit = 900;  // bytes of a message on the terminal
@@ -26,6 +26,7 @@ void add_bench_command(CLI::App& program);
 void add_convert_command(CLI::App& program);
 void add_experiment_command(CLI::App& program, int& exit_code);
 void add_info_command(CLI::App& program);
+void add_plot_command(CLI::App& program);
 void add_render_command(CLI::App& program, int& exit_code);
 void add_view_command(CLI::App& program, int& exit_code);
 void add_resume_command(CLI::App& program, int& exit_code);

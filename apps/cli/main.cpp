@@ -137,6 +137,7 @@ void add_commands(CLI::App& program, int& exit_code) {
   if constexpr (pliant_cli::has_studies) {
     pliant_cli::add_sweep_command(program, exit_code);
     pliant_cli::add_experiment_command(program, exit_code);
+    pliant_cli::add_plot_command(program);
   }
   pliant_cli::add_render_command(program, exit_code);
   pliant_cli::add_view_command(program, exit_code);
