@@ -25,7 +25,11 @@ Vec3f upright(const Vec3f& up, const Vec3f& direction) {
   return result.normalized();
 }
 
-std::vector<Vec3f> corners_of(const Bounds& bounds) {
+/// What has to fit into the picture. A single point has no room around it.
+std::vector<Vec3f> points_of(const Bounds& given) {
+  if (!given.outline.empty() && given.radius() > 0) return given.outline;
+  Bounds bounds = given;
+  bounds.add(bounds.center() + Vec3f::Constant(1e-3F));
   std::vector<Vec3f> corners;
   for (int corner = 0; corner < 8; ++corner) {
     Vec3f& p = corners.emplace_back(bounds.low);
@@ -34,12 +38,6 @@ std::vector<Vec3f> corners_of(const Bounds& bounds) {
     }
   }
   return corners;
-}
-
-/// A single point has no room around it.
-Bounds with_room(Bounds bounds) {
-  bounds.add(bounds.center() + Vec3f::Constant(1e-3F));
-  return bounds;
 }
 
 /// Where points get to that turn about an axis.
@@ -134,7 +132,7 @@ Viewpoint place_camera(const pliant::Camera& camera, const Bounds& given, float 
     view.eye = bounds.center() - forward;
     view.target = bounds.center();
     const Vec3f target = camera.target ? to_float(*camera.target) : bounds.center();
-    std::vector<Vec3f> points = corners_of(with_room(bounds));
+    std::vector<Vec3f> points = points_of(bounds);
     Vec3f middle = bounds.center();
     if (camera.turn_rate != 0) {
       points = turned_around(points, target, up);
@@ -151,7 +149,7 @@ Viewpoint place_camera(const pliant::Camera& camera, const Bounds& given, float 
 }
 
 void fit_into_picture(Viewpoint& view, const Bounds& bounds, float aspect) {
-  fit_points(view, corners_of(with_room(bounds)), bounds.center(), aspect);
+  fit_points(view, points_of(bounds), bounds.center(), aspect);
 }
 
 void set_depth_range(Viewpoint& view, const Bounds& bounds) {

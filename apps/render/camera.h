@@ -1,5 +1,7 @@
 #pragma once
 // From the scene's camera to matrices, and the automatic camera.
+#include <vector>
+
 #include "pliant_io/scene/view_settings.h"
 #include "render/gl_objects.h"
 
@@ -9,6 +11,7 @@ namespace pliant_render {
 struct Bounds {
   Vec3f low = Vec3f::Constant(std::numeric_limits<float>::infinity());
   Vec3f high = -low;
+  std::vector<Vec3f> outline{};  ///< points of what is in it that lie furthest out; none: the corners of the box
 
   void add(const Vec3f& point) {
     if (!point.allFinite()) return;  // beyond the range of single precision
@@ -37,12 +40,12 @@ struct Viewpoint {
   Mat4f projection(float aspect) const;
 };
 
-/// Chooses what the scene leaves open so that the box fits into the picture: the target at its center, the position by
-/// azimuth and elevation, else in front and somewhat above, as far away as necessary; of a camera that turns, so far
-/// that the box stays in the picture all around. Keyframes are not looked at.
+/// Chooses what the scene leaves open so that the outline fits into the picture: the target at its center, the position
+/// by azimuth and elevation, else in front and somewhat above, as far away as necessary; of a camera that turns, so far
+/// that it stays in the picture all around. Keyframes are not looked at.
 Viewpoint place_camera(const pliant::Camera& camera, const Bounds& bounds, float aspect, float inset = 0);
 
-/// Moves the camera without turning it to where the box just fits into the picture.
+/// Moves the camera without turning it to where the outline just fits into the picture.
 void fit_into_picture(Viewpoint& view, const Bounds& bounds, float aspect);
 /// Chooses near and far planes that enclose the box and the ground around it, wherever the eye is.
 void set_depth_range(Viewpoint& view, const Bounds& bounds);

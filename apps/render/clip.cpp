@@ -9,6 +9,7 @@
 #include "pliant/forces/wind.h"
 #include "pliant/simulation/held.h"
 #include "render/choose_direction.h"
+#include "render/outline.h"
 #include "render/run_replay.h"
 #include "render/scalar_fields.h"
 
@@ -270,13 +271,9 @@ Clip clip_from_animation(pliant::Animation animation, const pliant::ViewSettings
 }
 
 Bounds bounds_of(const Clip& clip) {
-  Bounds bounds;
-  for (const ClipFrame& frame : clip.frames) {
-    const Bounds here = bounds_of(frame.content, clip.appearance);
-    bounds.add(here.low);
-    bounds.add(here.high);
-  }
-  return bounds;
+  Outline outline;
+  for (const ClipFrame& frame : clip.frames) outline.add(frame.content, clip.appearance);
+  return outline.bounds();
 }
 
 pliant::Camera camera_of(const Clip& clip, const std::array<pliant::Index, 2>& size) {

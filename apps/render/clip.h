@@ -84,7 +84,7 @@ class RunFrames {
 Clip clip_from_animation(pliant::Animation animation, const pliant::ViewSettings& appearance,
                          RunAnnotations annotations = {});
 
-/// The box around all frames.
+/// The box around all frames, with its outline.
 Bounds bounds_of(const Clip& clip);
 /// The camera for a picture of this size, its direction chosen by frames all over the clip where the scene leaves it
 /// open.

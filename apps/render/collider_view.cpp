@@ -65,19 +65,21 @@ std::optional<float> floor_height(const std::vector<DrawnCollider>& colliders) {
   return height;
 }
 
-void add_colliders(const std::vector<DrawnCollider>& colliders, Bounds& bounds) {
-  const Bounds bodies = bounds;
+std::vector<Vec3f> collider_points(const std::vector<DrawnCollider>& colliders, const Bounds& bodies) {
+  std::vector<Vec3f> points;
   for (const DrawnCollider& each : colliders) {
     if (!each.surface->shape->is_bounded()) continue;
     const Mat4f place = matrix_of(each.pose);
+    const std::size_t first = points.size();
     Bounds box;
     for (const Vec3f& point : each.surface->points) {
-      box.add(place.topLeftCorner<3, 3>() * point + place.topRightCorner<3, 1>());
+      points.emplace_back(place.topLeftCorner<3, 3>() * point + place.topRightCorner<3, 1>());
+      box.add(points.back());
     }
-    if (box.is_empty() || (!bodies.is_empty() && box.radius() > most_radii * bodies.radius())) continue;
-    bounds.add(box.low);
-    bounds.add(box.high);
+    const bool is_large = !bodies.is_empty() && box.radius() > most_radii * bodies.radius();
+    if (box.is_empty() || is_large) points.resize(first);
   }
+  return points;
 }
 
 }  // namespace pliant_render

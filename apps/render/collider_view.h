@@ -41,9 +41,9 @@ class ColliderSurfaces {
   std::map<const pliant::ColliderShape*, std::shared_ptr<const ColliderSurface>> surfaces_;
 };
 
-/// Adds what the camera should see of colliders beside bodies in a box: all of each, but for what has no end, and what
-/// is so large beside the bodies that they would be lost in the picture.
-void add_colliders(const std::vector<DrawnCollider>& colliders, Bounds& bounds);
+/// What the camera should see of colliders beside bodies in a box: all of each, but for what has no end, and what is so
+/// large beside the bodies that they would be lost in the picture.
+std::vector<Vec3f> collider_points(const std::vector<DrawnCollider>& colliders, const Bounds& bodies);
 
 /// The height of the highest plane whose normal is up [m]; none where there is none.
 std::optional<float> floor_height(const std::vector<DrawnCollider>& colliders);

@@ -99,7 +99,7 @@ Bounds bounds_of(std::span<const Vec3f> positions) {
 
 Bounds bounds_of(const FrameContent& frame) {
   Bounds bounds = bounds_of(std::span<const Vec3f>(frame.positions));
-  add_colliders(frame.colliders, bounds);
+  for (const Vec3f& point : collider_points(frame.colliders, bounds)) bounds.add(point);
   return bounds;
 }
 

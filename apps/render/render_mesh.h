@@ -58,7 +58,7 @@ struct FrameContent {
 };
 
 Bounds bounds_of(std::span<const Vec3f> positions);
-/// The box around bodies and colliders that the camera should see, see add_colliders.
+/// The box around bodies and colliders that the camera should see, see collider_points.
 Bounds bounds_of(const FrameContent& frame);
 /// The same of what these settings show.
 Bounds bounds_of(const FrameContent& frame, const pliant::ViewSettings& appearance);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "render/outline.h"
+
 namespace pliant_viewer {
 namespace {
 
@@ -17,12 +19,11 @@ Playback::Playback(pliant_render::RunFrames frames, pliant::ViewSettings appeara
       is_playing_(is_playing && frames_.count() > 1),
       began_(Clock::now()),
       began_at_(frames_.time(0)) {
+  pliant_render::Outline outline;
   for (std::size_t i = 0; i < frames_.count(); ++i) {
-    const pliant_render::ClipFrame frame = frames_.frame(i, pliant::ColorBy::none);
-    const pliant_render::Bounds here = bounds_of(frame.content, appearance_);
-    bounds_.add(here.low);
-    bounds_.add(here.high);
+    outline.add(frames_.frame(i, pliant::ColorBy::none).content, appearance_);
   }
+  bounds_ = outline.bounds();
   show(color_);
   refresh(began_);
   has_begun_ = false;

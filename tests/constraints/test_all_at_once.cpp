@@ -72,7 +72,7 @@ class PullAtOnce final : public ConstraintGroup {
 };
 
 Simulation sheet(int threads) {
-  Simulation simulation({.iterations = 5, .threads = threads, .precision = Precision::double_});
+  Simulation simulation({.iterations = 5, .precision = Precision::double_, .threads = threads});
   const BodyId body = simulation.add_body(grid({.columns = 40, .rows = 40}), Mass::per_vertex(0.1));
   simulation.add(body, EdgeSpring{.stiffness = 100});
   return simulation;

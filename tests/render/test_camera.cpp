@@ -7,6 +7,7 @@
 #include "pliant/mesh/shapes.h"
 #include "render/camera_path.h"
 #include "render/choose_direction.h"
+#include "render/outline.h"
 
 namespace test_camera {
 
@@ -73,6 +74,35 @@ TEST_CASE("an automatic camera has the whole box in the picture, and fills it in
     CHECK(view.up.norm() == doctest::Approx(1));
     CHECK(std::abs(view.up.dot(view.forward())) < 1e-5F);
   }
+}
+
+TEST_CASE("what moves through the frames fills the picture, however empty the corners of its box are") {
+  Random random;
+  for (int i = 0; i < 100; ++i) {
+    const Vec3f middle = vector_of(random, 5), half = vector_of(random, std::pow(10.0, random.uniform(-2, 2)));
+    const Vec3f across = half.unitOrthogonal() * half.norm() * static_cast<float>(random.uniform(0, 0.5));
+    const auto aspect = static_cast<float>(random.uniform(0.4, 2.5));
+    Outline outline;
+    std::vector<Vec3f> all;
+    for (int frame = 0; frame < 4; ++frame) {  // an ellipse, aslant, that gets larger
+      FrameContent content;
+      for (int k = 0; k < 100; ++k) {
+        const float angle = 0.0628F * static_cast<float>(k), size = 0.25F * static_cast<float>(frame + 1);
+        content.positions.emplace_back(middle + size * (std::cos(angle) * half + std::sin(angle) * across));
+      }
+      content.positions.push_back(Vec3f::Constant(std::numeric_limits<float>::infinity()));  // was too far away
+      all.insert(all.end(), content.positions.begin(), content.positions.end() - 1);
+      outline.add(content, {});
+    }
+    const Viewpoint view = place_camera({}, outline.bounds(), aspect);
+    Bounds seen;
+    for (const Vec3f& point : all) seen.add(project(view, aspect, point));
+    CHECK(seen.low.head<2>().minCoeff() > -1);
+    CHECK(seen.high.head<2>().maxCoeff() < 1);
+    const Vec3f size = seen.high - seen.low;
+    CHECK(std::max(size.x(), size.y()) > 0.85F * 2);
+  }
+  CHECK(Outline().bounds().is_empty());
 }
 
 TEST_CASE("a camera that the scene places stands there, and what it looks at is in the middle") {
