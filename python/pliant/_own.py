@@ -36,10 +36,11 @@ class OwnConstraint:
         self._function = project
 
     def project(self, z: Any, fields: Any) -> Any:
-        """The points p nearest to z that satisfy the constraints, for many of them at once.
+        """The points p nearest to z that satisfy the constraints, an array of the shape of z.
 
-        ``z`` is (count, rows, 3) and may be changed; ``fields`` is (count, f), of the same constraints. Must not depend
-        on anything else. Called from any thread, with the interpreter's lock.
+        ``z`` is (count, rows, 3) and ``fields`` (count, f), of the same constraints; neither can be written. They are
+        all constraints as a rule, once an iteration, and some of them where less is asked for: p must depend on nothing
+        but these two. Called from any thread, with the interpreter's lock.
         """
         if self._function is None:
             raise NotImplementedError(f"{type(self).__name__}: define project(self, z, fields), or give project=")

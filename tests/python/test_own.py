@@ -52,6 +52,54 @@ class Own(unittest.TestCase):
         self.assertTrue(seen)
         self.assertTrue(np.isfinite(simulation.positions).all())
 
+    def test_it_is_called_once_an_iteration_for_all_constraints(self):
+        for reduction, rows in [([[-1, 1]], 1), (None, 2)]:
+            shapes = []
+
+            def project(z, fields):
+                shapes.append((z.shape, fields.shape))
+                return z * 0.9
+
+            simulation = hung(lambda s, b, mesh: s.add(b, pliant.OwnConstraint(
+                mesh.unique_edges, reduction=reduction, fields=np.ones(len(mesh.unique_edges)), project=project)),
+                columns=60, iterations=5, precision="double")
+            simulation.step()
+            count = len(pliant.grid(columns=60, rows=60).unique_edges)
+            self.assertEqual(set(shapes), {((count, rows, 3), (count, 1))})
+            self.assertIn(len(shapes), (5, 6))  # one more where the end of the step is judged
+
+    def test_arrays_that_a_function_keeps_or_uses_again_are_safe(self):
+        kept, room = [], {}
+
+        def project(z, fields):
+            kept.append((z, z.copy()))
+            with self.assertRaises(ValueError):
+                z[0] = 1
+            with self.assertRaises(ValueError):
+                fields[0] = 1
+            return np.multiply(z, (fields / np.linalg.norm(z, axis=2))[:, :, None],
+                               out=room.setdefault(z.shape, np.empty_like(z)))
+
+        def add(simulation, body, mesh):  # two groups that write to one array
+            springs = own_springs(mesh, 500)
+            for stiffness in (200, 300):
+                simulation.add(body, pliant.OwnConstraint(springs.stencils, reduction=[[-1, 1]], stiffness=stiffness,
+                                                          fields=springs.fields * stiffness / 250, project=project))
+
+        def add_alike(simulation, body, mesh):
+            springs = own_springs(mesh, 500)
+            for stiffness in (200, 300):
+                simulation.add(body, Springs(springs.stencils, reduction=[[-1, 1]], stiffness=stiffness,
+                                             fields=springs.fields * stiffness / 250))
+
+        own, alike = hung(add, precision="double"), hung(add_alike, precision="double")
+        for _ in range(5):
+            own.step()
+            alike.step()
+        np.testing.assert_array_equal(own.positions, alike.positions)
+        for z, copy in kept:
+            np.testing.assert_array_equal(z, copy)
+
     def test_several_rows_have_the_forces_of_their_rows(self):
         """Both ends of a spring by themselves, rows = n, against the same in C++."""
         def both(z, fields):
@@ -78,6 +126,8 @@ class Own(unittest.TestCase):
 
         for project, error, words in [(fails, KeyError, "my own"),
                                       (lambda z, fields: z[:1], pliant.Error, "shape of z"),
+                                      (lambda z, fields: "no numbers", pliant.Error, "shape of z"),
+                                      (lambda z, fields: None, pliant.Error, "shape of z"),
                                       (lambda z, fields: z * np.nan, pliant.Error, ".")]:
             simulation = hung(lambda s, b, mesh: s.add(b, pliant.EdgeSpring()))
             body = simulation.bodies[0]
