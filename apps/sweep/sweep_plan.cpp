@@ -254,6 +254,11 @@ std::string outcomes_text(const SweepPlan& plan) {
   return text;
 }
 
+bool has_sweep(const fs::path& folder) {
+  std::error_code ignored;
+  return fs::exists(folder / plan_name, ignored);
+}
+
 fs::path run_folder(const fs::path& folder, const std::string& name) {
   return folder / runs_name / name;
 }
