@@ -188,18 +188,27 @@ int noted_code(std::string_view line) {
   return error == std::errc() && end == line.data() + line.size() && code > 0 && code < 256 ? code : 0;
 }
 
-/// What a run printed. Empty where nothing can be read.
-std::string read_output(const fs::path& output) {
+/// Empty where nothing can be read.
+std::string read_text(const fs::path& file) {
   try {
-    return pliant::read_file(output);
+    return pliant::read_file(file);
   } catch (const pliant::Error&) {
     return "";
   }
 }
 
+/// Discarded where there is none.
+nlohmann::ordered_json read_run_json(const fs::path& folder) {
+  return nlohmann::ordered_json::parse(read_text(folder / "run.json"), nullptr, false);
+}
+
+bool says_ended(const nlohmann::ordered_json& run) {
+  return run.is_object() && run.contains("outcome") && (run["outcome"] == "ok" || run["outcome"] == "diverged");
+}
+
 /// The last line of what a run wrote, without the name of the program. Empty when it wrote nothing.
 std::string last_message(const fs::path& output) {
-  const std::string text = read_output(output);
+  const std::string text = read_text(output);
   std::string_view line = last_line(text);
   if (noted_code(line) != 0) line = last_line(std::string_view(text).substr(0, text.rfind(note_head)));
   constexpr std::string_view head = "pliant: error: ";
@@ -238,13 +247,15 @@ RunResult read_run_result(const fs::path& folder) {
 }
 
 void forget_run_result(const fs::path& folder) {
-  const fs::path file = folder / "run.json";
-  auto json = nlohmann::ordered_json::parse(read_output(file), nullptr, false);
-  const bool has_ended =
-      json.is_object() && json.contains("outcome") && (json["outcome"] == "ok" || json["outcome"] == "diverged");
-  if (!has_ended) return;
+  auto json = read_run_json(folder);
+  if (!says_ended(json)) return;
   json["outcome"] = "interrupted";
-  pliant::write_file_atomically(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
+  pliant::write_file_atomically(folder / "run.json", json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
+}
+
+// In this order: a run that says so has written all before.
+void forget_cut_result(const fs::path& folder) {
+  if (says_ended(read_run_json(folder)) && !read_run_result(folder).has_ended_by_itself()) forget_run_result(folder);
 }
 
 RunResult result_of_ended_run(const fs::path& folder, const pliant_system::ProcessEnd& end, const fs::path& output) {
@@ -272,7 +283,7 @@ void note_end(const fs::path& output, const pliant_system::ProcessEnd& end) {
 }
 
 int noted_exit_code(const fs::path& output) {
-  return noted_code(last_line(read_output(output)));
+  return noted_code(last_line(read_text(output)));
 }
 
 RunResult result_of_noted_end(const fs::path& folder, const fs::path& output) {

@@ -57,6 +57,8 @@ RunResult read_run_result(const std::filesystem::path& folder);
 /// Makes a run whose run.json says that it has ended by itself one that was interrupted, so that its result does not
 /// count. @throws pliant::Error (output)
 void forget_run_result(const std::filesystem::path& folder);
+/// The same where its files are not whole.
+void forget_cut_result(const std::filesystem::path& folder);
 
 /// What came of a run that has just ended; one that did not reach its end by itself has failed, and its output says
 /// why.

@@ -10,20 +10,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether a shell takes the text as it stands, wherever in a command it does.
+/// Whether a shell takes the text as it stands. A '=' does no harm in options.
 bool is_plain_word(std::string_view text) {
-  constexpr std::string_view plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-+./:,@%";
-  return !text.empty() && text.find_first_not_of(plain) == text.npos;
+  constexpr std::string_view plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-+./:,=";
+  if (text.empty() || text.find_first_not_of(plain) != text.npos) return false;
+  return text.starts_with("--") || text.find('=') == text.npos;
 }
 
-/// Whether it is an option and a value of one, whose '=' no shell minds behind the first word.
-bool is_plain_option(std::string_view text) {
-  const std::size_t equals = text.find('=');
-  return text.starts_with("--") && equals != text.npos && is_plain_word(text.substr(0, equals)) &&
-         is_plain_word(text.substr(equals + 1));
-}
-
-/// The text of a run.json that has ended by itself; grep -E finds it in the line of its own that it has there.
+/// What `grep -E` finds in the run.json of a run that has ended by itself: a line of its own there.
 constexpr std::string_view ended_pattern = R"x('^  "outcome": "(ok|diverged)"')x";
 
 }  // namespace
@@ -31,11 +25,11 @@ constexpr std::string_view ended_pattern = R"x('^  "outcome": "(ok|diverged)"')x
 std::string shell_word(std::string_view text) {
   if (text.find_first_of(std::string_view("\n\r\0", 3)) != text.npos) {
     pliant::fail_input(
-        fmt::format("--list: '{}' has a line break, which a command of one line cannot hold; write it without, in JSON "
-                    "as \\n, or leave out --list",
+        fmt::format("--list: '{}' has a line break, which a command of one line cannot hold; write it as \\n "
+                    "in JSON, or leave out --list",
                     pliant::printable(text, 100)));
   }
-  if (is_plain_word(text) || is_plain_option(text)) return std::string(text);
+  if (is_plain_word(text)) return std::string(text);
   std::string word = "'";
   for (const char c : text) {
     if (c == '\'') {
@@ -71,20 +65,21 @@ std::vector<std::string> run_commands(const CommandFrame& frame, const SweepPlan
 
 void forget_cut_runs(const fs::path& folder, const SweepPlan& plan) {
   for (const SweepRun& run : plan.runs) {
-    if (!run.result.has_ended_by_itself()) forget_run_result(run_folder(folder, run.name));
+    if (!run.result.has_ended_by_itself()) forget_cut_result(run_folder(folder, run.name));
   }
 }
 
 void collect_results(const fs::path& folder, SweepPlan& plan) {
   for (SweepRun& run : plan.runs) {
     const fs::path log = run_log(folder, run.name);
-    const int noted = noted_exit_code(log);
     if (!run.result.has_ended_by_itself()) {
       run.result = result_of_noted_end(run_folder(folder, run.name), log);
       continue;
     }
+    const int noted = noted_exit_code(log);
     std::error_code ignored;
-    if (fs::file_size(log, ignored) == 0 || (noted != 0 && noted != run.result.exit_code)) fs::remove(log, ignored);
+    const bool is_empty = run.result.exit_code == 0 && fs::file_size(log, ignored) == 0;  // else it is to come
+    if (is_empty || (noted != 0 && noted != run.result.exit_code)) fs::remove(log, ignored);
   }
 }
 
