@@ -103,10 +103,15 @@ class SweepList(unittest.TestCase):
             self.assertEqual((done.returncode, done.stdout, done.stderr), (expect, "", ""))
 
     def plain(self, *words, expect=0):
-        """The same sweep without lists, in another folder."""
-        folder = self.folder / "plain"
-        self.pliant("sweep", "--out", folder.name, *words, "--jobs", 2, "--threads", 1, expect=expect)
-        return folder
+        """What the same sweep leaves without lists, in a folder of the same name, which checkpoints hold."""
+        if self.out.exists():
+            self.out.rename(self.folder / "kept")
+        self.sweep(*words, "--jobs", 2, "--threads", 1, expect=expect)
+        files = untimed(self.out)
+        shutil.rmtree(self.out)
+        if (self.folder / "kept").exists():
+            (self.folder / "kept").rename(self.out)
+        return files
 
     def rows(self):
         with open(self.out / "sweep.csv", newline="") as file:
@@ -132,7 +137,7 @@ class SweepList(unittest.TestCase):
         done = self.sweep(*words, "--collect")
         self.assertIn("scene: 6 runs: 6 ok\n", done.stdout)
         self.assertEqual(done.stderr, "")
-        self.assertEqual(untimed(self.out), untimed(self.plain(*words)))
+        self.assertEqual(untimed(self.out), self.plain(*words))
         # What a plain sweep makes of the same runs has the same bytes, its page and plots of times as well.
         before = {path: path.read_bytes() for path in self.out.rglob("*") if path.is_file()}
         self.assertIn("6 were there before", self.sweep(*words, "--threads", 1).stdout)
@@ -178,7 +183,7 @@ class SweepList(unittest.TestCase):
             table.unlink()
         self.run_lines(lines)
         self.sweep(*words, "--collect")
-        self.assertEqual(untimed(self.out), untimed(self.plain(*words)))
+        self.assertEqual(untimed(self.out), self.plain(*words))
 
     def test_runs_that_do_not_end_well(self):
         words = [self.write_scene(DIVERGING), "--vary", f"{SPRING}=1,1e20,2,3"]
@@ -210,7 +215,7 @@ class SweepList(unittest.TestCase):
         mine.unlink()
         self.run_lines(lines)
         self.sweep(*words, "--collect", expect=3)
-        self.assertEqual(untimed(self.out), untimed(self.plain(*words, expect=3)))
+        self.assertEqual(untimed(self.out), self.plain(*words, expect=3))
 
     def test_a_run_that_a_signal_ended(self):
         words = [self.write_scene(), "--vary", f"{ITERATIONS}=2,3"]
@@ -251,14 +256,14 @@ class SweepList(unittest.TestCase):
         shutil.move(self.folder.parent / name, self.folder / name)
         words = ["--vary", "bodies[0].constraints[li'nks $HOME `date` \"x\" \\].stiffness=10,1e3", "--vary",
                  "name='{}',\"{1} & %\",!x #", "--", name]
-        command = ["--list", f"--out={self.out.name}", *words]
-        lines = self.pliant("sweep", *command).stdout.splitlines()
+        words.insert(-2, f"--out={self.out.name}")
+        lines = self.pliant("sweep", "--list", *words).stdout.splitlines()
         self.assertEqual(len(lines), 6)
         self.run_lines(lines)
-        self.pliant("sweep", "--collect", f"--out={self.out.name}", *words)
+        self.pliant("sweep", "--collect", *words)
         self.assertEqual([row["outcome"] for row in self.rows()], ["ok"] * 6)
         self.assertEqual({row["name"] for row in self.rows()}, {"'{}'", "{1} & %", "!x #"})
-        error = self.pliant("sweep", "--list", "--out=new", "--vary", "name=a,b\nc", "--", name, expect=2).stderr
+        error = self.pliant("sweep", "--list", "--vary", "name=a,b\nc", "--out=new", "--", name, expect=2).stderr
         self.assertIn("has a line break", error)
         self.assertFalse((self.folder / "new" / "sweep.json").exists())
 
@@ -285,11 +290,10 @@ class SweepList(unittest.TestCase):
         starters = {"xargs": ["xargs", "-d", "\n", "-n", "1", "-P", "2", "sh", "-c"]}
         if shutil.which("parallel"):
             starters["parallel"] = ["parallel", "--will-cite", "-j", "2"]
-        plain = untimed(self.plain(*words))
+        plain = self.plain(*words)
         for name, starter in starters.items():
             with self.subTest(name):
-                self.out = self.folder / name
-                lines = self.lines(*words)
+                lines = self.lines(*words, "--restart")
                 subprocess.run(starter, input="\n".join(lines) + "\n", text=True, check=True, timeout=120,
                                cwd=self.elsewhere, env=os.environ | {"HOME": str(self.folder)})
                 self.sweep(*words, "--collect")
