@@ -41,19 +41,22 @@ std::string shell_word(std::string_view text) {
   return word + '\'';
 }
 
-// The check comes before the log is made anew: that of a run that has ended stays. The log is removed rather than
-// emptied, since a link may have its name.
+// Who has started a run may have been killed, and the run be at work still: flock waits for its FolderLock. The check
+// comes before the log is made anew: that of a run that has ended stays. The log is removed rather than emptied, since
+// a link may have its name.
 std::string run_command(const CommandFrame& frame, const SweepSetup& setup, const SweepRun& run) {
-  const fs::path place = frame.directory / frame.folder;
-  const std::string info = shell_word((run_folder(place, run.name) / "run.json").string());
-  const std::string log = shell_word(run_log(place, run.name).string());
+  const fs::path folder = frame.directory / frame.folder;
+  const std::string place = shell_word(run_folder(folder, run.name).string());
+  const std::string info = shell_word((run_folder(folder, run.name) / "run.json").string());
+  const std::string log = shell_word(run_log(folder, run.name).string());
   std::string words = shell_word(frame.program);
   for (const std::string& word : run_arguments(setup, run.values, run_folder(frame.folder, run.name), frame.threads)) {
     words += ' ' + shell_word(word);
   }
   return fmt::format(
-      "grep -Eqs {} {} || (rm -f {}; cd {} && {} >{} 2>&1 || (code=$?; echo \"exit code $code\" >>{}; exit $code))",
-      ended_pattern, info, log, shell_word(frame.directory.string()), words, log, log);
+      "test ! -d {} || flock {} true 2>/dev/null || true; grep -Eqs {} {} || "
+      "(rm -f {}; cd {} && {} >{} 2>&1 || (code=$?; echo \"exit code $code\" >>{}; exit $code))",
+      place, place, ended_pattern, info, log, shell_word(frame.directory.string()), words, log, log);
 }
 
 std::vector<std::string> run_commands(const CommandFrame& frame, const SweepPlan& plan) {

@@ -21,9 +21,9 @@ struct CommandFrame {
 /// A text as a word of a POSIX shell. @throws pliant::Error (input): a line break, which no line can hold
 std::string shell_word(std::string_view text);
 
-/// A line for a POSIX shell, to be started in any directory. A run that has ended by itself is left alone; any other is
-/// run from its start. Its log has what it printed, and a last line "exit code N" where that is not 0. The line ends
-/// with that exit code.
+/// A line for a POSIX shell, to be started in any directory. It waits until nobody else writes in the folder of the
+/// run. A run that has ended by itself is left alone then; any other is run from its start. Its log has what it
+/// printed, and a last line "exit code N" where that is not 0. The line ends with that exit code.
 /// @throws pliant::Error (input): as shell_word
 std::string run_command(const CommandFrame& frame, const SweepSetup& setup, const SweepRun& run);
 

@@ -121,6 +121,13 @@ class SweepList(unittest.TestCase):
         """When each run was written."""
         return {path.parent.name: path.stat().st_mtime_ns for path in self.out.glob("runs/*/run.json")}
 
+    def kill_group(self, process):
+        try:
+            os.killpg(process.pid, signal.SIGKILL)
+        except ProcessLookupError:
+            pass
+        process.wait()
+
     def wait_for_run(self, name):
         """Waits until no process writes in the folder of a run."""
         folder = os.open(self.out / "runs" / name, os.O_RDONLY)
@@ -171,6 +178,7 @@ class SweepList(unittest.TestCase):
             # The same run with more steps than anyone waits for.
             endless = lines[1].replace(f"--set={ITERATIONS}", f"--steps=100000000 --set={ITERATIONS}")
             process = subprocess.Popen(["/bin/sh", "-c", endless], start_new_session=True)
+            self.addCleanup(self.kill_group, process)
             table = self.out / "runs" / "0002" / "measurements.csv"
             deadline = time.monotonic() + 60
             while time.monotonic() < deadline and not (table.exists() and table.stat().st_size > 5000):
@@ -184,6 +192,29 @@ class SweepList(unittest.TestCase):
         self.run_lines(lines)
         self.sweep(*words, "--collect")
         self.assertEqual(untimed(self.out), self.plain(*words))
+
+    def test_a_line_waits_for_a_run_whose_starter_was_killed(self):
+        words = [self.write_scene(), "--vary", f"{ITERATIONS}=2,3"]
+        line = self.lines(*words)[0]
+        # The run alone, as it goes on when nothing of its line is left.
+        run = [PLIANT, "run", "--quiet", f"--out={self.out.name}/runs/0001", "--format=none", f"--set={ITERATIONS}=2"]
+        for steps, ends in [(20_000, True), (100_000_000, False)]:
+            shutil.rmtree(self.out / "runs" / "0001", ignore_errors=True)
+            process = subprocess.Popen([*run, f"--steps={steps}", "scene.json"], cwd=self.folder)
+            self.addCleanup(process.wait)
+            self.addCleanup(process.kill)  # which comes first
+            deadline = time.monotonic() + 60
+            while time.monotonic() < deadline and not (self.out / "runs" / "0001" / "measurements.csv").exists():
+                time.sleep(0.01)
+            again = subprocess.Popen(["/bin/sh", "-c", line], cwd=self.elsewhere)
+            time.sleep(0.1)
+            self.assertIsNone(again.poll())
+            if not ends:
+                process.kill()
+            process.wait(timeout=100)
+            self.assertEqual(again.wait(timeout=100), 0)
+            info = json.loads((self.out / "runs" / "0001" / "run.json").read_text())
+            self.assertEqual((info["outcome"], info["totals"]["steps"]), ("ok", steps if ends else 20))
 
     def test_runs_that_do_not_end_well(self):
         words = [self.write_scene(DIVERGING), "--vary", f"{SPRING}=1,1e20,2,3"]
