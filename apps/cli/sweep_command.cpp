@@ -11,9 +11,11 @@
 #include "interrupts.h"
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
+#include "pliant_io/files/atomic_file.h"
 #include "progress.h"
 #include "scene_options.h"
 #include "sweep/sweep.h"
+#include "sweep/sweep_commands.h"
 #include "sweep/sweep_report.h"
 #include "system/child_process.h"
 #include "system/folder_lock.h"
@@ -30,9 +32,24 @@ struct SweepArguments : SceneArguments {
   fs::path out;                      ///< folder of the sweep
   std::optional<std::int64_t> jobs;  ///< runs at a time, 1 to 256; none: as many as the processors can take
   bool dry_run = false;              ///< check and list the runs only
+  bool list = false;                 ///< print a command for each run, and run nothing
+  bool collect = false;              ///< run nothing; table and plots of what such commands have left
   bool restart = false;              ///< remove the runs of an earlier sweep in that folder
   bool quiet = false;                ///< print warnings and errors only
 };
+
+constexpr int most_told = 10;
+
+void print_warning(std::string_view text) {
+  print_to_stderr("warning: " + pliant::printable_place(text, message_limit) + "\n");
+}
+
+/// "run 0003 (steps=5) failed: the disk is full"
+std::string failure_text(const SweepPlan& plan, const SweepRun& run) {
+  return fmt::format("run {} ({}) {}: {}", run.name, combination_text(plan.setup.variations, run.values),
+                     choice_names(run.result.outcome)[static_cast<std::size_t>(run.result.outcome)],
+                     run.result.message);
+}
 
 /// One line on a terminal, written anew; elsewhere one at each tenth of the runs.
 class SweepProgress {
@@ -61,14 +78,9 @@ class SweepProgress {
 
   /// A run that failed is told at once, the first ones.
   void tell(const SweepPlan& plan, const SweepRun& run) {
-    constexpr int most = 10;
-    if (run.result.outcome != RunOutcome::failed || told_ > most) return;
+    if (run.result.outcome != RunOutcome::failed || told_ > most_told) return;
     clear();
-    const std::string text = ++told_ > most
-                                 ? "more runs failed; sweep.csv has their messages"
-                                 : fmt::format("run {} ({}) failed: {}", run.name,
-                                               combination_text(plan.setup.variations, run.values), run.result.message);
-    print_to_stderr("warning: " + pliant::printable_place(text, message_limit) + "\n");
+    print_warning(++told_ > most_told ? "more runs failed; sweep.csv has their messages" : failure_text(plan, run));
   }
 
   void clear() {
@@ -155,11 +167,82 @@ int sweep_in_folder(const SweepArguments& arguments, SweepSetup setup, Earlier e
   return exit_interrupted;
 }
 
+/// For --list: prints a command for each run.
+int list_in_folder(const SweepArguments& arguments, SweepSetup setup, Earlier earlier) {
+  make_folder(arguments.out);
+  const pliant_system::FolderLock lock(arguments.out);
+  const SweepPlan plan = plan_sweep(arguments.out, std::move(setup), earlier);
+  const std::int64_t threads =
+      varies_threads(plan.setup.variations) ? -1 : std::int64_t{arguments.overrides.threads.value_or(1)};
+  const CommandFrame frame{pliant_system::own_program_file(), fs::current_path(), arguments.out, threads};
+  const std::vector<std::string> lines = run_commands(frame, plan);
+  begin_sweep(arguments.out, plan);
+  forget_cut_runs(arguments.out, plan);
+  for (const std::string& line : lines) fmt::print("{}\n", line);
+  return 0;
+}
+
+/// Names the runs of an outcome, the first ones with what is to be told of each.
+void tell_runs(const SweepPlan& plan, RunOutcome outcome) {
+  int told = 0;
+  for (const SweepRun& run : plan.runs) {
+    if (run.result.outcome != outcome) continue;
+    if (++told > most_told) {
+      const auto name = choice_names(outcome)[static_cast<std::size_t>(outcome)];
+      return print_warning(
+          fmt::format("{} more runs: {}; sweep.csv has them", count_of(plan, outcome) - most_told, name));
+    }
+    print_warning(outcome == RunOutcome::waiting ? fmt::format("run {} ({}) has not begun or has not ended", run.name,
+                                                               combination_text(plan.setup.variations, run.values))
+                                                 : failure_text(plan, run));
+  }
+}
+
+/// For --collect: the table and the plots, from what the commands of --list have left.
+int collect_in_folder(const SweepArguments& arguments, SweepSetup setup) {
+  if (!has_sweep(arguments.out)) {
+    pliant::fail_input(fmt::format("{}: there is no sweep to collect; run the commands first that --list prints",
+                                   pliant::printable_place(arguments.out.string())));
+  }
+  const pliant_system::FolderLock lock(arguments.out);
+  SweepPlan plan = plan_sweep(arguments.out, std::move(setup), Earlier::keep);
+  begin_sweep(arguments.out, plan);
+  forget_cut_runs(arguments.out, plan);
+  collect_results(arguments.out, plan);
+  pliant::write_file_atomically(arguments.out / "sweep.csv", sweep_csv(plan));
+  write_sweep_report(arguments.out, plan);
+  for (const RunOutcome outcome : {RunOutcome::waiting, RunOutcome::failed, RunOutcome::diverged}) {
+    tell_runs(plan, outcome);
+  }
+  print_summary(arguments, plan, 0);
+  if (count_of(plan, RunOutcome::waiting) == 0) return exit_code_of(plan.runs);
+  print_to_stderr("not all runs have ended: start the commands of --list again, and collect anew\n");
+  return exit_interrupted;
+}
+
+/// What --list and --collect have no use for.
+void refuse_useless_options(const SweepArguments& arguments) {
+  const auto refuse = [](bool is_given, std::string_view mode, std::string_view option, std::string_view why) {
+    if (is_given) pliant::fail_input(fmt::format("{}: {} {}; leave out one of the two", mode, option, why));
+  };
+  const std::string_view starts = "is for runs that this program starts itself";
+  refuse(arguments.list && arguments.collect, "--list", "--collect", "comes after the commands that it prints");
+  refuse(arguments.list && arguments.dry_run, "--list", "--dry-run", "lists the runs in another way");
+  refuse(arguments.list && arguments.jobs, "--list", "--jobs", starts);
+  refuse(arguments.list && arguments.quiet, "--list", "--quiet", "would leave nothing to print");
+  refuse(arguments.collect && arguments.dry_run, "--collect", "--dry-run", "writes no table");
+  refuse(arguments.collect && arguments.jobs, "--collect", "--jobs", starts);
+  refuse(arguments.collect && arguments.restart, "--collect", "--restart", "would remove what is to be collected");
+}
+
 int sweep(const SweepArguments& arguments) {
+  refuse_useless_options(arguments);
   catch_interrupts();
   const Earlier earlier = arguments.restart ? Earlier::remove : Earlier::keep;
   try {
     SweepSetup setup = check(arguments);
+    if (arguments.list) return list_in_folder(arguments, std::move(setup), earlier);
+    if (arguments.collect) return collect_in_folder(arguments, std::move(setup));
     if (!arguments.dry_run) return sweep_in_folder(arguments, std::move(setup), earlier);
     print_runs(arguments, plan_sweep(arguments.out, std::move(setup), earlier));
     return 0;
@@ -195,6 +278,11 @@ void add_sweep_command(CLI::App& program, int& exit_code) {
   add_number(*command, "--jobs", arguments->jobs, {1, 256},
              "Number of runs at a time; default: as many as the processors can take");
   command->add_flag("--dry-run", arguments->dry_run, "Check and list the runs only");
+  command->add_flag("--list", arguments->list,
+                    "Run nothing; print a command for each run, one a line, for other programs to start on one machine "
+                    "or many");
+  command->add_flag("--collect", arguments->collect,
+                    "Run nothing; make the table and the plots of what the commands of --list have left");
   command->add_flag("--restart", arguments->restart, "Remove the runs of an earlier sweep in that folder");
   command->add_flag("--quiet", arguments->quiet, "Print warnings and errors only");
   command->footer(

@@ -1,9 +1,13 @@
 #include "sweep/run_result.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <csignal>
+#include <fstream>
 #include <numeric>
 #include <stdexcept>
+#include <system_error>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -165,19 +169,51 @@ bool is_complete(const RunFile& file, const MeasurementTable& table) {
   return table.is_whole && rows > 0 && (rows == wanted || (file.outcome == RunOutcome::diverged && rows + 1 == wanted));
 }
 
-/// The last line of what a run wrote, without the name of the program. Empty when it wrote nothing.
-std::string last_line(const fs::path& output) {
-  std::string text;
+/// The last line of a text, without its end.
+std::string_view last_line(std::string_view text) {
+  while (text.ends_with('\n')) text.remove_suffix(1);
+  const std::size_t end = text.rfind('\n');
+  return end == text.npos ? text : text.substr(end + 1);
+}
+
+constexpr std::string_view note_head = "exit code ";
+constexpr int signal_base = 128;  // of the exit codes by which a shell tells of signals
+
+/// The exit code that a line notes; 0: it is no note.
+int noted_code(std::string_view line) {
+  int code = 0;
+  if (!line.starts_with(note_head)) return 0;
+  line.remove_prefix(note_head.size());
+  const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), code);
+  return error == std::errc() && end == line.data() + line.size() && code > 0 && code < 256 ? code : 0;
+}
+
+/// Empty where nothing can be read.
+std::string read_text(const fs::path& file) {
   try {
-    text = pliant::read_file(output);
+    return pliant::read_file(file);
   } catch (const pliant::Error&) {
     return "";
   }
-  while (text.ends_with('\n')) text.pop_back();
-  const std::size_t end = text.rfind('\n');
-  if (end != text.npos) text.erase(0, end + 1);
+}
+
+/// Discarded where there is none.
+nlohmann::ordered_json read_run_json(const fs::path& folder) {
+  return nlohmann::ordered_json::parse(read_text(folder / "run.json"), nullptr, false);
+}
+
+bool says_ended(const nlohmann::ordered_json& run) {
+  return run.is_object() && run.contains("outcome") && (run["outcome"] == "ok" || run["outcome"] == "diverged");
+}
+
+/// The last line of what a run wrote, without the name of the program. Empty when it wrote nothing.
+std::string last_message(const fs::path& output) {
+  const std::string text = read_text(output);
+  std::string_view line = last_line(text);
+  if (noted_code(line) != 0) line = last_line(std::string_view(text).substr(0, text.rfind(note_head)));
   constexpr std::string_view head = "pliant: error: ";
-  return pliant::printable_place(text.starts_with(head) ? text.substr(head.size()) : text, 900);
+  if (line.starts_with(head)) line.remove_prefix(head.size());
+  return pliant::printable_place(line, 900);
 }
 
 }  // namespace
@@ -211,11 +247,15 @@ RunResult read_run_result(const fs::path& folder) {
 }
 
 void forget_run_result(const fs::path& folder) {
-  if (!read_run_result(folder).has_ended_by_itself()) return;
-  const fs::path file = folder / "run.json";
-  auto json = nlohmann::ordered_json::parse(pliant::read_file(file));
+  auto json = read_run_json(folder);
+  if (!says_ended(json)) return;
   json["outcome"] = "interrupted";
-  pliant::write_file_atomically(file, json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
+  pliant::write_file_atomically(folder / "run.json", json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
+}
+
+// In this order: a run that says so has written all before.
+void forget_cut_result(const fs::path& folder) {
+  if (says_ended(read_run_json(folder)) && !read_run_result(folder).has_ended_by_itself()) forget_run_result(folder);
 }
 
 RunResult result_of_ended_run(const fs::path& folder, const pliant_system::ProcessEnd& end, const fs::path& output) {
@@ -223,7 +263,7 @@ RunResult result_of_ended_run(const fs::path& folder, const pliant_system::Proce
   if (end.signal == 0 && result.has_ended_by_itself() && end.exit_code == result.exit_code) return result;
   result = {RunOutcome::failed};
   result.exit_code = end.signal != 0 ? static_cast<int>(pliant::ErrorKind::input) : end.exit_code;
-  const std::string line = last_line(output);
+  const std::string line = last_message(output);
   const std::string how = end_text(end);
   if (end.signal != 0) {
     result.message = line.empty() ? how : fmt::format("{}: {}", how, line);
@@ -235,6 +275,24 @@ RunResult result_of_ended_run(const fs::path& folder, const pliant_system::Proce
     result.message = !line.empty() ? line : is_full ? "its files could not be written; make room" : how;
   }
   return result;
+}
+
+void note_end(const fs::path& output, const pliant_system::ProcessEnd& end) {
+  const int code = end.signal != 0 ? signal_base + end.signal : end.exit_code;
+  if (code != 0) std::ofstream(output, std::ios::app) << note_head << code << '\n';
+}
+
+int noted_exit_code(const fs::path& output) {
+  return noted_code(last_line(read_text(output)));
+}
+
+RunResult result_of_noted_end(const fs::path& folder, const fs::path& output) {
+  const int code = noted_exit_code(output);
+  if (code == 0) return {};
+  pliant_system::ProcessEnd end{code, 0};
+  if (code > signal_base) end = {0, code - signal_base};
+  const bool is_interrupted = end.signal == SIGHUP || end.signal == SIGINT || end.signal == SIGTERM;
+  return is_interrupted ? RunResult{} : result_of_ended_run(folder, end, output);
 }
 
 }  // namespace pliant_sweep

@@ -54,13 +54,24 @@ struct RunResult {
 /// throw.
 RunResult read_run_result(const std::filesystem::path& folder);
 
-/// Makes a run that has ended by itself one that was interrupted, so that its result does not count.
-/// @throws pliant::Error (output)
+/// Makes a run whose run.json says that it has ended by itself one that was interrupted, so that its result does not
+/// count. @throws pliant::Error (output)
 void forget_run_result(const std::filesystem::path& folder);
+/// The same where its files are not whole.
+void forget_cut_result(const std::filesystem::path& folder);
 
 /// What came of a run that has just ended; one that did not reach its end by itself has failed, and its output says
 /// why.
 RunResult result_of_ended_run(const std::filesystem::path& folder, const pliant_system::ProcessEnd& end,
                               const std::filesystem::path& output);
+
+/// Adds "exit code N" to the output of a run, as a shell has it, unless that is 0. Does not throw.
+void note_end(const std::filesystem::path& output, const pliant_system::ProcessEnd& end);
+
+/// What note_end(), or the command line of a run, has noted; 0: nothing.
+int noted_exit_code(const std::filesystem::path& output);
+
+/// What came of a run whose end was noted. Waiting: none was, or it was interrupted.
+RunResult result_of_noted_end(const std::filesystem::path& folder, const std::filesystem::path& output);
 
 }  // namespace pliant_sweep

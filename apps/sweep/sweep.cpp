@@ -142,6 +142,7 @@ class Runner {
     // After a stop, what did not reach its end was kept from it: the terminal's interrupt reaches a run by itself.
     stop_if_asked();
     if (stopped_ && run.result.outcome == RunOutcome::failed) run.result = {};
+    if (run.result.outcome != RunOutcome::waiting) note_end(log, end);
     std::error_code ignored;
     if (fs::file_size(log, ignored) == 0) fs::remove(log, ignored);
     if (run.result.outcome == RunOutcome::waiting) return;

@@ -15,6 +15,7 @@
 #include "pliant/core/version.h"
 #include "pliant_io/files/atomic_file.h"
 #include "pliant_io/files/read_file.h"
+#include "system/folder_lock.h"
 
 namespace pliant_sweep {
 namespace {
@@ -254,6 +255,11 @@ std::string outcomes_text(const SweepPlan& plan) {
   return text;
 }
 
+bool has_sweep(const fs::path& folder) {
+  std::error_code ignored;
+  return fs::exists(folder / plan_name, ignored);
+}
+
 fs::path run_folder(const fs::path& folder, const std::string& name) {
   return folder / runs_name / name;
 }
@@ -291,6 +297,9 @@ void begin_sweep(const fs::path& folder, const SweepPlan& plan) {
   const auto check = [&error](const fs::path& path, std::string_view what) {
     if (error) fail_output(path, fmt::format("{}: {}; choose another folder", what, error.message()));
   };
+  for (const std::string& name : plan.removed) {  // one that a command of --list has started may be at work
+    if (fs::is_directory(run_folder(folder, name), error)) pliant_system::FolderLock(run_folder(folder, name));
+  }
   for (const std::string& name : plan.removed) {
     for (const fs::path& path : {run_folder(folder, name), run_log(folder, name)}) {
       fs::remove_all(path, error);

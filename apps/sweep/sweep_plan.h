@@ -30,6 +30,9 @@ std::size_t count_of(const SweepPlan& plan, RunOutcome outcome);
 /// How many runs have which outcome, for people: "6 ok, 1 diverged".
 std::string outcomes_text(const SweepPlan& plan);
 
+/// Whether a sweep was begun in a folder. Does not throw.
+bool has_sweep(const std::filesystem::path& folder);
+
 /// What becomes of the runs of an earlier start.
 enum class Earlier { keep, remove };
 

@@ -207,17 +207,18 @@ void check_unchanged(const SweepSetup& setup) {
   for (const auto& [path, crc32] : setup.files) check_file(path, crc32);
 }
 
-// Values follow their options behind '=', so that none is taken for an option.
+// Values follow their options behind '=', so that none is taken for an option. A `--` right behind a --set would only
+// end its values, and a scene that begins with a dash would be an option.
 std::vector<std::string> run_arguments(const SweepSetup& setup, const Combination& values,
                                        const std::filesystem::path& folder, std::int64_t threads) {
-  std::vector<std::string> arguments = {"run", "--quiet", fmt::format("--out={}", folder.string())};
+  std::vector<std::string> arguments = {"run", fmt::format("--out={}", folder.string())};
   for (const auto& [name, value] : setup.options) arguments.push_back(fmt::format("{}={}", name, value));
   if (threads >= 0) arguments.push_back(fmt::format("--threads={}", threads));
   for (const std::string& assignment : setup.set) arguments.push_back("--set=" + assignment);
   for (const std::string& assignment : assignments(setup.variations, values)) {
     arguments.push_back("--set=" + assignment);
   }
-  arguments.insert(arguments.end(), {"--", setup.scene});
+  arguments.insert(arguments.end(), {"--quiet", "--", setup.scene});
   return arguments;
 }
 

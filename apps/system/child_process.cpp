@@ -189,4 +189,13 @@ std::string own_program() {
   return "/proc/self/exe";
 }
 
+std::string own_program_file() {
+  std::error_code error;
+  const std::filesystem::path file = std::filesystem::read_symlink(own_program(), error);
+  if (!error && std::filesystem::exists(file, error)) return file.string();
+  throw pliant::Error(pliant::ErrorKind::input,
+                      fmt::format("{}: the file of this program was removed or replaced; start it again",
+                                  pliant::printable_place(file.string())));
+}
+
 }  // namespace pliant_system

@@ -77,4 +77,8 @@ void wait_for_any(const std::vector<const ChildProcess*>& children, std::chrono:
 /// The path that starts this same program, also after its file was replaced.
 std::string own_program();
 
+/// The path of this program's file, for other processes to start.
+/// @throws pliant::Error (input): it was removed or replaced meanwhile
+std::string own_program_file();
+
 }  // namespace pliant_system

@@ -168,6 +168,22 @@ TEST_CASE("a result is forgotten, and nothing else of its run") {
   CHECK(TemporaryFolder::read(table) == measurements);
 }
 
+TEST_CASE("a result that is cut is forgotten, and a whole one is kept") {
+  const TemporaryFolder folder;
+  const auto info = folder.write("run.json", run_json("ok", 3));
+  const auto table = folder.write("measurements.csv", measurements);
+  forget_cut_result(folder.path());
+  CHECK(TemporaryFolder::read(info) == run_json("ok", 3));
+  folder.write("measurements.csv", std::string_view(measurements).substr(0, 20));
+  forget_cut_result(folder.path());
+  CHECK(TemporaryFolder::read(info).find("\"outcome\": \"interrupted\"") != std::string::npos);
+  for (const char* text : {"", "{", "[]", R"({"outcome": 3})", R"({"outcome": "running"})"}) {
+    folder.write("run.json", text);
+    forget_cut_result(folder.path());
+    CHECK(TemporaryFolder::read(info) == text);
+  }
+}
+
 TEST_CASE("a run that did not end by itself says why") {
   const TemporaryFolder folder;
   const auto log = folder.write("log", "warning: x\npliant: error: the disk\x1b is full\n");

@@ -230,8 +230,8 @@ TEST_CASE("the arguments of a run") {
   const SweepSetup setup =
       setup_of({steps}, {.time_step = 0.1, .format = pliant::FrameFormat::none, .every = 2, .set = {"gravity=null"}});
   CHECK(run_arguments(setup, {"2"}, "o ut", 3) ==
-        std::vector<std::string>{"run", "--quiet", "--out=o ut", "--time-step=0.1", "--format=none", "--every=2",
-                                 "--threads=3", "--set=gravity=null", "--set=steps=2", "--", "s.json"});
+        std::vector<std::string>{"run", "--out=o ut", "--time-step=0.1", "--format=none", "--every=2", "--threads=3",
+                                 "--set=gravity=null", "--set=steps=2", "--quiet", "--", "s.json"});
 }
 
 TEST_CASE("processors are shared out") {
