@@ -111,7 +111,7 @@ Image ExperimentContext::picture(const pliant::Scene& scene) const {
   pliant_render::PictureOptions options;
   options.appearance = scene.view;
   options.bounds = bounds_of(clip);
-  options.ground_height = ground_height(clip);
+  options.ground_height = ground_height(clip, options.bounds);
   options.range = color_range(clip);
   pliant_render::PictureMaker maker(clip.render_mesh, options);
   return maker.draw(clip.frames[0].content, clip.frames[0].wind);

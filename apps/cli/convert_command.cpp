@@ -206,10 +206,11 @@ bool mentions(const pliant::SceneSource& source, std::string_view word) {
 std::vector<std::optional<pliant::SurfaceColors>> colors_of_run(const fs::path& folder, const Animation& animation) {
   const fs::path checkpoint = folder / pliant::checkpoint_name;
   std::error_code ignored;
-  if (!fs::exists(checkpoint, ignored)) return {};
+  std::vector<std::optional<pliant::SurfaceColors>> colors;
+  if (!fs::exists(checkpoint, ignored)) return colors;
   try {
     pliant::Scene known = pliant::read_checkpoint(checkpoint);
-    std::vector<std::optional<pliant::SurfaceColors>> colors(animation.bodies.size(), colors_of_view(known.view));
+    colors.assign(animation.bodies.size(), colors_of_view(known.view));
     if (!mentions(known.source, "appearance")) return colors;
     const pliant::Scene scene = pliant::parse_scene(std::move(known.source));
     for (const auto& [id, appearance] : scene.appearances) {
@@ -219,12 +220,12 @@ std::vector<std::optional<pliant::SurfaceColors>> colors_of_run(const fs::path& 
       colors[static_cast<std::size_t>(found - animation.bodies.begin())] =
           colors_of_body(appearance, static_cast<std::size_t>(id));
     }
-    return colors;
   } catch (const pliant::Error& error) {
-    print_to_stderr("warning: the colors of the scene are not known, so each body has one of its own: " +
+    if (error.kind() != pliant::ErrorKind::input) throw;
+    print_to_stderr("warning: the colors that the scene gives its bodies are not known: " +
                     pliant::printable_place(error.what(), message_limit) + "\n");
-    return {};
   }
+  return colors;
 }
 
 /// Whether the output holds that beside bodies.

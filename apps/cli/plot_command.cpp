@@ -1,8 +1,8 @@
 // pliant plot: what runs measured, over time.
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <set>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -123,9 +123,21 @@ void check(const PlotArguments& arguments) {
   }
 }
 
+/// The measurements of a run are never replaced by a plot of them.
+void refuse_to_replace(const PlotArguments& arguments) {
+  for (const fs::path& run : arguments.runs) {
+    std::error_code ignored;
+    if (!fs::equivalent(arguments.out, measurements_of(run), ignored)) continue;
+    pliant::fail_input(fmt::format("--out: {} is what is to be plotted; give another name",
+                                   pliant::printable_place(arguments.out.string())));
+  }
+}
+
 void plot(const PlotArguments& arguments) {
   check(arguments);
+  refuse_to_replace(arguments);
   pliant_plot::PlotChoice choice{.columns = arguments.columns};
+  choice.is_thinned = arguments.out.extension() != ".csv";
   if (arguments.is_logarithmic) choice.is_logarithmic = true;
   choice.from = arguments.from.value_or(choice.from);
   choice.to = arguments.to.value_or(choice.to);

@@ -44,15 +44,20 @@ void show(const RenderArguments& arguments, const std::string& what) {
   if (!arguments.quiet && has_error_terminal()) print_to_stderr("\r\x1b[K" + what);
 }
 
-void check_turntable(const RenderArguments& arguments, const pliant::ViewSettings& view) {
-  if (!arguments.turntable || view.camera.keyframes.empty()) return;
-  pliant::fail_input(
-      "--turntable: the camera of the scene goes through keyframes; give --set view.camera.keyframes=[]");
+/// A camera that turns goes around what moves, wherever that of the scene stands.
+void free_camera(const RenderArguments& arguments, pliant::Camera& camera) {
+  if (!arguments.turntable) return;
+  if (!camera.keyframes.empty()) {
+    pliant::fail_input(
+        "--turntable: the camera of the scene goes through keyframes; give --set view.camera.keyframes=[]");
+  }
+  camera.position.reset();
+  camera.target.reset();
 }
 
 Clip clip_of_run(const RenderArguments& arguments) {
   ShownRun run = shown_run(arguments);
-  check_turntable(arguments, run.appearance);
+  free_camera(arguments, run.appearance.camera);
   pliant::Animation animation = pliant::read_run(arguments.scene);
   const bool is_film = !is_picture(arguments) && animation.times.size() > 1;
   if (is_film) pliant::resample(animation, static_cast<pliant::Real>(arguments.fps));
@@ -74,7 +79,7 @@ Clip clip_of_scene(const RenderArguments& arguments) {
     std::fflush(stdout);  // before it takes its time
   }
   apply_appearance(arguments, scene.view);
-  check_turntable(arguments, scene.view);
+  free_camera(arguments, scene.view.camera);
   scene.simulation.set_stop(waits_no_longer);
   return pliant_render::clip_from_scene(scene, steps_a_frame(scene, arguments.fps), [&](std::int64_t step) {
     if (step % 16 == 0) show(arguments, fmt::format("simulating: step {} of {}", step, scene.steps));
@@ -132,17 +137,19 @@ class FrameDrawer {
 
  private:
   pliant_render::PictureOptions options(const std::array<pliant::Index, 2>& size) const {
-    pliant_render::PictureOptions options{clip_.appearance, static_cast<int>(arguments_.samples), bounds_of(clip_),
-                                          ground_height(clip_), color_range(clip_)};
+    const pliant_render::Bounds bounds = bounds_of(clip_);
+    pliant_render::PictureOptions options{clip_.appearance, static_cast<int>(arguments_.samples), bounds,
+                                          ground_height(clip_, bounds), color_range(clip_)};
     options.appearance.size = size;
-    options.appearance.camera = camera_of(clip_, size);
+    options.appearance.camera = camera_of(clip_, bounds, size);
     if (arguments_.turntable) options.appearance.camera.turn_rate = turntable_rate();
     return options;
   }
   /// Once around from the first frame to the one that would follow the last, so that the film can go on from its start.
   pliant::Real turntable_rate() const {
     if (!(duration() > 0)) {
-      pliant::fail_input("--turntable: the frames are all of one time, there is no turning; give more --steps");
+      pliant::fail_input(
+          "--turntable: all frames show the same time; a turn needs two at least, by --steps or --frames");
     }
     const auto frames = static_cast<pliant::Real>(count());
     return 360 * (frames - 1) / frames / duration();

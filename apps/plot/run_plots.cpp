@@ -28,13 +28,13 @@ char letter(int changed) {
 
 /// "energy", as axes are labeled.
 std::string in_axis(std::string title) {
-  title.front() = letter(std::tolower(static_cast<unsigned char>(title.front())));
+  if (!title.empty()) title.front() = letter(std::tolower(static_cast<unsigned char>(title.front())));
   return title;
 }
 
 /// "Total energy".
 std::string as_title(std::string label) {
-  label.front() = letter(std::toupper(static_cast<unsigned char>(label.front())));
+  if (!label.empty()) label.front() = letter(std::toupper(static_cast<unsigned char>(label.front())));
   return label;
 }
 
@@ -92,19 +92,29 @@ std::optional<Series> line_of(const MeasuredRun& run, const std::string& column,
   return line;
 }
 
-/// The least and the largest of each short span, in their order.
+/// The least and the largest of each short span, in their order. Where a span has no number the line has a gap.
 void thin(Series& line) {
   const std::size_t count = line.x.size();
   if (count <= 2 * spans) return;
   Series thinned;
+  const auto keep = [&](std::size_t i) {
+    thinned.x.push_back(line.x[i]);
+    thinned.y.push_back(line.y[i]);
+  };
   for (std::size_t span = 0; span < spans; ++span) {
     const std::size_t begin = span * count / spans, end = (span + 1) * count / spans;
-    const auto at = [&](std::size_t i) { return line.y.begin() + static_cast<std::ptrdiff_t>(i); };
-    const auto [least, largest] = std::minmax_element(at(begin), at(end));
-    for (const auto place : {std::min(least, largest), std::max(least, largest)}) {
-      thinned.x.push_back(line.x[static_cast<std::size_t>(place - line.y.begin())]);
-      thinned.y.push_back(*place);
+    std::size_t least = end, largest = end;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!std::isfinite(line.y[i])) continue;
+      if (least == end || line.y[i] < line.y[least]) least = i;
+      if (largest == end || line.y[i] >= line.y[largest]) largest = i;
     }
+    if (least == end) {
+      keep(begin);
+      continue;
+    }
+    keep(std::min(least, largest));
+    keep(std::max(least, largest));
   }
   line.x = std::move(thinned.x);
   line.y = std::move(thinned.y);
@@ -187,9 +197,9 @@ class RunPlotter {
     std::size_t rows = 0;
     for (Series& line : lines) {
       rows = std::max(rows, line.x.size());
-      thin(line);
+      if (choice_.is_thinned) thin(line);
     }
-    if (rows > 2 * spans) {
+    if (choice_.is_thinned && rows > 2 * spans) {
       plot.caption = fmt::format("The least and the largest value of each {:.3g} records.",
                                  static_cast<double>(rows) / static_cast<double>(spans));
     }
@@ -217,6 +227,7 @@ void check_columns(const std::vector<std::string>& asked, const std::vector<std:
   std::vector<std::string_view> known(names.begin(), names.end());
   known.emplace_back("elastic");
   for (const std::string& column : asked) {
+    if (column.empty()) pliant::fail_input("--columns: a name is empty; separate names by single commas");
     if (std::ranges::find(known, std::string_view(column)) != known.end()) continue;
     pliant::fail_input(fmt::format("--columns: unknown column '{}'; {}", pliant::printable(column, 60),
                                    pliant::suggestion_text(column, known)));
@@ -224,6 +235,7 @@ void check_columns(const std::vector<std::string>& asked, const std::vector<std:
 }
 
 void check_times(const std::vector<MeasuredRun>& runs, const PlotChoice& choice) {
+  if (choice.from > choice.to) pliant::fail_input("--from: it is later than --to; exchange the two");
   double first = std::numeric_limits<double>::infinity(), last = -first;
   for (const MeasuredRun& run : runs) {
     const std::vector<double>* times = run.table.find("time");

@@ -21,13 +21,13 @@ struct MeasuredRun {
 struct PlotChoice {
   std::vector<std::string> columns{};    ///< of measurements.csv, or "elastic", the sum of all groups'; none: the usual
   std::optional<bool> is_logarithmic{};  ///< of the vertical axes; none: where the column is best seen so
+  bool is_thinned = true;  ///< long lines are drawn by the least and the largest value of each short span of time
   double from = -std::numeric_limits<double>::infinity();  ///< [s]
   double to = std::numeric_limits<double>::infinity();     ///< [s]
 };
 
 /// Of one run: lines of one unit in one plot. Of several: a plot for each column, with a line for each run. Without a
-/// choice of columns those plots in which anything happens. Of long runs the least and the largest value of each short
-/// span of time are drawn, so that no peak is lost.
+/// choice of columns those plots in which anything happens.
 /// At most most_lines runs. @throws pliant::Error (input): a column that no run has, no row between `from` and `to`
 std::vector<pliant_report::Plot> run_plots(const std::vector<MeasuredRun>& runs, const PlotChoice& choice);
 

@@ -68,13 +68,28 @@ Vec3f fit(const std::vector<Vec3f>& points, const Vec3f& forward, const Vec3f& u
   return (right_edge - left_edge) / 2 * right + (upper_edge - lower_edge) / 2 * up + depth * forward;
 }
 
+/// The same with a point in the middle of the picture, which is before the eye.
+Vec3f fit_around(const std::vector<Vec3f>& points, const Vec3f& middle, const Vec3f& forward, const Vec3f& up,
+                 float tan_x, float tan_y) {
+  const Vec3f right = forward.cross(up);
+  float depth = -1e-3F;  // of the eye, from the middle
+  for (const Vec3f& p : points) {
+    const Vec3f away = p - middle;
+    const float distance = std::max(std::abs(away.dot(right)) / tan_x, std::abs(away.dot(up)) / tan_y);
+    depth = std::min(depth, away.dot(forward) - distance);
+  }
+  return middle + depth * forward;
+}
+
 /// Moves the camera without turning it to where the points just fit into the picture, and looks at what is at the depth
-/// of `middle`.
-void fit_points(Viewpoint& view, const std::vector<Vec3f>& points, const Vec3f& middle, float aspect) {
+/// of `middle`, or at that itself.
+void fit_points(Viewpoint& view, const std::vector<Vec3f>& points, const Vec3f& middle, bool is_in_middle,
+                float aspect) {
   const Vec3f forward = view.forward();
   const float tan_y = std::tan(view.field_of_view / 2) / picture_margin;
-  const float free_width = 1 - std::min(std::abs(view.inset), 0.9F);
-  view.eye = fit(points, forward, view.up, tan_y * aspect * free_width, tan_y);
+  const float tan_x = tan_y * aspect * (1 - std::min(std::abs(view.inset), 0.9F));
+  view.eye = is_in_middle ? fit_around(points, middle, forward, view.up, tan_x, tan_y)
+                          : fit(points, forward, view.up, tan_x, tan_y);
   view.target = view.eye + (middle - view.eye).dot(forward) * forward;
 }
 
@@ -131,25 +146,17 @@ Viewpoint place_camera(const pliant::Camera& camera, const Bounds& given, float 
     view.up = upright(up, forward);
     view.eye = bounds.center() - forward;
     view.target = bounds.center();
-    const Vec3f target = camera.target ? to_float(*camera.target) : bounds.center();
+    Vec3f middle = camera.target ? to_float(*camera.target) : bounds.center();
     std::vector<Vec3f> points = points_of(bounds);
-    Vec3f middle = bounds.center();
-    if (camera.turn_rate != 0) {
-      points = turned_around(points, target, up);
-      middle = target + up.dot(middle - target) * up;
-    }
-    fit_points(view, points, middle, aspect);
-    if (camera.target) {
-      view.eye += target - view.target;
-      view.target = target;
-    }
+    if (camera.turn_rate != 0) points = turned_around(points, middle, up);
+    fit_points(view, points, middle, camera.target.has_value() || camera.turn_rate != 0, aspect);
   }
   set_depth_range(view, bounds);
   return view;
 }
 
 void fit_into_picture(Viewpoint& view, const Bounds& bounds, float aspect) {
-  fit_points(view, points_of(bounds), bounds.center(), aspect);
+  fit_points(view, points_of(bounds), bounds.center(), false, aspect);
 }
 
 void set_depth_range(Viewpoint& view, const Bounds& bounds) {

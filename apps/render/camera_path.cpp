@@ -43,7 +43,7 @@ struct Curve {
     const Real weight = (before + 2 * after) / (3 * (before + after));
     for (Eigen::Index k = 0; k < result.size(); ++k) {
       const Real left = (values[i][k] - values[i - 1][k]) / before, right = (values[i + 1][k] - values[i][k]) / after;
-      if (left * right > 0) result[k] = left * right / (weight * right + (1 - weight) * left);
+      if (left * right > 0) result[k] = 1 / (weight / left + (1 - weight) / right);
     }
     return result;
   }

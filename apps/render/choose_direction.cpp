@@ -17,7 +17,9 @@ constexpr std::array<Direction, 8> directions = {
 constexpr double lead = 1.1;
 constexpr int picture_height = 120;  // [pixels], enough to compare
 
-/// A small picture that knows of each pixel how far away it is, and whether it is counted.
+constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
+
+/// A small picture that knows of each pixel how far away it is, and whose it is.
 class DepthPicture {
  public:
   DepthPicture(const Viewpoint& view, float aspect)
@@ -25,9 +27,9 @@ class DepthPicture {
         near_(view.near),
         projection_(view.projection(aspect) * view.view()),
         depths_(static_cast<std::size_t>(width_ * picture_height), std::numeric_limits<float>::infinity()),
-        is_counted_(depths_.size(), 0) {}
+        owners_(depths_.size(), nobody) {}
 
-  void add_triangle(const Vec3f& a, const Vec3f& b, const Vec3f& c, bool counts) {
+  void add_triangle(const Vec3f& a, const Vec3f& b, const Vec3f& c, std::uint32_t owner) {
     std::array<Vec3f, 3> p;
     if (!project(a, p[0]) || !project(b, p[1]) || !project(c, p[2])) return;
     const Vec3f u = p[1] - p[0], v = p[2] - p[0];
@@ -39,12 +41,12 @@ class DepthPicture {
       for (int x = first(left); x <= last(right, width_); ++x) {
         const float dx = static_cast<float>(x) - p[0].x(), dy = static_cast<float>(y) - p[0].y();
         const float s = (dx * v.y() - dy * v.x()) / area, t = (u.x() * dy - u.y() * dx) / area;
-        if (s >= 0 && t >= 0 && s + t <= 1) set(x, y, p[0].z() + s * u.z() + t * v.z(), counts);
+        if (s >= 0 && t >= 0 && s + t <= 1) set(x, y, p[0].z() + s * u.z() + t * v.z(), owner);
       }
     }
   }
 
-  void add_edge(const Vec3f& a, const Vec3f& b) {
+  void add_edge(const Vec3f& a, const Vec3f& b, std::uint32_t owner) {
     Vec3f from, to;
     if (!project(a, from) || !project(b, to)) return;
     const float length = (to - from).head<2>().cwiseAbs().maxCoeff();
@@ -52,11 +54,16 @@ class DepthPicture {
     for (int i = 0; i <= parts; ++i) {
       const Vec3f p = from + static_cast<float>(i) / static_cast<float>(parts) * (to - from);
       const int x = first(p.x() - 0.5F), y = first(p.y() - 0.5F);
-      if (x <= last(p.x() + 0.5F, width_) && y <= last(p.y() + 0.5F, picture_height)) set(x, y, p.z(), true);
+      if (x <= last(p.x() + 0.5F, width_) && y <= last(p.y() + 0.5F, picture_height)) set(x, y, p.z(), owner);
     }
   }
 
-  std::ptrdiff_t count() const { return std::ranges::count(is_counted_, 1); }
+  /// Adds how many pixels each has.
+  void count(std::vector<double>& pixels) const {
+    for (const std::uint32_t owner : owners_) {
+      if (owner != nobody) ++pixels[owner];
+    }
+  }
 
  private:
   /// To pixels and the depth; false where it is not before the camera.
@@ -71,18 +78,18 @@ class DepthPicture {
   static int last(float high, int size) {
     return static_cast<int>(std::floor(std::clamp(high, -1.0F, static_cast<float>(size - 1))));
   }
-  void set(int x, int y, float depth, bool counts) {
+  void set(int x, int y, float depth, std::uint32_t owner) {
     const auto pixel = static_cast<std::size_t>(y * width_ + x);
     if (!(depth < depths_[pixel])) return;
     depths_[pixel] = depth;
-    is_counted_[pixel] = counts ? 1 : 0;
+    owners_[pixel] = owner;
   }
 
   int width_;
   float near_;
   Mat4f projection_;
   std::vector<float> depths_;
-  std::vector<std::uint8_t> is_counted_;
+  std::vector<std::uint32_t> owners_;
 };
 
 void add_surfaces(DepthPicture& picture, const std::vector<DrawnCollider>& colliders) {
@@ -93,54 +100,70 @@ void add_surfaces(DepthPicture& picture, const std::vector<DrawnCollider>& colli
     };
     const std::vector<ColliderSurface::Corner>& corners = each.surface->corners;
     for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
-      picture.add_triangle(moved(corners[i]), moved(corners[i + 1]), moved(corners[i + 2]), false);
+      picture.add_triangle(moved(corners[i]), moved(corners[i + 1]), moved(corners[i + 2]), nobody);
     }
   }
 }
 
-/// Pixels in which free bodies are seen.
-std::ptrdiff_t pixels_of(const RenderMesh& render_mesh, const FrameContent& frame, const Viewpoint& view,
-                         float aspect) {
+/// Adds the pixels in which each free body is seen.
+void count_pixels(const RenderMesh& render_mesh, const FrameContent& frame, const Viewpoint& view, float aspect,
+                  std::vector<double>& pixels) {
   const std::vector<Vec3f>& x = frame.positions;
-  std::vector<char> is_held(x.size(), 0);
-  for (const std::uint32_t vertex : frame.held) is_held[vertex] = 1;
+  std::vector<std::uint32_t> owners = render_mesh.bodies;
+  for (const std::uint32_t vertex : frame.held) owners[vertex] = nobody;
   DepthPicture picture(view, aspect);
   add_surfaces(picture, frame.colliders);
   const std::vector<std::uint32_t>& triangles = render_mesh.triangles;
   for (std::size_t i = 0; i + 2 < triangles.size(); i += 3) {
-    picture.add_triangle(x[triangles[i]], x[triangles[i + 1]], x[triangles[i + 2]], is_held[triangles[i]] == 0);
+    picture.add_triangle(x[triangles[i]], x[triangles[i + 1]], x[triangles[i + 2]], owners[triangles[i]]);
   }
   const std::vector<std::uint32_t>& ropes = render_mesh.ropes;
-  for (std::size_t i = 0; i + 1 < ropes.size(); i += 2) picture.add_edge(x[ropes[i]], x[ropes[i + 1]]);
-  return picture.count();
+  for (std::size_t i = 0; i + 1 < ropes.size(); i += 2) {
+    picture.add_edge(x[ropes[i]], x[ropes[i + 1]], owners[ropes[i]]);
+  }
+  picture.count(pixels);
+}
+
+/// Of each body as a share of what the direction that shows it best shows of it, all bodies together.
+double share_seen(const std::vector<std::vector<double>>& seen, std::size_t direction) {
+  double sum = 0;
+  for (std::size_t body = 0; body < seen.front().size(); ++body) {
+    double best = 0;
+    for (const std::vector<double>& each : seen) best = std::max(best, each[body]);
+    if (best > 0) sum += seen[direction][body] / best;
+  }
+  return sum;
 }
 
 }  // namespace
 
 pliant::Camera choose_direction(pliant::Camera camera, const RenderMesh& render_mesh,
-                                std::span<const FrameContent> frames, const Bounds& bounds, float aspect, float inset) {
+                                std::span<const FrameContent> frames, const Bounds& bounds, float aspect) {
   if (camera.position || camera.azimuth || camera.elevation || !camera.keyframes.empty()) return camera;
-  double most = 0;
-  Direction best = directions[0];
-  for (std::size_t i = 0; i < directions.size(); ++i) {
-    camera.azimuth = directions[i].azimuth;
-    camera.elevation = directions[i].elevation;
-    const Viewpoint view = place_camera(camera, bounds, aspect, inset);
-    // Between pixels, which a camera nearby has more of, and the area seen, which one from the end of a row has more
-    // of.
-    const double size_of_pixel = (view.eye - bounds.center()).norm();
-    double seen = 0;
-    for (const FrameContent& frame : frames) {
-      seen += size_of_pixel * static_cast<double>(pixels_of(render_mesh, frame, view, aspect));
-    }
-    if (i == 0) seen *= lead;
-    if (seen > most) {
-      most = seen;
-      best = directions[i];
+  const std::size_t bodies =
+      render_mesh.bodies.empty() ? 0 : 1 + std::size_t{*std::ranges::max_element(render_mesh.bodies)};
+  std::vector<std::vector<double>> seen;  // by each direction of each body
+  for (const Direction& direction : directions) {
+    camera.azimuth = direction.azimuth;
+    camera.elevation = direction.elevation;
+    const Viewpoint view = place_camera(camera, bounds, aspect);
+    std::vector<double>& pixels = seen.emplace_back(bodies, 0);
+    for (const FrameContent& frame : frames) count_pixels(render_mesh, frame, view, aspect, pixels);
+    // The count of pixels falls with the square of the distance. Times the distance itself it favors neither a camera
+    // that stands near, nor one that looks along a row of bodies from far away.
+    const double distance = (view.eye - bounds.center()).norm();
+    for (double& each : pixels) each *= distance;
+  }
+  std::size_t best = 0;
+  double most = lead * share_seen(seen, 0);
+  for (std::size_t i = 1; i < directions.size(); ++i) {
+    if (const double share = share_seen(seen, i); share > most) {
+      most = share;
+      best = i;
     }
   }
-  camera.azimuth = best.azimuth;
-  camera.elevation = best.elevation;
+  camera.azimuth = directions[best].azimuth;
+  camera.elevation = directions[best].elevation;
   return camera;
 }
 

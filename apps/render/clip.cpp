@@ -276,7 +276,7 @@ Bounds bounds_of(const Clip& clip) {
   return outline.bounds();
 }
 
-pliant::Camera camera_of(const Clip& clip, const std::array<pliant::Index, 2>& size) {
+pliant::Camera camera_of(const Clip& clip, const Bounds& bounds, const std::array<pliant::Index, 2>& size) {
   constexpr std::size_t most = 5;
   std::vector<FrameContent> frames;
   const std::size_t count = std::min(most, clip.frames.size());
@@ -285,12 +285,11 @@ pliant::Camera camera_of(const Clip& clip, const std::array<pliant::Index, 2>& s
     frames.push_back(visible_part(frame.content, clip.appearance));
   }
   const float aspect = static_cast<float>(size[0]) / static_cast<float>(size[1]);
-  return choose_direction(clip.appearance.camera, clip.render_mesh, frames, bounds_of(clip), aspect);
+  return choose_direction(clip.appearance.camera, clip.render_mesh, frames, bounds, aspect);
 }
 
-float ground_height(const Clip& clip) {
+float ground_height(const Clip& clip, const Bounds& bounds) {
   if (clip.appearance.ground_height) return static_cast<float>(*clip.appearance.ground_height);
-  const Bounds bounds = bounds_of(clip);
   return bounds.is_empty() ? 0 : bounds.low.z() - 0.03F * bounds.radius();
 }
 

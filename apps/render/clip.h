@@ -88,9 +88,9 @@ Clip clip_from_animation(pliant::Animation animation, const pliant::ViewSettings
 Bounds bounds_of(const Clip& clip);
 /// The camera for a picture of this size, its direction chosen by frames all over the clip where the scene leaves it
 /// open.
-pliant::Camera camera_of(const Clip& clip, const std::array<pliant::Index, 2>& size);
+pliant::Camera camera_of(const Clip& clip, const Bounds& bounds, const std::array<pliant::Index, 2>& size);
 /// The height of the ground [m]: what the scene says, else a little below everything.
-float ground_height(const Clip& clip);
+float ground_height(const Clip& clip, const Bounds& bounds);
 /// The range of the colors: what the scene says, else the range of the values of all frames. Stretch is a fraction.
 std::array<float, 2> color_range(const Clip& clip);
 

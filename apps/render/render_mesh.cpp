@@ -49,8 +49,12 @@ RenderMesh make_render_mesh(const std::vector<pliant::Body>& bodies, std::span<c
     render_mesh.vertex_count = std::max(render_mesh.vertex_count, body.first_vertex + body.mesh.vertex_count());
   }
   render_mesh.is_sheet.resize(static_cast<std::size_t>(render_mesh.vertex_count), 0);
-  for (const pliant::Body& body : bodies) {
+  render_mesh.bodies.resize(render_mesh.is_sheet.size(), 0);
+  for (std::size_t number = 0; number < bodies.size(); ++number) {
+    const pliant::Body& body = bodies[number];
     const pliant::Mesh& mesh = body.mesh;
+    std::fill_n(render_mesh.bodies.begin() + body.first_vertex, mesh.vertex_count(),
+                static_cast<std::uint32_t>(number));
     pliant::Mesh surface;
     surface.vertices = mesh.vertices;
     surface.triangles = mesh.triangles;

@@ -36,6 +36,7 @@ struct RenderMesh {
   std::vector<std::uint32_t> edges;    ///< of the triangles, for the wireframe, two vertices each
   std::vector<std::uint32_t> springs;  ///< all edges, which define the stretch, two vertices each
   std::vector<float> rest_lengths;     ///< of the springs [m]
+  std::vector<std::uint32_t> bodies;   ///< one per vertex: the place of its body in the list
   std::vector<std::uint8_t> tones;     ///< one per vertex: which of pliant::body_tones its body has
   std::vector<VertexLook> looks;       ///< one per vertex, or none
   std::vector<std::uint8_t> is_sheet;  ///< one per vertex: 1 where its body has triangles and no tetrahedra

@@ -1,4 +1,5 @@
 """A constraint type of one's own, in NumPy: a vertex stays on or above a sphere."""
+# [own constraint]
 import numpy as np
 import numpy.typing as npt
 import pliant
@@ -6,7 +7,6 @@ import pliant
 CENTER, RADIUS = np.array([0.5, 0.5, -0.3]), 0.3
 
 
-# [own constraint]
 class OutsideSphere(pliant.OwnConstraint):
     def project(self, z: npt.NDArray[np.float64], fields: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
         away = z - CENTER  # (count, rows, 3), for many constraints at once

@@ -160,6 +160,8 @@ class Simulation:
         """Adds constraints or a force to a body, ``add(body, EdgeSpring())``, or what is for all, ``add(Gravity())``."""
         body = what._body if isinstance(what, BodyId) else None
         added = what if body is None else on_body
+        if isinstance(added, (OwnForce, OwnConstraint)) and not hasattr(added, "name"):
+            raise Error(f"{type(added).__name__}: its __init__ does not call super().__init__()")
         if isinstance(added, OwnForce):
             return ForceId(self._made.add_own_force(added.name, added.force, name))
         if isinstance(added, OwnConstraint):

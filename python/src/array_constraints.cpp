@@ -24,13 +24,10 @@ void make_read_only(const py::object& array) {
 
 /// Numbers in memory that nobody else can write; a copy of what is kept elsewhere. Null of what is not numbers.
 py::object readable(const py::object& given) {
-  const bool is_kept = given.ref_count() > 1;
+  const py::ssize_t holders = given.ref_count();
   const auto numbers = py::array_t<Real, py::array::forcecast>::ensure(given);
-  if (!numbers) {
-    PyErr_Clear();
-    return {};
-  }
-  bool in_place = numbers.owndata() && (!is_kept || numbers.ptr() != given.ptr());
+  if (!numbers) return {};
+  bool in_place = numbers.owndata() && (numbers.ptr() == given.ptr() ? holders : numbers.ref_count()) == 1;
   for (py::ssize_t axis = 0; axis < numbers.ndim(); ++axis) in_place &= numbers.strides(axis) % real_size == 0;
   return in_place ? py::object(numbers) : numbers.attr("copy")("K");
 }
@@ -151,6 +148,7 @@ ArrayConstraints::Projected ArrayConstraints::projected(const Positions& positio
 }
 
 void ArrayConstraints::begin_local_step(const Positions& positions) {
+  if (shape_.count == 0) return;
   const py::gil_scoped_acquire lock;
   begun_at_ = nullptr;
   all_.p = {};

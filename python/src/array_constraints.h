@@ -26,7 +26,7 @@ class ArrayConstraints final : public pliant::ConstraintGroup {
 
   /// One call of the function in a local step, for all constraints; project() then reads, on every thread.
   void begin_local_step(const pliant::Positions& positions) override;
-  void end_local_step() override { begun_at_ = nullptr; }
+  void end_local_step() noexcept override { begun_at_ = nullptr; }
   pliant::Real project(const pliant::Positions& positions, std::span<pliant::Real> out, pliant::Index begin,
                        pliant::Index end) const override;
   pliant::Real project_to_forces(const pliant::Positions& positions, std::span<pliant::Real> out, pliant::Index begin,

@@ -57,6 +57,30 @@ class Plot(unittest.TestCase):
             measured = zip(self.measured("few", "time"), self.measured("few", column))
             self.assertEqual(drawn, [(float(time), float(value)) for time, value in measured])
 
+    def test_every_column_that_a_run_writes_has_a_name_in_words(self):
+        scene = {**CHAIN, "steps": 3, "contact": {}, "colliders": [{"type": "plane", "name": "floor"}],
+                 "forces": [{"type": "wind", "velocity": [1, 0, 0]}]}
+        scene["bodies"] = [*scene["bodies"], {"mesh": {"shape": "grid"}, "material": "cotton",
+                                              "transform": {"translate": [0, 0, 1]}}]
+        (self.folder / "all.json").write_text(json.dumps(scene))
+        self.pliant("run", "all.json", "--out", "out/all", "--quiet")
+        with open(self.folder / "out/all/measurements.csv", newline="") as file:
+            columns = next(csv.reader(file))
+        self.assertGreater(len(columns), 30)
+        for column in columns[2:]:
+            self.pliant("plot", "out/all", "--out", "a.csv", "--columns", column)
+            label = (self.folder / "a.csv").read_text().splitlines()[1].split(",")[0]
+            self.assertNotIn("_", label)
+            if column not in ("objective", "iterations", "ms_contact"):  # one word is the name of these
+                self.assertIn(" ", label, column)
+
+    def test_measurements_are_not_replaced(self):
+        before = (self.folder / "out/few/measurements.csv").read_bytes()
+        for run in ("out/few", "out/few/measurements.csv"):
+            done = self.pliant("plot", run, "--columns", "total", "--out", "out/few/../few/measurements.csv", expect=2)
+            self.assertIn("is what is to be plotted; give another name", done.stderr)
+        self.assertEqual((self.folder / "out/few/measurements.csv").read_bytes(), before)
+
     def test_a_run_that_still_goes_on(self):
         table = self.folder / "out" / "few" / "measurements.csv"
         text = table.read_text()

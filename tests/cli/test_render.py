@@ -207,7 +207,7 @@ class Render(unittest.TestCase):
                                (["--out", "c.png", "--frames", "0"], "--frames: '0' is out of range; give a whole"),
                                (["--out", "c.mp4", "--sheet"], "--sheet: the frames of a sheet are one picture"),
                                (["--out", "c.png", "--turntable"], "--turntable: a single picture does not turn"),
-                               (["--out", "c.mp4", "--steps", "0", "--turntable"], "--turntable: the frames are all")):
+                               (["--out", "c.mp4", "--steps", "0", "--turntable"], "--turntable: all frames show the same time")):
             with self.subTest(words):
                 self.assertIn(message, self.render("chain", *words, expect=2).stderr)
         self.assertIn("neither a file nor a built-in scene", self.render("chian", "--out", "c.png", expect=2).stderr)

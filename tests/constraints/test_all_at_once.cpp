@@ -1,4 +1,4 @@
-// A group of a user's own that projects all of its constraints at the begin of a local step.
+// A group of a user's own that projects all of its constraints at the beginning of a local step.
 #include <atomic>
 #include <stdexcept>
 
@@ -41,12 +41,12 @@ class PullAtOnce final : public ConstraintGroup {
   std::span<const Real> rest_measure() const override { return ones_; }
 
   void begin_local_step(const Positions& q) override {
-    if (fails_ == Fails::at_begin) throw std::runtime_error("at the begin");
+    if (fails_ == Fails::at_begin) throw std::runtime_error("at the beginning");
     ++counts_.begun;
     is_open_ = true;
     for (std::size_t i = 0; i < found_.size(); ++i) found_[i] = -stiffness() * q.data()[i];
   }
-  void end_local_step() override {
+  void end_local_step() noexcept override {
     ++counts_.ended;
     is_open_ = false;
   }
@@ -87,7 +87,7 @@ void add(Simulation& simulation, std::unique_ptr<ConstraintGroup> group) {
 
 }  // namespace
 
-TEST_CASE("a group that projects at the begin of the local step moves the body as one that does so in chunks") {
+TEST_CASE("a group that projects at the beginning of the local step moves the body as one that does so in chunks") {
   for (const int threads : {1, 2}) {
     Counts counts;
     Simulation at_once = sheet(threads);

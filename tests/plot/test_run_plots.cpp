@@ -127,16 +127,52 @@ TEST_CASE("many colliders go into several plots") {
   CHECK(plots[1].series[3].name == "force on ball5 along z");
 }
 
+TEST_CASE("of long runs every peak is drawn, whatever is not a number beside it, or all records") {
+  std::string text = "step,time,smallest_gap\n";
+  double most = 0, least = 1e9;
+  for (int i = 0; i < 6000; ++i) {
+    const double value = 1 + (i * 7919 % 1000) * 1e-3;
+    const bool is_known = i % 10 < 2 && i / 100 % 7 != 3;
+    if (is_known) most = std::max(most, value), least = std::min(least, value);
+    text += std::to_string(i) + "," + std::to_string(i / 60.0) + "," +
+            (is_known     ? std::to_string(value)
+             : i % 3 == 0 ? "nan"
+                          : "inf") +
+            "\n";
+  }
+  const std::vector<Plot> plots = run_plots({run_of("long", text)}, {.columns = {"smallest_gap"}});
+  REQUIRE(plots.size() == 1);
+  const std::vector<double>& y = plots[0].series.at(0).y;
+  CHECK(y.size() <= 1200);
+  double drawn_most = 0, drawn_least = 1e9;
+  std::size_t numbers = 0;
+  for (const double value : y) {
+    if (!std::isfinite(value)) continue;
+    ++numbers;
+    drawn_most = std::max(drawn_most, value);
+    drawn_least = std::min(drawn_least, value);
+  }
+  CHECK(drawn_most == doctest::Approx(most));
+  CHECK(drawn_least == doctest::Approx(least));
+  CHECK(numbers > 1000);      // all spans in which there is one
+  CHECK(numbers < y.size());  // and a gap in each of the others
+  const std::vector<Plot> all = run_plots({run_of("long", text)}, {.columns = {"smallest_gap"}, .is_thinned = false});
+  CHECK(all[0].series.at(0).y.size() >= 5999);
+}
+
 TEST_CASE("what cannot be drawn is refused") {
   CHECK(message_of({small_run("run")}, {.columns = {"totl"}}) ==
         "--columns: unknown column 'totl'; did you mean 'total'? (known: step, time, kinetic, elastic_links, "
         "elastic_bend, total, iterations, residual, ...)");
   CHECK(message_of({small_run("run")}, {.from = 2}) ==
         "--from, --to: nothing was measured then; the records are from 0 to 1 s");
+  CHECK(message_of({small_run("run")}, {.columns = {"total", ""}}) ==
+        "--columns: a name is empty; separate names by single commas");
+  CHECK(message_of({small_run("run")}, {.from = 1, .to = 0.5}) == "--from: it is later than --to; exchange the two");
   CHECK(message_of({run_of("empty", "step,time,total\n")}, {}) == "nothing was measured yet");
 }
 
-TEST_CASE("every column that a run writes is known") {
+TEST_CASE("columns of groups and colliders have these in their labels, and what is not known is its own") {
   CHECK(column_info("force_x_the ball").label == "force on the ball along x");
   CHECK(column_info("something_else").label == "something_else");
   CHECK(column_info("past_limits").unit.empty());

@@ -71,14 +71,21 @@ class Own(unittest.TestCase):
     def test_arrays_that_a_function_keeps_or_uses_again_are_safe(self):
         kept, room = [], {}
 
+        class Wrapped:  # hands out an array that it keeps
+            def __init__(self, array):
+                self.array = array
+
+            def __array__(self, dtype=None):
+                return self.array
+
         def project(z, fields):
             kept.append((z, z.copy()))
             with self.assertRaises(ValueError):
                 z[0] = 1
             with self.assertRaises(ValueError):
                 fields[0] = 1
-            return np.multiply(z, (fields / np.linalg.norm(z, axis=2))[:, :, None],
-                               out=room.setdefault(z.shape, np.empty_like(z)))
+            out = room.setdefault(z.shape, np.empty_like(z))
+            return wrap(np.multiply(z, (fields / np.linalg.norm(z, axis=2))[:, :, None], out=out))
 
         def add(simulation, body, mesh):  # two groups that write to one array
             springs = own_springs(mesh, 500)
@@ -92,13 +99,22 @@ class Own(unittest.TestCase):
                 simulation.add(body, Springs(springs.stencils, reduction=[[-1, 1]], stiffness=stiffness,
                                              fields=springs.fields * stiffness / 250))
 
-        own, alike = hung(add, precision="double"), hung(add_alike, precision="double")
-        for _ in range(5):
-            own.step()
-            alike.step()
-        np.testing.assert_array_equal(own.positions, alike.positions)
+        for wrap in (lambda array: array, Wrapped, lambda array: array[:]):
+            own, alike = hung(add, precision="double"), hung(add_alike, precision="double")
+            for _ in range(5):
+                own.step()
+                alike.step()
+            np.testing.assert_array_equal(own.positions, alike.positions)
         for z, copy in kept:
             np.testing.assert_array_equal(z, copy)
+
+    def test_a_group_without_constraints_is_not_called(self):
+        def project(z, fields):
+            return z * z.max()  # which an array without elements does not have
+
+        simulation = hung(lambda s, b, mesh: s.add(
+            b, pliant.OwnConstraint(np.zeros((0, 2)), reduction=[[-1, 1]], project=project)))
+        simulation.step()
 
     def test_several_rows_have_the_forces_of_their_rows(self):
         """Both ends of a spring by themselves, rows = n, against the same in C++."""
@@ -139,8 +155,44 @@ class Own(unittest.TestCase):
             np.testing.assert_array_equal(simulation.positions, before)
             simulation.remove(wrong)
             simulation.step()
-        with self.assertRaisesRegex(pliant.Error, "shapes do not fit"):
-            simulation.add(body, pliant.OwnConstraint([[0, 1]], reduction=np.zeros((1, 2, 3))))
+
+    def test_wrong_arguments_are_told_at_once(self):
+        def same(z, fields):
+            return z
+
+        for words, arguments, options in (
+                ("reduction has the shape", [[[0, 1]]], {"reduction": np.zeros((1, 2, 3))}),
+                ("reduction has the shape", [[[0, 1]]], {"reduction": [-1, 1]}),
+                ("stencils: found 'boundary'", ["boundary"], {}),
+                ("stencils: found 5", [5], {}),
+                ("stencils: found", [[0.5, 1.5]], {}),
+                ("stencils: found", [[[0, 1], [2]]], {}),
+                ("out of range", [[2**40]], {}),
+                ("measure has the shape", [[0, 1]], {"measure": np.ones(3)}),
+                ("measure: found 'a'; give numbers", [[0, 1]], {"measure": "a"}),
+                ("fields has the shape", [[0, 1]], {"fields": np.ones(3)}),
+                ("stiffness is one number", [[0, 1]], {"stiffness": np.ones(2)}),
+                ("stiffness is one number", [[0, 1]], {"stiffness": "1e3"})):
+            with self.subTest(words), self.assertRaisesRegex(pliant.Error, words):
+                pliant.OwnConstraint(*arguments, project=same, **options)
+        with self.assertRaisesRegex(pliant.Error, "define project"):
+            pliant.OwnConstraint([0])
+
+        class WithoutInit(pliant.OwnConstraint):
+            def __init__(self):
+                pass
+
+        simulation = pliant.Simulation()
+        body = simulation.add_body(pliant.grid(), total=1)
+        with self.assertRaisesRegex(pliant.Error, "super"):
+            simulation.add(body, WithoutInit())
+
+    def test_a_mask_is_the_vertices_for_which_it_is_true(self):
+        mask = np.zeros(121, bool)
+        mask[[3, 7]] = True
+        made = pliant.OwnConstraint(mask, project=lambda z, fields: z, fields=0.5)
+        np.testing.assert_array_equal(made.stencils, [[3], [7]])
+        np.testing.assert_array_equal(made.fields, [[0.5], [0.5]])
 
     def test_a_force_in_numpy_is_that_in_cpp(self):
         class Weight(pliant.OwnForce):

@@ -3,6 +3,7 @@ import _thread
 import os
 import pathlib
 import signal
+import tempfile
 import threading
 import time
 import unittest
@@ -45,14 +46,17 @@ class Threads(unittest.TestCase):
     def test_ctrl_c_ends_a_run_and_its_files_are_whole(self):
         scene = pliant.open_scene("curtain_wind", steps=1_000_000)
         timer = self.interrupt_soon()
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        out = pathlib.Path(temporary.name) / "interrupted"
         with self.assertRaises(KeyboardInterrupt):
-            scene.run(out="interrupted")
+            scene.run(out=out)
         timer.join()
-        frames = np.load("interrupted/frames.npy")
+        frames = np.load(out / "frames.npy")
         self.assertEqual(len(frames), scene.simulation.steps_taken + 1)
         np.testing.assert_array_equal(frames[-1], scene.simulation.positions)
-        self.assertIn('"interrupted"', pathlib.Path("interrupted/run.json").read_text())
-        again = pliant.load_checkpoint("interrupted/checkpoint.pliant")
+        self.assertIn('"interrupted"', (out / "run.json").read_text())
+        again = pliant.load_checkpoint(out / "checkpoint.pliant")
         np.testing.assert_array_equal(again.simulation.positions, scene.simulation.positions)
 
     def test_another_thread_goes_on_while_a_step_is_taken(self):

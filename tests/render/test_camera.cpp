@@ -59,6 +59,12 @@ TEST_CASE("an automatic camera has the whole box in the picture, and fills it in
     camera.field_of_view = random.uniform(10, 90);
     camera.up = i % 3 == 0 ? random.unit_vector() : pliant::Vec3(0, 0, 1);
     const Viewpoint view = place_camera(camera, box, aspect, inset);
+    pliant::Camera aimed = camera;
+    aimed.target = random.vector(5);
+    const Bounds around = in_picture(place_camera(aimed, box, aspect, inset), aspect, box);
+    CHECK(around.low.head<2>().minCoeff() > -1);
+    CHECK(around.high.x() < 1 - 2 * inset);
+    CHECK(around.high.y() < 1);
     const Bounds seen = in_picture(view, aspect, box);
     CAPTURE(aspect);
     CAPTURE(inset);
@@ -267,8 +273,34 @@ TEST_CASE("an open camera looks from where most of the bodies is seen") {
   CHECK(lying.choose().elevation == 38);
 }
 
+TEST_CASE("two small bodies count for more than a large one") {
+  const pliant::Mesh mesh = pliant::grid({.columns = 5, .rows = 5, .size = {1, 1}});
+  Screen all(-65.8F);
+  const Screen small(24.2F);
+  all.render_mesh = make_render_mesh({{"large", mesh, 0}, {"left", mesh, 25}, {"right", mesh, 50}});
+  for (const float z : {0.9F, 1.4F}) {
+    for (const Vec3f& x : small.frame.positions) all.frame.positions.push_back(0.3F * x + Vec3f(0, 0, z));
+  }
+  CHECK(all.choose().azimuth == 24.2);
+  for (std::uint32_t i = 25; i < 75; ++i) all.frame.held.push_back(i);
+  CHECK(all.choose().azimuth == -65.8);
+}
+
+TEST_CASE("a rope of a body that is held does not count") {
+  pliant::Mesh rope;
+  rope.vertices.resize(2, 3);
+  rope.vertices << 0, -1, 0, 0, 1, 0;  // best seen from the right
+  rope.edges = {{0, 1}};
+  Screen screen(24);
+  const pliant::Mesh mesh = pliant::grid({.columns = 5, .rows = 5, .size = {1, 1}});
+  screen.render_mesh = make_render_mesh({{"sheet", mesh, 0}, {"rope", rope, 25}});
+  screen.frame.positions.insert(screen.frame.positions.end(), {Vec3f(0, -1, 2), Vec3f(0, 1, 2)});
+  screen.frame.held = {25, 26};
+  CHECK(screen.choose().azimuth == 24.2);
+}
+
 TEST_CASE("what is held does not count, and hides what is behind it") {
-  Screen screen(0);
+  Screen screen(-80);
   for (std::uint32_t i = 0; i < screen.frame.positions.size(); ++i) screen.frame.held.push_back(i);
   CHECK(screen.choose().azimuth == 24.2);  // nothing is seen from anywhere
 

@@ -124,7 +124,8 @@ TEST_CASE("a view that cannot be drawn") {
   check(R"({"camera": {"positon": [0, 0, 9]}})", ".camera.positon: unknown key");
   check(R"({"camera": {"elevation": 90}})", ".camera.elevation: 90 is out of range");
   check(R"({"camera": {"position": [1, 1, 1], "azimuth": 20}})",
-        ".camera.azimuth: 'position' says already where the camera is; keep one of the two");
+        ".camera.azimuth: 'position' says already where the camera is; keep one of the two, or replace the whole "
+        "'camera'");
   const std::string here = R"({"time": 0, "position": [1, 1, 1]})";
   check(R"({"camera": {"turn_rate": 5, "keyframes": [)" + here + "]}}",
         ".camera.turn_rate: 'keyframes' says already where the camera is");

@@ -14,7 +14,7 @@ void ConstraintGroup::begin_step(const StateView&, Real) {}
 
 void ConstraintGroup::begin_local_step(const Positions&) {}
 
-void ConstraintGroup::end_local_step() {}
+void ConstraintGroup::end_local_step() noexcept {}
 
 Real ConstraintGroup::project_to_forces(const Positions& positions, std::span<Real> out, Index begin, Index end) const {
   const auto n = static_cast<std::size_t>(shape().vertices);

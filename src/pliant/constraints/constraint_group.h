@@ -59,11 +59,12 @@ class ConstraintGroup {
   /// coefficient. For groups with at most max_force_rows rows.
   virtual Real project_to_forces(const Positions& positions, std::span<Real> out, Index begin, Index end) const;
 
-  /// Called before and after the projections of a local step, by one thread, the second also where one of them throws:
-  /// a group that is faster with all its constraints at once projects them here. In between project() is asked for
-  /// these positions alone; it may be called outside of a local step as well.
+  /// Called before and after the projections of a local step, by one thread: a group that is faster with all its
+  /// constraints at once projects them here. In between project() is asked for these positions alone; it may be called
+  /// outside of a local step as well. The end is told also where a projection throws, but not where the group's own
+  /// begin_local_step() did.
   virtual void begin_local_step(const Positions& positions);
-  virtual void end_local_step();
+  virtual void end_local_step() noexcept;
 
   /// Vertices that the group pins exactly (hard pins). They leave the system of equations; vertex i of them stands at
   /// the point i of targets().

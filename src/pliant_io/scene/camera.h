@@ -50,7 +50,8 @@ struct Camera {
     field(OptionInfo{"elevation", "degrees", "likewise: how far from above it looks; 0 level", Range{-89, 89}},
           self.elevation);
     field(OptionInfo{"turn_rate", "degrees/s",
-                     "it goes around its target, counterclockwise seen from above; negative: clockwise"},
+                     "it goes around its target, counterclockwise seen from above; negative: clockwise",
+                     Range{-36000, 36000}},
           self.turn_rate);
     field(OptionInfo{"keyframes", "", "in place of a position: where it is at which time, see below"}, self.keyframes);
   }

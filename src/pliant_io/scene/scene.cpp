@@ -36,15 +36,25 @@ void check_direction(const Node& node, const Vec3& position, const Vec3& target,
   }
 }
 
+/// Pictures are drawn in single precision.
+void refuse_far(const Node& node, const Vec3& point) {
+  if (!(point.cwiseAbs().maxCoeff() <= 1e9)) node.fail("more than 1e9 m away; give a place nearer to the scene");
+}
+
 void check_keyframes(const Node& node, const Camera& camera) {
   for (std::size_t i = 0; i < camera.keyframes.size(); ++i) {
     const CameraKeyframe& each = camera.keyframes[i];
     const Node entry = node[i];
-    if (const Node time = entry.require("time"); i > 0 && !(each.time > camera.keyframes[i - 1].time)) {
+    const Node time = entry.require("time");
+    if (i > 0 && !(each.time > camera.keyframes[i - 1].time)) {
       time.fail(fmt::format("{} s is not later than the keyframe before, {} s; give them in order of time", each.time,
                             camera.keyframes[i - 1].time));
     }
-    entry.require("position");
+    if (i > 0 && !(each.time - camera.keyframes[i - 1].time > 1e-6)) {
+      time.fail("less than a microsecond after the keyframe before; leave one of the two out");
+    }
+    refuse_far(entry.require("position"), each.position);
+    if (each.target) refuse_far(entry.require("target"), *each.target);
     const std::optional<Vec3> target = each.target ? each.target : camera.target;
     if (target) check_direction(entry, each.position, *target, camera.up);
   }
@@ -54,11 +64,14 @@ void check_camera(const Node& node, const Camera& camera) {
   const auto refuse_beside = [&node](std::string_view given, std::initializer_list<std::string_view> others) {
     for (const std::string_view other : others) {
       if (const auto found = node.find(other)) {
-        found->fail(fmt::format("'{}' says already where the camera is; keep one of the two", given));
+        found->fail(fmt::format(
+            "'{}' says already where the camera is; keep one of the two, or replace the whole 'camera'", given));
       }
     }
   };
+  if (camera.target) refuse_far(node.require("target"), *camera.target);
   if (camera.position) {
+    refuse_far(node.require("position"), *camera.position);
     refuse_beside("position", {"azimuth", "elevation"});
     if (camera.target) check_direction(node, *camera.position, *camera.target, camera.up);
   }
