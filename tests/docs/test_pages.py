@@ -31,6 +31,15 @@ def snippet(source, name):
 
 
 class Pages(unittest.TestCase):
+    def test_scenes_beside_pages_run(self):
+        scenes = sorted([*SOURCE.glob("docs/gallery/*.json"), *SOURCE.glob("docs/pictures/*.json")])
+        self.assertGreaterEqual(len(scenes), 4)
+        for scene in scenes:
+            with self.subTest(scene.name), tempfile.TemporaryDirectory() as folder:
+                words = [PLIANT, "run", scene, "--steps", "1", "--out", f"{folder}/out", "--quiet"]
+                done = subprocess.run(words, capture_output=True, text=True, timeout=120)
+                self.assertEqual((done.returncode, done.stderr), (0, ""))
+
     def test_links_lead_somewhere(self):
         count = 0
         for page in PAGES:
