@@ -302,7 +302,7 @@ TEST_CASE("a run is played at its own times, frame by frame, and from where the 
       pliant_render::RunFrames(pliant::animate(mesh, "run", pliant::PointCache::from_frames(frames, times))), {}, true);
   source.set_looping(false);
   Window window("Pliant test", 1000, 640);
-  Viewer viewer(window, source, {});
+  Viewer viewer(window, source, ViewerOptions());
   const auto turn_until = [&](const std::function<bool()>& is_so) {
     while (!is_so()) viewer.turn(0.05);
   };
