@@ -12,6 +12,14 @@
 #include "pliant_io/scene/detail/scene_reader.h"
 
 namespace pliant {
+
+/// For the options of a camera, which read_options finds by its arguments.
+static void read(const Node& node, std::vector<CameraKeyframe>& keyframes) {
+  node.require_list();
+  keyframes.assign(node.size(), {});
+  for (std::size_t i = 0; i < keyframes.size(); ++i) read_options(node[i], keyframes[i]);
+}
+
 namespace {
 
 const std::vector<std::string_view> top_keys = {

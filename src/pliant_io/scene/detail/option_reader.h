@@ -14,12 +14,6 @@ concept has_options = requires(Options options) {
   Options::visit(options, [](const OptionInfo&, auto&) {});
 };
 
-/// A list of such.
-template <class Options>
-inline constexpr bool is_list_of_options = false;
-template <has_options Entry>
-inline constexpr bool is_list_of_options<std::vector<Entry>> = true;
-
 template <class Options>
 void read_options(const Node& node, Options& options, std::vector<std::string_view> more_keys = {},
                   const SceneBody* body = nullptr);
@@ -39,10 +33,6 @@ struct OptionReader {
   void read_option(const OptionInfo& info, const Node& value, Option& option) const {
     if constexpr (has_options<Option>) {
       read_options(value, option);
-    } else if constexpr (is_list_of_options<Option>) {
-      value.require_list();
-      option.resize(value.size());
-      for (std::size_t i = 0; i < option.size(); ++i) read_options(value[i], option[i]);
     } else if constexpr (std::is_same_v<Option, Selection>) {
       if (node.has("stencils")) value.fail("'stencils' says already where; keep one of the two keys");
       option = read_selection(value, *body);
