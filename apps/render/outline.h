@@ -7,8 +7,8 @@
 
 namespace pliant_render {
 
-/// Collects the box around frames and, in a hundred directions, the point that is furthest: the hull of these misses a
-/// hundredth of what is round, less than the margin of a picture.
+/// Collects the box around frames and, in a hundred directions, the point that is furthest: the hull of these misses at
+/// most 4 % of the radius of a ball, less than the margin of a picture.
 class Outline {
  public:
   Outline();

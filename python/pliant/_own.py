@@ -1,6 +1,7 @@
 """Constraints and forces of one's own, written with NumPy."""
 from __future__ import annotations
 
+import numbers
 from typing import Any, Callable, Optional
 
 import numpy as np
@@ -42,7 +43,7 @@ class OwnConstraint:
         if given.ndim not in (1, 2) or len(given) != count:
             raise Error(f"{self.name}: fields has the shape {given.shape}; give one number, ({count},) or ({count}, f)")
         self.fields = given[:, None] if given.ndim == 1 else given
-        if np.ndim(stiffness) != 0 or isinstance(stiffness, str):
+        if not isinstance(stiffness, numbers.Real):
             raise Error(f"{self.name}: stiffness is one number for all; give one for each as measure")
         self.stiffness = float(stiffness)
         self._function = project

@@ -9,24 +9,11 @@ import tempfile
 import time
 import unittest
 
+from rope_scene import CHAIN
+
 import numpy
 
 PLIANT = os.environ["PLIANT"]
-
-CHAIN = {
-    "pliant": 1,
-    "steps": 20,
-    "settings": {"threads": 1},
-    "bodies": [{
-        "name": "rope",
-        "mesh": {"shape": "chain", "links": 9, "direction": [1, 0, 0]},
-        "mass": {"per_vertex": 0.1},
-        "constraints": [
-            {"type": "position", "name": "hook", "on": [0]},
-            {"type": "edge_spring", "name": "links", "stiffness": 1000},
-        ],
-    }],
-}
 
 
 class Run(unittest.TestCase):

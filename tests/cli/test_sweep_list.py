@@ -13,22 +13,9 @@ import tempfile
 import time
 import unittest
 
-PLIANT = os.environ["PLIANT"]
+from rope_scene import CHAIN
 
-CHAIN = {
-    "pliant": 1,
-    "steps": 20,
-    "settings": {"threads": 1},
-    "bodies": [{
-        "name": "rope",
-        "mesh": {"shape": "chain", "links": 9, "direction": [1, 0, 0]},
-        "mass": {"per_vertex": 0.1},
-        "constraints": [
-            {"type": "position", "name": "hook", "on": [0]},
-            {"type": "edge_spring", "name": "links", "stiffness": 1000},
-        ],
-    }],
-}
+PLIANT = os.environ["PLIANT"]
 STIFFNESS = "bodies[rope].constraints[links].stiffness"
 ITERATIONS = "settings.iterations"
 # An explicit spring far beyond its limit diverges after a few steps of 100 s; a soft one does not.

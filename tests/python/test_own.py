@@ -172,6 +172,7 @@ class Own(unittest.TestCase):
                 ("measure: found 'a'; give numbers", [[0, 1]], {"measure": "a"}),
                 ("fields has the shape", [[0, 1]], {"fields": np.ones(3)}),
                 ("stiffness is one number", [[0, 1]], {"stiffness": np.ones(2)}),
+                ("stiffness is one number", [[0, 1]], {"stiffness": None}),
                 ("stiffness is one number", [[0, 1]], {"stiffness": "1e3"})):
             with self.subTest(words), self.assertRaisesRegex(pliant.Error, words):
                 pliant.OwnConstraint(*arguments, project=same, **options)
