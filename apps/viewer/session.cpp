@@ -1,21 +1,18 @@
 #include "viewer/session.h"
 
 #include <algorithm>
-#include <exception>
 #include <tuple>
 
 #include "pliant/collision/colliders/builtin.h"
 #include "pliant/constraints/drag.h"
 #include "pliant/constraints/position.h"
 #include "pliant/core/error.h"
-#include "pliant/core/printable.h"
-#include "pliant/materials/change_material.h"
 
 namespace pliant_viewer {
 namespace {
 
 constexpr std::string_view pull_name = "mouse";
-constexpr std::string_view pin_name = "pinned by hand";
+constexpr std::string_view pin_name = "pinned by hand";  // until the scene is made anew
 
 /// The constraint that draws at a point of a body whose first vertex has this index.
 pliant::Drag drag_of(const Pull& pull, Index first_vertex) {
@@ -39,48 +36,10 @@ pliant::Drag drag_of(const Pull& pull, Index first_vertex) {
   return drag;
 }
 
-/// False where there is no such slider.
-bool set_by_key(pliant::Simulation& simulation, const std::string& key, const pliant::Vec3& value) {
-  const std::vector<Slider> all = list_sliders(simulation);
-  const auto found = std::ranges::find(all, key, &Slider::key);
-  if (found == all.end()) return false;
-  set_parameter(simulation, found->parameter.handle, value);
-  return true;
-}
-
-/// In an order in which each is allowed: a new smallest stretch may be so only below a new largest one.
-void apply(std::map<std::string, pliant::Vec3> values, pliant::Simulation& simulation) {
-  while (!values.empty()) {
-    const std::size_t count = values.size();
-    std::exception_ptr refused;
-    std::erase_if(values, [&](const auto& entry) {
-      try {
-        set_by_key(simulation, entry.first, entry.second);
-        return true;
-      } catch (const pliant::Error&) {
-        refused = std::current_exception();
-        return false;
-      }
-    });
-    if (values.size() == count) std::rethrow_exception(refused);
-  }
-}
-
-std::optional<pliant::BodyId> find_body(const pliant::Simulation& simulation, const std::string& name) {
-  const auto found = std::ranges::find(simulation.bodies(), name, &pliant::Body::name);
-  if (found == simulation.bodies().end()) return {};
-  return pliant::BodyId{static_cast<Index>(found - simulation.bodies().begin())};
-}
-
 /// The diagonal of the box around all bodies [m].
 Real size_of(const pliant::Simulation& simulation) {
   const pliant::Positions& x = simulation.state().positions;
   return x.rows() == 0 ? 0 : (x.colwise().maxCoeff() - x.colwise().minCoeff()).norm();
-}
-
-Real speed_of_colliders(const pliant::Simulation& simulation) {
-  constexpr Real sizes_in_a_second = 3;
-  return sizes_in_a_second * std::max<Real>(size_of(simulation), 1e-3);
 }
 
 /// Ends what a collider does by itself.
@@ -99,7 +58,10 @@ void stop_collider(std::tuple<Types...>*, pliant::Simulation& simulation, pliant
 }  // namespace
 
 Session::Session(MakeScene make)
-    : make_(std::move(make)), scene_(make_()), collider_speed_(speed_of_colliders(scene_.simulation)) {}
+    : make_(std::move(make)),
+      scene_(make_()),
+      unchanged_(scene_),
+      collider_speed_(suggest_collider_speed(scene_.simulation)) {}
 
 void Session::set_stop(std::function<bool()> stop) {
   stop_ = std::move(stop);
@@ -122,28 +84,6 @@ pliant::StepReport Session::step() {
     note_ = std::string("left out: ") + error.what();
     return scene_.step();
   }
-}
-
-void Session::restart(bool keep_values) {
-  pliant::Scene scene = make_();
-  if (keep_values) {
-    for (const auto& [body, material] : materials_) {
-      const auto id = find_body(scene.simulation, body);
-      if (id) change_material(scene, *id, material, present_placement(scene.simulation, *id));
-    }
-    apply(values_, scene.simulation);
-  } else {
-    materials_.clear();
-    placements_.clear();
-    values_.clear();
-  }
-  scene.simulation.set_stop(stop_);
-  scene_ = std::move(scene);
-  pull_.reset();
-  pull_group_.reset();
-  collider_goals_.clear();
-  collider_speed_ = speed_of_colliders(scene_.simulation);
-  note_.clear();
 }
 
 void Session::grab(const Pull& pull) {
@@ -175,22 +115,35 @@ void Session::let_go() {
 void Session::pin(Index vertex) {
   if (is_pinned(vertex)) return;
   const pliant::BodyId body = body_of(vertex);
+  Edit edit{.what = "pin", .before = changes_};
   pliant::Position position;
   position.on = pliant::Selection({vertex - scene_.simulation.body(body).first_vertex});
-  scene_.simulation.add(body, position, std::string(pin_name));
+  of_hand_.insert(scene_.simulation.add(body, position, std::string(pin_name)));
+  if (changes_.released.erase(vertex) == 0) changes_.pins[vertex] = std::nullopt;
+  edit.held[vertex] = target_of(*find_pin(vertex));
+  remember(std::move(edit));
 }
 
 void Session::unpin(Index vertex) {
+  if (!is_pinned(vertex)) return;
+  Edit edit{.what = "unpin", .before = changes_};
+  edit.held[vertex] = target_of(*find_pin(vertex));
   // One vertex may have soft pins of several groups.
   while (const auto pin = find_pin(vertex)) {
     const pliant::Group& group = scene_.simulation.groups().at(pin->group);
-    if (group.name == pin_name) {
+    const bool is_of_hand = of_hand_.contains(pin->group);
+    if (!is_of_hand) changes_.released[vertex].groups.push_back(group.name);
+    if (is_of_hand && scene_.simulation.target_count(pin->group) == 1) {
+      of_hand_.erase(pin->group);
       scene_.simulation.remove(pin->group);
     } else {  // stays, if only as an empty one: events may name it
       const Index of_body = vertex - scene_.simulation.body(group.body).first_vertex;
       scene_.simulation.release(pin->group, std::span(&of_body, 1));
     }
   }
+  changes_.pins.erase(vertex);
+  changes_.moved.erase(vertex);
+  remember(std::move(edit));
 }
 
 void Session::move_pin(Index vertex, const Vec3f& target) {
@@ -206,6 +159,7 @@ void Session::move_collider(pliant::ColliderId collider, const Vec3f& position) 
   const auto found = simulation.colliders().find(collider);
   if (found == simulation.colliders().end() || !found->second.shape->is_bounded() || !position.allFinite()) return;
   scene_.timeline.leave_alone(simulation, collider);
+  left_alone_.insert(collider);
   stop_collider(static_cast<pliant::BuiltinColliders*>(nullptr), simulation, collider);
   collider_goals_[collider] = position.cast<Real>();
 }
@@ -227,30 +181,12 @@ void Session::steer_colliders() {
   });
 }
 
+bool Session::is_hidden(pliant::GroupId group) const {
+  return group == pull_group_ || of_hand_.contains(group);
+}
+
 std::vector<Slider> Session::sliders() const {
-  return list_sliders(simulation(), [this](pliant::GroupId id) {
-    return id == pull_group_ || simulation().groups().at(id).name == pin_name;
-  });
-}
-
-void Session::set(const std::string& key, const pliant::Vec3& value) {
-  if (set_by_key(scene_.simulation, key, value)) values_[key] = value;
-}
-
-void Session::set_material(const std::string& body, const std::string& material) {
-  const auto id = find_body(scene_.simulation, body);
-  if (!id) pliant::fail_input("there is no body '" + pliant::printable(body) + "'");
-  std::vector<std::string> keys;  // of what may go
-  for (const Slider& slider : sliders()) {
-    const auto* group = std::get_if<pliant::GroupId>(&slider.parameter.handle.owner);
-    if (group != nullptr && simulation().groups().at(*group).body == *id) keys.push_back(slider.key);
-  }
-  // Threads lie as they did, also after a material that has none.
-  const auto placement = placements_.emplace(body, present_placement(simulation(), *id)).first;
-  change_material(scene_, *id, material, placement->second);
-  for (const std::string& key : keys) values_.erase(key);
-  materials_[body] = material;
-  note_ = coarseness(scene_.materials.at(*id), simulation().body(*id).mesh);
+  return list_sliders(simulation(), [this](pliant::GroupId id) { return is_hidden(id); });
 }
 
 std::optional<Session::Pin> Session::find_pin(Index vertex) const {
@@ -285,6 +221,11 @@ Real suggest_pull_stiffness(const pliant::Simulation& simulation) {
   if (mass == 0) return 1;
   const Real size = size_of(simulation);
   return std::clamp<Real>(mass * weight_at_stretch / (stretch * std::max<Real>(size, 1e-3)), 1e-3, 1e9);
+}
+
+Real suggest_collider_speed(const pliant::Simulation& simulation) {
+  constexpr Real sizes_in_a_second = 3;
+  return sizes_in_a_second * std::max<Real>(size_of(simulation), 1e-3);
 }
 
 }  // namespace pliant_viewer

@@ -1,13 +1,18 @@
 #pragma once
 // A scene that a user interacts with: what mouse and sliders do to it, without a window.
+#include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "pliant_io/scene/scene.h"
 #include "viewer/body_materials.h"
 #include "viewer/picking.h"
+#include "viewer/scene_changes.h"
 #include "viewer/sliders.h"
 
 namespace pliant_viewer {
@@ -36,9 +41,10 @@ class Session {
   /// @throws pliant::Error as Scene::step does.
   pliant::StepReport step();
 
-  /// Makes the scene again, without a pull. `keep_values`: materials and values that were set are set again, where the
-  /// scene still has such a body or parameter; otherwise they are forgotten. If this throws, nothing has changed.
-  void restart(bool keep_values);
+  /// Makes the scene again, without a pull. `keep_changes`: values, materials, pins, and what was moved before the
+  /// first step, are as they were changed, where the scene still has such a parameter, body or vertex; otherwise they
+  /// are forgotten, and there is nothing to undo. If this throws, nothing has changed.
+  void restart(bool keep_changes);
 
   /// Attaches a spring to a point, replacing an earlier one. It is implicit, hence stable at any stiffness.
   void grab(const Pull& pull);
@@ -50,12 +56,13 @@ class Session {
   /// A note on the last step for the user; empty for none.
   const std::string& note() const { return note_; }
 
-  /// Pins a vertex, by its index in the simulation, where it is now; does nothing if it is pinned already.
+  /// Pins a vertex, by its index in the simulation, where it is now; does nothing if it is pinned already. After a
+  /// restart it is pinned where it begins.
   void pin(Index vertex);
   /// Releases the vertex, whichever group its pin belongs to.
   void unpin(Index vertex);
   bool is_pinned(Index vertex) const { return find_pin(vertex).has_value(); }
-  /// Moves a pin to `target` [m]; motions of the scene no longer move it.
+  /// Moves a pin to `target` [m]; motions of the scene that are under way no longer move it.
   void move_pin(Index vertex, const Vec3f& target);
 
   /// Takes a collider there in the steps to come, no faster than three times the size of the bodies in a second, and
@@ -63,12 +70,17 @@ class Session {
   /// scene no longer move it. Does nothing with a collider that has no end.
   void move_collider(pliant::ColliderId collider, const Vec3f& position);
 
+  /// What is moved has been let go. Before the first step the scene begins with it there from now on; later that is
+  /// one of the things that happened, which a restart forgets.
+  void drop_pin(Index vertex);
+  void drop_collider(pliant::ColliderId collider);
+
   /// Of the scene's settings, groups, forces and colliders, and of contact and its bodies; the pull and pins that were
   /// set by hand have none.
   std::vector<Slider> sliders() const;
-  /// Sets a parameter by the key of its slider; does nothing where there is none. @throws pliant::Error (input): a
-  /// value out of range.
-  void set(const std::string& key, const pliant::Vec3& value);
+  /// Sets a parameter by the key of its slider; does nothing where there is none. `goes_on`: with the change before it
+  /// this is one for undo(). @throws pliant::Error (input): a value out of range.
+  void set(const std::string& key, const pliant::Vec3& value, bool goes_on = false);
 
   /// What the bodies are made of, for the panel.
   std::vector<BodyMaterial> materials() const { return list_materials(scene_); }
@@ -76,22 +88,59 @@ class Session {
   /// forgotten. @throws pliant::Error (input): no such body or material, or one that the body cannot be made of.
   void set_material(const std::string& body, const std::string& material);
 
+  /// What undo() and redo() would take back and do again, "pin"; empty: nothing.
+  std::string undone_next() const { return done_.empty() ? "" : done_.back().what; }
+  std::string redone_next() const { return undone_.empty() ? "" : undone_.back().what; }
+  /// Take back the last change, and do it again; what moves stays where it is, and time goes on. Nothing has changed
+  /// when these throw.
+  void undo();
+  void redo();
+
+  /// Writes a scene that has the changes in it and is shown like that, and beside it, unless it stands at its start, a
+  /// checkpoint of now, from which `pliant resume` goes on; returns the names of the files. The session goes on with
+  /// the bits that both have. @throws pliant::Error where a file cannot be written, or the changes do not fit the
+  /// events of the scene; nothing has changed then but for the files.
+  std::vector<std::filesystem::path> save(const std::filesystem::path& file, const pliant::ViewSettings& view);
+
+  /// How often the scene was made anew with other changes: groups have other ids then.
+  std::uint64_t rebuilds() const { return rebuilds_; }
+  const SceneChanges& changes() const { return changes_; }
+
  private:
   /// Where a vertex is pinned: the group, and which of its targets that is.
   struct Pin {
     pliant::GroupId group{};
     Index target = 0;
   };
+  /// A change for undo().
+  struct Edit {
+    std::string what;
+    SceneChanges before{}, after{};
+    std::map<std::string, pliant::Vec3> old_values{};  ///< of what `before` does not have
+    std::map<Index, pliant::Vec3> held{};              ///< where the vertices are that it pins or lets go [m]
+  };
   std::optional<Pin> find_pin(Index vertex) const;
+  pliant::Vec3 target_of(const Pin& pin) const { return scene_.simulation.target(pin.group, pin.target); }
   pliant::BodyId body_of(Index vertex) const;
   void steer_colliders();
+  bool is_hidden(pliant::GroupId group) const;
+  void remember(Edit edit);
+  void go(const Edit& edit, const SceneChanges& from, const SceneChanges& to);
+  pliant::Scene read_changed(pliant::SceneText text) const;
+  void carry_into(pliant::Scene& next, const SceneChanges& to) const;
+  void settle(pliant::Scene next);
+  void take(pliant::Scene next);
 
   MakeScene make_;
   pliant::Scene scene_;
   std::function<bool()> stop_;
-  std::map<std::string, pliant::Vec3> values_;                   // from set()
-  std::map<std::string, std::string> materials_;                 // from set_material(), by body
-  std::map<std::string, pliant::MaterialPlacement> placements_;  // of these bodies, as the scene has them
+  UnchangedScene unchanged_;
+  SceneChanges changes_;
+  std::vector<Edit> done_, undone_;
+  std::map<std::string, pliant::MaterialPlacement> placements_;  // of the bodies whose material changed, as they had it
+  std::set<pliant::ColliderId> left_alone_;                      // moved by hand while time went on
+  std::set<pliant::GroupId> of_hand_;                            // groups of pins that were set by hand
+  std::uint64_t rebuilds_ = 0;
   std::optional<Pull> pull_;
   std::optional<pliant::GroupId> pull_group_;
   std::map<pliant::ColliderId, pliant::Vec3> collider_goals_;  // of those that are on their way [m]
@@ -101,5 +150,8 @@ class Session {
 
 /// A stiffness [N/m] with which the mouse can lift the scene's bodies while the spring stretches little.
 Real suggest_pull_stiffness(const pliant::Simulation& simulation);
+
+/// The most by which the mouse moves a collider [m/s].
+Real suggest_collider_speed(const pliant::Simulation& simulation);
 
 }  // namespace pliant_viewer

@@ -28,15 +28,6 @@ bool is_elastic(std::tuple<Types...>*, const Group& group) {
   return (is_whole<Types>(group) || ...);
 }
 
-/// Those that a material takes the place of, in the order in which they were added.
-std::vector<GroupId> elastic_groups(const Simulation& simulation, BodyId id) {
-  std::vector<GroupId> found;
-  for (const auto& [group_id, group] : simulation.groups()) {
-    if (group.body == id && is_elastic(static_cast<Elastic*>(nullptr), group)) found.push_back(group_id);
-  }
-  return found;
-}
-
 /// Of the material, and of vertices without an element what they have.
 void weigh(Simulation& simulation, BodyId id, const Material& material) {
   const Body& body = simulation.body(id);
@@ -66,6 +57,14 @@ void stiffen_ties(Simulation& simulation, BodyId id, Real before) {
 
 }  // namespace
 
+std::vector<GroupId> groups_of_material(const Simulation& simulation, BodyId id) {
+  std::vector<GroupId> found;
+  for (const auto& [group_id, group] : simulation.groups()) {
+    if (group.body == id && is_elastic(static_cast<Elastic*>(nullptr), group)) found.push_back(group_id);
+  }
+  return found;
+}
+
 MaterialPlacement present_placement(const Simulation& simulation, BodyId id) {
   for (const auto& [group_id, group] : simulation.groups()) {
     if (group.body != id) continue;
@@ -85,7 +84,7 @@ std::vector<GroupId> change_material(Simulation& simulation, BodyId id, const Ma
   std::vector<MaterialGroup> wanted =
       material_groups(material, placement ? *placement : present_placement(simulation, id));
   std::vector<GroupId> made;
-  for (const GroupId old : elastic_groups(simulation, id)) {
+  for (const GroupId old : groups_of_material(simulation, id)) {
     const auto same = std::ranges::find_if(wanted, [&](const MaterialGroup& group) {
       return simulation.groups().at(old).name == fmt::format("{}.{}", body, group.name);
     });

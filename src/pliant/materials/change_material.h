@@ -11,6 +11,10 @@ namespace pliant {
 /// The threads of a body as they lie now: those of its first group of fibres, the defaults of one without.
 MaterialPlacement present_placement(const Simulation& simulation, BodyId body);
 
+/// The groups of a body that another material would take the place of, in the order in which they were added: what
+/// resists stretch, shear, bending or a change of volume on all of it.
+std::vector<GroupId> groups_of_material(const Simulation& simulation, BodyId body);
+
 /// Makes a body of another material: what there is of constraints on all of it that resist stretch, shear, bending or
 /// a change of volume goes, whoever added them, and the groups of the material take their place, under the ids and
 /// names of those that are called the same. Mass and friction are those of the material; where the body is, how fast,

@@ -131,6 +131,15 @@ void for_each_entry(const Node& root, std::string_view key, auto&& f) {
   for (std::size_t i = 0; i < list->size(); ++i) f((*list)[i]);
 }
 
+/// The same for a reader, which knows where it is.
+void read_entries(const Node& root, std::string_view key, SceneReader& reader, void (SceneReader::*read)(const Node&)) {
+  std::size_t i = 0;
+  for_each_entry(root, key, [&](const Node& node) {
+    reader.entry = fmt::format("{}[{}]", key, i++);
+    (reader.*read)(node);
+  });
+}
+
 /// Of a scene with a surface that a lattice carries, whose light vertices leave it in impacts of whole steps.
 constexpr Index substeps_of_carried = 4;
 
@@ -155,7 +164,7 @@ void choose_open_settings(const Node& root, std::optional<Real> damping, Simulat
   if (settings != simulation.settings()) simulation.set_settings(settings);
 }
 
-void read_simulation(const Node& root, Scene& scene) {
+void read_simulation(const Node& root, bool leaves_out_events, Scene& scene) {
   SolverSettings settings;
   read_group_of_options(root, "settings", settings);
   scene.simulation = root.find("settings").value_or(root).locate([&] { return Simulation(settings); });
@@ -164,19 +173,22 @@ void read_simulation(const Node& root, Scene& scene) {
   }
   SceneReader reader(scene.simulation, scene.timeline);
   if (const auto materials = root.find("materials")) reader.materials = read_materials(*materials);
-  for_each_entry(root, "bodies", [&](const Node& node) { reader.read_body(node); });
+  read_entries(root, "bodies", reader, &SceneReader::read_body);
   for (const auto& [name, material] : reader.materials) scene.own_materials.push_back(material);
   Index body = 0;
   for_each_entry(root, "bodies", [&](const Node& node) { reader.read_body_contact(node, BodyId{body++}); });
-  for_each_entry(root, "attachments", [&](const Node& node) { reader.add_attachment(node); });
+  read_entries(root, "attachments", reader, &SceneReader::add_attachment);
   reader.read_gravity(root.find("gravity"));
-  for_each_entry(root, "forces", [&](const Node& node) { reader.read_force(node); });
+  read_entries(root, "forces", reader, &SceneReader::read_force);
   if (const auto contact = root.find("contact")) reader.read_contact(*contact);
-  for_each_entry(root, "colliders", [&](const Node& node) { reader.read_collider(node); });
+  read_entries(root, "colliders", reader, &SceneReader::read_collider);
   choose_open_settings(root, mean_damping(scene.simulation, reader.material_of), scene.simulation);
+  reader.left_out = leaves_out_events ? &scene.left_out : nullptr;
   reader.read_events(root);
   scene.materials = std::move(reader.material_of);
   scene.appearances = std::move(reader.appearance_of);
+  scene.places = std::move(reader.places);
+  scene.implied_bodies = std::move(reader.implied_bodies);
   scene.has_surfaces = scene.simulation.contact().surfaces || reader.has_later_surfaces;
   std::ranges::move(reader.warnings, std::back_inserter(scene.warnings));
   if (!scene.has_surfaces && !reader.warning_without_surfaces.empty()) {
@@ -210,7 +222,7 @@ Scene parse_scene(SceneSource source) {
     check_scene_version(root);
     root.check_keys(top_keys);
     read_run(root, scene);
-    read_simulation(root, scene);
+    read_simulation(root, source.leaves_out_events, scene);
   }
   source.is_complete = true;
   scene.source = std::move(source);

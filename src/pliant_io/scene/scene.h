@@ -7,6 +7,8 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "pliant/materials/material.h"
 #include "pliant/simulation/simulation.h"
@@ -47,6 +49,15 @@ struct Scene {
   std::vector<std::string> group_names;          ///< of the groups there are, and behind them those that events add
   std::vector<std::string> collider_names;       ///< the same of colliders
   bool has_surfaces = false;                     ///< whether surfaces touch at the start, or once an event has acted
+
+  /// Where in the scene as one document (scene_document.h) a group, a force or a collider of that name stands, and
+  /// gravity: "bodies[0].constraints[1]". Those of materials and what events add have no such place.
+  std::map<std::string, std::string> places;
+  /// Entries that name no body and mean the only one of an included text: their places, and the body.
+  std::vector<std::pair<std::string, std::string>> implied_bodies;
+  /// Events that were left out, as their source asked for: their numbers, ascending, among "moves" and then "events",
+  /// and why.
+  std::vector<std::pair<Index, std::string>> left_out;
 
   std::vector<std::string> warnings;  ///< with their places: keys whose names are old, loose vertices
 

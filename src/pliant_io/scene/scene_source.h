@@ -46,6 +46,8 @@ struct SceneSource {
   bool is_complete = false;      ///< all texts that are included are there: no file of another is read
   SceneOverrides overrides;
   std::filesystem::path overrides_folder;  ///< where paths in `overrides.set` start
+  /// Events that cannot act, since what they act on is not there, are left out instead of refused: see Scene::left_out.
+  bool leaves_out_events = false;
 };
 
 /// A file that a scene was read from besides its texts.

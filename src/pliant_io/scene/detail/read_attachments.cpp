@@ -34,8 +34,8 @@ GroupEntry SceneReader::read_attachment(const Node& node, std::vector<std::strin
 }
 
 void SceneReader::add_attachment(const Node& node) {
-  GroupEntry entry = read_attachment(node);
-  add_group(node, entry.body, std::move(entry.options));
+  GroupEntry read = read_attachment(node);
+  add_group(node, read.body, std::move(read.options), entry);
 }
 
 GroupEntry SceneReader::read_added_group(const Node& node) const {

@@ -101,9 +101,10 @@ void SceneReader::read_body(const Node& node) {
   if (const auto constraints = node.find("constraints")) {
     constraints->require_list();
     for (std::size_t i = 0; i < constraints->size(); ++i) {
-      const Node entry = (*constraints)[i];
-      entry.require_object();
-      add_group(entry, id, read_constraint_options(entry, {"name"}, body(id)));
+      const Node constraint = (*constraints)[i];
+      constraint.require_object();
+      add_group(constraint, id, read_constraint_options(constraint, {"name"}, body(id)),
+                fmt::format("{}.constraints[{}]", entry, i));
     }
   }
   if (node.has("solid")) carry_surface(simulation, id, 0, free_name(name + ".surface"));
@@ -128,8 +129,9 @@ void SceneReader::add_animation(const Node& node, BodyId id, std::shared_ptr<Pat
   warning_without_surfaces = node.at("nothing meets an animated body; set \"contact\": {\"surfaces\": true}");
 }
 
-void SceneReader::add_group(const Node& node, BodyId id, ConstraintOptions options) {
+void SceneReader::add_group(const Node& node, BodyId id, ConstraintOptions options, std::string place) {
   const std::string name = group_name(node, id, type_of(options));
+  places.emplace(name, std::move(place));
   const GroupId group = node.locate([&] { return add(simulation, id, options, name); });
   check_group(node, group);
   groups.emplace(name, GroupEntry{id, std::move(options)});
@@ -184,7 +186,7 @@ GroupEntry& SceneReader::group(const Node& node) {
   const auto found = groups.find(name);
   if (found != groups.end()) return found->second;
   std::vector<std::string_view> names;
-  for (const auto& [known, entry] : groups) names.push_back(known);
+  for (const auto& [known, meant] : groups) names.push_back(known);
   node.fail(fmt::format("unknown group '{}'; {}", printable(name), suggestion_text(name, names)));
 }
 
@@ -193,7 +195,10 @@ BodyId SceneReader::read_body_name(const Node& node) const {
   if (!given) {
     if (bodies.size() == 1) return bodies.begin()->second;
     const auto own = bodies_of.find(&node.origin());
-    if (own != bodies_of.end() && own->second.size() == 1) return own->second.front();
+    if (own != bodies_of.end() && own->second.size() == 1) {
+      implied_bodies.emplace_back(entry, simulation.body(own->second.front()).name);
+      return own->second.front();
+    }
   }
   if (!given) node.fail("there are several bodies; name one with the key 'body'");
   return named_body(*given);

@@ -94,6 +94,7 @@ void SceneReader::read_collider(const Node& node) {
   ColliderOptions options = read_collider_options(node);
   const std::string name = own_name(node, type_of(options));
   node.locate([&] { add(simulation, options, name); });
+  places.emplace(name, entry);
   colliders.emplace(name, std::move(options));
 }
 

@@ -5,6 +5,7 @@
 #include "pliant_io/scene/detail/due_order.h"
 #include "pliant_io/scene/detail/option_reader.h"
 #include "pliant_io/scene/detail/read_motion.h"
+#include "pliant_io/scene/detail/read_release.h"
 #include "pliant_io/scene/detail/scene_reader.h"
 
 namespace pliant {
@@ -264,6 +265,7 @@ Timeline::Edit EventReader::read_gravity(const Node& value) {
 
 Timeline::Edit EventReader::read_add(const Node& value) {
   node_.check_keys(keys("add"));
+  scene_.entry += ".add";
   const Node type = value.require("type");
   if (is_force_type(text_of(type))) {
     const ForceEntry force = read_force_options(value, {}, scene_);
@@ -303,67 +305,6 @@ Timeline::Edit EventReader::read_remove(const Node& node) {
   }
   if (scene_.forces.erase(name) == 0) fail_unknown(node);
   return [name](Simulation& simulation, Timeline&) { simulation.remove(find_force(simulation, name)); };
-}
-
-/// The vertices that a group of positions holds, with the indices of its body, in the order of its targets.
-std::vector<Index> pinned_vertices(const Simulation& simulation, const Group& group) {
-  std::vector<Index> vertices;
-  for (const auto& batch : group.set.batches) {
-    const std::span<const Index> pinned =
-        batch->pinned_vertices().empty() ? batch->stencil() : batch->pinned_vertices();
-    vertices.insert(vertices.end(), pinned.begin(), pinned.end());
-  }
-  for (Index& vertex : vertices) vertex -= simulation.body(group.body).first_vertex;
-  return vertices;
-}
-
-bool contains(const std::vector<Index>& sorted, Index number) {
-  return std::ranges::binary_search(sorted, number);
-}
-
-/// Which of these a selection holds; of a list, all of them must be there.
-std::vector<Index> read_released(const Node& node, const SceneBody& body, const std::vector<Index>& pinned) {
-  Selection selection = read_selection(node, body);
-  if (selection.everything) return pinned;
-  if (node.is_list()) return selection.vertices;
-  std::ranges::sort(selection.vertices);
-  std::vector<Index> released;
-  std::ranges::copy_if(pinned, std::back_inserter(released), [&](Index v) { return contains(selection.vertices, v); });
-  if (released.empty()) node.fail("the group holds none of these vertices; select others");
-  return released;
-}
-
-/// The same by the numbers of constraints.
-std::vector<Index> read_released_numbers(const Node& node, const Group& group, const std::vector<Index>& pinned) {
-  ConstraintNumbers numbers;
-  read(node, numbers);
-  std::map<Index, Index> vertices;  // by number
-  for (std::size_t i = 0; i < pinned.size(); ++i) vertices.emplace(group.points[i], pinned[i]);
-  for (Index& number : numbers) {
-    const auto found = vertices.find(number);
-    if (found == vertices.end()) {
-      node.fail(
-          fmt::format("the group has no constraint {} then; it began with 0 to {}", number, group.next_point - 1));
-    }
-    number = found->second;
-  }
-  return numbers;
-}
-
-/// Positions without those of some vertices.
-void leave_out(std::vector<Index> released, const std::vector<Index>& pinned, Position& options) {
-  std::ranges::sort(released);
-  Stencils stencils;
-  std::vector<Real> stiffness;
-  for (std::size_t i = 0; i < pinned.size(); ++i) {
-    if (contains(released, pinned[i])) continue;
-    stencils.add({pinned[i]});
-    if (options.stiffness.each()) stiffness.push_back(options.stiffness[static_cast<Index>(i)]);
-  }
-  options.on = stencils.empty() ? Selection(std::vector<Index>{}) : Selection();
-  if (options.stiffness.each()) options.stiffness = Values(std::move(stiffness));
-  options.stencils = std::move(stencils);
-  options.targets = {};  // a group that is made anew keeps those there are
 }
 
 Timeline::Edit EventReader::read_release(const Node& node) {
@@ -460,6 +401,7 @@ void SceneReader::read_events(const Node& root) {
   struct Entry {
     Node node;
     std::string name;
+    std::string place;
     bool is_short;
   };
   std::vector<Entry> entries;
@@ -472,7 +414,8 @@ void SceneReader::read_events(const Node& root) {
     for (std::size_t i = 0; i < list->size(); ++i) {
       const Node node = (*list)[i];
       const std::string path = node.has_own_place() ? node.place().path : fmt::format("{}[{}]", place.path, i);
-      entries.push_back({node, fmt::format("{}: {}", node.origin().name, path), key == "moves"});
+      entries.push_back(
+          {node, fmt::format("{}: {}", node.origin().name, path), fmt::format("{}[{}]", key, i), key == "moves"});
       order.add(node);
     }
   }
@@ -484,14 +427,23 @@ void SceneReader::read_events(const Node& root) {
       for (const Index event : due) {
         const auto i = static_cast<std::size_t>(event);
         const Node& node = entries[i].node;
-        EventReader reader(*this, node);
-        edits[i] = entries[i].is_short ? reader.read_short_move() : reader.read();
-        node.locate([&] { edits[i](simulation, rehearsal); });
-        reader.check_added();
+        entry = entries[i].place;
+        try {
+          EventReader reader(*this, node);
+          edits[i] = entries[i].is_short ? reader.read_short_move() : reader.read();
+          node.locate([&] { edits[i](simulation, rehearsal); });
+          reader.check_added();
+        } catch (const Error& error) {
+          if (left_out == nullptr || error.kind() != ErrorKind::input) throw;
+          edits[i] = nullptr;
+          left_out->emplace_back(event, error.what());
+        }
       }
     }
   }
+  if (left_out != nullptr) std::ranges::sort(*left_out);
   for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (edits[i] == nullptr) continue;
     timeline.add(order.when(i), std::move(edits[i]), std::move(entries[i].name));
   }
 }

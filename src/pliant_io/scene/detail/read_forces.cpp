@@ -105,14 +105,16 @@ void SceneReader::read_gravity(const std::optional<Node>& node) {
   if (node) read(*node, gravity.acceleration);
   const std::string name(Gravity::info.name);
   simulation.add(gravity, name);
+  places.emplace(name, "gravity");
   forces.emplace(name, ForceEntry{std::nullopt, gravity});
 }
 
 void SceneReader::read_force(const Node& node) {
-  ForceEntry entry = read_force_options(node, {}, *this);
-  const std::string name = own_name(node, type_of(entry));
-  node.locate([&] { add(simulation, entry, name); });
-  forces.emplace(name, std::move(entry));
+  ForceEntry force = read_force_options(node, {}, *this);
+  const std::string name = own_name(node, type_of(force));
+  node.locate([&] { add(simulation, force, name); });
+  places.emplace(name, entry);
+  forces.emplace(name, std::move(force));
 }
 
 }  // namespace pliant

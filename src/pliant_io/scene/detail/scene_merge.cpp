@@ -215,4 +215,22 @@ void set_value(Document& document, std::string_view path, const Node& value) {
   *target.origins = OriginMap{.place = value.place()};
 }
 
+SceneJson* find_value(SceneJson& json, std::string_view path) {
+  SceneJson* found = &json;
+  while (!path.empty() && found != nullptr) {
+    const bool is_key = path.front() != '[';
+    if (!is_key || path.front() == '.') path.remove_prefix(1);
+    const std::size_t end = std::min(path.find_first_of(is_key ? ".[" : "]"), path.size());
+    const std::string_view step = path.substr(0, end);
+    path.remove_prefix(std::min(end + (is_key ? 0 : 1), path.size()));
+    if (is_key) {
+      found = found->is_object() ? find_key(*found, step) : nullptr;
+      continue;
+    }
+    const auto index = to_index(step);
+    found = index && found->is_array() && *index < found->size() ? &(*found)[*index] : nullptr;
+  }
+  return found;
+}
+
 }  // namespace pliant

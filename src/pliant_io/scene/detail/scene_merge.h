@@ -15,4 +15,7 @@ void merge_scene(Document& base, Document over);
 /// @throws Error(input) with the place of the value, where the path leads nowhere.
 void set_value(Document& document, std::string_view path, const Node& value);
 
+/// The value at such a path whose lists are gone into by index; null where there is none.
+SceneJson* find_value(SceneJson& json, std::string_view path);
+
 }  // namespace pliant

@@ -35,17 +35,22 @@ struct SceneReader {
   std::map<std::string, GroupEntry, std::less<>> groups = {};
   std::map<std::string, ForceEntry, std::less<>> forces = {};
   std::map<std::string, ColliderOptions, std::less<>> colliders = {};
-  std::vector<std::string> later_groups = {};     ///< names of groups that events add, each time
-  std::vector<std::string> later_colliders = {};  ///< of colliders
-  bool has_later_surfaces = false;                ///< an event lets surfaces touch
-  std::string warning_without_surfaces = {};      ///< if these never touch; empty: none
-  std::vector<std::string> warnings = {};         ///< of what is read otherwise than one might expect, with its place
+  std::vector<std::string> later_groups = {};      ///< names of groups that events add, each time
+  std::vector<std::string> later_colliders = {};   ///< of colliders
+  bool has_later_surfaces = false;                 ///< an event lets surfaces touch
+  std::string warning_without_surfaces = {};       ///< if these never touch; empty: none
+  std::vector<std::string> warnings = {};          ///< of what is read otherwise than one might expect, with its place
+  std::string entry = {};                          ///< of a list at the top, which is being read: "forces[2]"
+  std::map<std::string, std::string> places = {};  ///< see Scene::places
+  mutable std::vector<std::pair<std::string, std::string>> implied_bodies = {};  ///< see Scene::implied_bodies
 
   SceneBody body(BodyId id) const {
     const Mesh& mesh = simulation.body(id).mesh;
     const Positions& before = untransformed[static_cast<std::size_t>(id)];
     return {mesh, before.size() == 0 ? mesh.vertices : before, indices_[id]};
   }
+
+  std::vector<std::pair<Index, std::string>>* left_out = nullptr;  ///< of events; null: none is left out
 
   void read_body(const Node& node);
   /// Its value; nothing: the default.
@@ -75,8 +80,8 @@ struct SceneReader {
   /// The group of a name; refuses a name that there is not.
   GroupEntry& group(const Node& name);
 
-  /// Makes a group of what has been read, with the name in the object's key or one of its own.
-  void add_group(const Node& node, BodyId body, ConstraintOptions options);
+  /// Makes a group of what has been read, with the name in the object's key or one of its own. `place` as in places.
+  void add_group(const Node& node, BodyId body, ConstraintOptions options, std::string place);
   /// Refuses a group without constraints; `node` is where it was read.
   void check_group(const Node& node, GroupId group) const;
   /// The name given, which must be new; else the type, with the body in front, and a number behind where that is taken.

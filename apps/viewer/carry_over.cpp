@@ -1,0 +1,195 @@
+#include "viewer/carry_over.h"
+
+#include <algorithm>
+#include <exception>
+#include <map>
+#include <optional>
+
+#include "pliant/constraints/position.h"
+#include "pliant/core/error.h"
+
+namespace pliant_viewer {
+namespace {
+
+using pliant::Group;
+using pliant::GroupId;
+using pliant::Simulation;
+using pliant::Vec3;
+
+/// Numbers of the events of a scene, some of which were left out.
+class EventNumbers {
+ public:
+  EventNumbers(std::size_t count, const std::vector<Index>& left_out) {
+    for (Index i = 0; i < static_cast<Index>(count); ++i) {
+      if (!std::ranges::binary_search(left_out, i)) all_.push_back(i);
+    }
+  }
+  /// Among all of the scene's own; none for another one.
+  std::optional<Index> own(Index event) const {
+    if (event < 0 || event >= static_cast<Index>(all_.size())) return {};
+    return all_[static_cast<std::size_t>(event)];
+  }
+  /// Of the scene's own; none for one that was left out.
+  std::optional<Index> number(Index own) const {
+    const auto found = std::ranges::lower_bound(all_, own);
+    if (found == all_.end() || *found != own) return {};
+    return static_cast<Index>(found - all_.begin());
+  }
+  std::size_t count() const { return all_.size(); }
+
+ private:
+  std::vector<Index> all_;
+};
+
+/// The state of a timeline for that of another scene.
+pliant::TimelineState timeline_for(const pliant::Scene& from, const pliant::Scene& to, const NotCarried& rules) {
+  pliant::TimelineState state = from.timeline.state();
+  const EventNumbers before(rules.event_count, rules.left_out_of_from), after(rules.event_count, rules.left_out_of_to);
+  /// Those that begin outside of events, -1, do so in both.
+  const auto number = [&](Index event) {
+    const auto own = before.own(event);
+    return event < 0 ? std::optional(event) : own ? after.number(*own) : std::nullopt;
+  };
+  pliant::TimelineState renumbered;
+  for (std::size_t i = after.count(); i < to.timeline.event_count(); ++i) {
+    renumbered.applied.push_back(static_cast<Index>(i));
+  }
+  for (const Index event : state.applied) {
+    if (const auto now = number(event)) renumbered.applied.push_back(*now);
+  }
+  const auto take_over = [&](auto& motions, auto& list) {
+    for (auto& motion : motions) {
+      const auto now = number(motion.event);
+      if (!now) continue;
+      motion.event = *now;
+      list.push_back(std::move(motion));
+    }
+  };
+  take_over(state.motions, renumbered.motions);
+  take_over(state.collider_motions, renumbered.collider_motions);
+  for (pliant::StiffnessRamp& ramp : state.ramps) {
+    const auto group = from.simulation.groups().find(ramp.group);
+    if (group == from.simulation.groups().end()) continue;
+    const auto same = to.simulation.find_group(group->second.name);
+    if (same) ramp.group = *same;
+    if (same) renumbered.ramps.push_back(ramp);
+  }
+  return renumbered;
+}
+
+void carry_values(const Simulation& from, Simulation& to, const NotCarried& rules) {
+  std::map<std::string, Vec3> values;
+  for (const Slider& slider : list_sliders(from, rules.is_hidden)) {
+    const auto* group = std::get_if<GroupId>(&slider.parameter.handle.owner);
+    const auto* body = std::get_if<pliant::BodyId>(&slider.parameter.handle.owner);
+    if (rules.values.contains(slider.key)) continue;
+    if (group != nullptr && rules.bodies.contains(from.body(from.groups().at(*group).body).name)) continue;
+    if (body != nullptr && rules.bodies.contains(from.body(*body).name)) continue;
+    values[slider.key] = slider.parameter.value;
+  }
+  for (const Slider& slider : list_sliders(to)) {
+    const auto found = values.find(slider.key);
+    if (found != values.end() && found->second == slider.parameter.value) values.erase(found);
+  }
+  set_values(std::move(values), to);
+}
+
+bool have_same_numbers(const Group& a, const Group& b) {
+  return std::ranges::equal(a.set.batches, b.set.batches, [](const auto& one, const auto& other) {
+    return one->parameters().size() == other->parameters().size();
+  });
+}
+
+/// Rest lengths that have crept, origins, whatever else constraints but pins keep.
+void carry_numbers(const Simulation& from, Simulation& to, const NotCarried& rules) {
+  for (const auto& [id, group] : to.groups()) {
+    const auto found = from.find_group(group.name);
+    if (!found || group.type == pliant::Position::info.name || rules.bodies.contains(to.body(group.body).name))
+      continue;
+    const Group& same = from.groups().at(*found);
+    if (same.type != group.type || !have_same_numbers(same, group)) continue;
+    for (std::size_t i = 0; i < group.set.batches.size(); ++i) {
+      std::ranges::copy(same.set.batches[i]->parameters(), group.set.batches[i]->parameters().begin());
+    }
+    const auto key = "group:" + group.name + ".stiffness";
+    if (const auto stiffness = from.stiffness(*found); stiffness && !rules.values.contains(key)) {
+      to.set_stiffness(id, *stiffness);
+    }
+  }
+}
+
+/// Pins are where those of the same vertex and group were, or else of the same vertex.
+void carry_pins(const Simulation& from, Simulation& to, const NotCarried& rules) {
+  std::map<std::pair<std::string, Index>, Vec3> of_groups;
+  std::map<Index, Vec3> of_vertices;
+  for (const auto& [id, vertices] : held_by_groups(from)) {
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      const Vec3 target = from.target(id, static_cast<Index>(i));
+      of_groups.insert_or_assign({from.groups().at(id).name, vertices[i]}, target);
+      of_vertices.insert_or_assign(vertices[i], target);
+    }
+  }
+  for (const auto& [id, vertices] : held_by_groups(to)) {
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      if (rules.pins.contains(vertices[i])) continue;
+      const auto of_group = of_groups.find({to.groups().at(id).name, vertices[i]});
+      const auto of_vertex = of_vertices.find(vertices[i]);
+      if (of_group != of_groups.end()) {
+        to.set_target(id, static_cast<Index>(i), of_group->second);
+      } else if (of_vertex != of_vertices.end()) {
+        to.set_target(id, static_cast<Index>(i), of_vertex->second);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<std::pair<GroupId, std::vector<Index>>> held_by_groups(const Simulation& simulation) {
+  std::vector<std::pair<GroupId, std::vector<Index>>> list;
+  for (const auto& [id, group] : simulation.groups()) {
+    if (group.type != pliant::Position::info.name) continue;
+    std::vector<Index> vertices;
+    for (const auto& batch : group.set.batches) {
+      for (const std::span<const Index> some : {batch->pinned_vertices(), batch->stencil()}) {
+        vertices.insert(vertices.end(), some.begin(), some.end());
+      }
+    }
+    list.emplace_back(id, std::move(vertices));
+  }
+  return list;
+}
+
+void set_values(std::map<std::string, Vec3> values, Simulation& simulation) {
+  const auto set = [&](const std::string& key, const Vec3& value) {
+    const std::vector<Slider> all = list_sliders(simulation);  // anew, since one value may bring or take others
+    const auto found = std::ranges::find(all, key, &Slider::key);
+    if (found != all.end()) set_parameter(simulation, found->parameter.handle, value);
+  };
+  while (!values.empty()) {
+    const std::size_t count = values.size();
+    std::exception_ptr refused;
+    std::erase_if(values, [&](const auto& entry) {
+      try {
+        set(entry.first, entry.second);
+        return true;
+      } catch (const pliant::Error&) {
+        refused = std::current_exception();
+        return false;
+      }
+    });
+    if (values.size() == count) std::rethrow_exception(refused);
+  }
+}
+
+void carry_over(const pliant::Scene& from, pliant::Scene& to, const NotCarried& rules) {
+  to.timeline.replay(to.simulation, timeline_for(from, to, rules));
+  carry_values(from.simulation, to.simulation, rules);
+  carry_numbers(from.simulation, to.simulation, rules);
+  carry_pins(from.simulation, to.simulation, rules);
+  pliant::State state = from.simulation.state();
+  state.masses = to.simulation.state().masses;
+  to.simulation.restore(state);
+}
+
+}  // namespace pliant_viewer

@@ -1,0 +1,37 @@
+#pragma once
+// From a scene that has run for a while to the same one with other changes: time goes on where it was.
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "pliant_io/scene/scene.h"
+#include "viewer/sliders.h"
+
+namespace pliant_viewer {
+
+/// What does not come from the scene that ran.
+struct NotCarried {
+  std::size_t event_count = 0;  ///< of the scene's own events; those behind them act before all others
+  std::vector<Index> left_out_of_from{}, left_out_of_to{};  ///< of the scene's own, ascending
+  std::set<std::string> values;                             ///< keys of sliders
+  std::set<std::string> bodies;                             ///< whose material has changed
+  std::set<Index> pins;                                     ///< vertices
+  std::function<bool(pliant::GroupId)> is_hidden = {};      ///< as of list_sliders, of `from`
+};
+
+/// Sets values where each is allowed only after another: a smallest stretch may be so only below the largest one.
+/// Keys that there are not are left out. @throws pliant::Error (input): one that is never allowed.
+void set_values(std::map<std::string, pliant::Vec3> values, pliant::Simulation& simulation);
+
+/// Takes `to`, which was just read, to where `from` is: its events act that have acted there, moves go on, values, pins
+/// and stiffnesses are those of `from`, and so are positions, velocities and time.
+/// @throws pliant::Error (input) where they have other bodies.
+void carry_over(const pliant::Scene& from, pliant::Scene& to, const NotCarried& rules);
+
+/// The vertices that groups of positions hold, in the order of each group's targets.
+std::vector<std::pair<pliant::GroupId, std::vector<Index>>> held_by_groups(const pliant::Simulation& simulation);
+
+}  // namespace pliant_viewer

@@ -1,0 +1,259 @@
+#include "viewer/scene_changes.h"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include "pliant/collision/colliders/builtin.h"
+#include "pliant/materials/change_material.h"
+#include "viewer/json_of.h"
+
+namespace pliant_viewer {
+namespace {
+
+using pliant::Parameter;
+using pliant::ParameterKind;
+using pliant::SceneDocument;
+using pliant::Vec3;
+
+Json value_json(const Parameter& parameter, const Vec3& value) {
+  switch (parameter.kind) {
+    case ParameterKind::real:
+      return value[0];
+    case ParameterKind::integer:
+      return static_cast<std::int64_t>(value[0]);
+    case ParameterKind::choice:
+      return parameter.choices.at(static_cast<std::size_t>(value[0]));
+    case ParameterKind::flag:
+      return value[0] != 0;
+    case ParameterKind::vector:
+      return json_of(value);
+  }
+  return {};
+}
+
+Json material_json(const ChangedMaterial& material) {
+  Json json = {{"name", material.name}};
+  json.update(json_of(material.placement));
+  return json.size() == 1 ? Json(material.name) : json;
+}
+
+/// Stiffnesses, of which a row has the common factor, times that; nothing: a map that cannot be told so.
+std::optional<Json> multiplied(Json given, Real factor) {
+  const auto multiply = [factor](Json& number) { number = number.get<Real>() * factor; };
+  if (given.is_array()) {
+    std::ranges::for_each(given, multiply);
+    return given;
+  }
+  if (!given.contains("from") || !given.contains("to")) return {};
+  multiply(given["from"]);
+  multiply(given["to"]);
+  return given;
+}
+
+void set(SceneDocument& document, const std::string& path, const Json& value) {
+  document.set(path, value.dump());
+}
+
+/// An event that acts before the first step.
+void append_event(SceneDocument& document, const std::string& action, const std::string& group, const Json& more) {
+  Json event = {{"step", 0}, {action, group}};
+  event.update(more);
+  document.append("events", event.dump());
+}
+
+}  // namespace
+
+UnchangedScene::UnchangedScene(const pliant::Scene& scene) {
+  as_read_.source = scene.source;
+  as_read_.places = scene.places;
+  as_read_.implied_bodies = scene.implied_bodies;
+  as_read_.group_names = scene.group_names;
+  as_read_.collider_names = scene.collider_names;
+  const pliant::Simulation& simulation = scene.simulation;
+  groups_ = simulation.group_names();
+  for (const auto& [id, collider] : simulation.colliders()) collider_starts_[collider.name] = collider.pose.position;
+  has_surfaces_ = simulation.contact().surfaces;
+  event_count_ = scene.timeline.event_count();
+  for (Index i = 0; i < pliant::count_of(simulation.bodies()); ++i) {
+    const pliant::Body& body = simulation.body(pliant::BodyId{i});
+    BodyPart& part = bodies_.emplace_back(BodyPart{body.name, body.first_vertex, body.mesh.vertex_count(), {}, {}, {}});
+    for (const pliant::GroupId id : groups_of_material(simulation, pliant::BodyId{i})) {
+      const auto found = scene.places.find(simulation.groups().at(id).name);
+      if (found != scene.places.end()) part.replaced.insert(part.replaced.begin(), found->second);
+    }
+    part.pins = free_name(body.name + ".pins");
+    part.moved_pins = free_name(body.name + ".moved_pins");
+  }
+}
+
+std::string UnchangedScene::free_name(const std::string& base) const {
+  const auto is_taken = [this](const std::string& name) {
+    return as_read_.places.contains(name) ||
+           std::ranges::find(as_read_.group_names, name) != as_read_.group_names.end() ||
+           std::ranges::find(as_read_.collider_names, name) != as_read_.collider_names.end();
+  };
+  std::string name = base;
+  for (int number = 2; is_taken(name); ++number) name = fmt::format("{} {}", base, number);
+  return name;
+}
+
+bool UnchangedScene::is_of_hand(const std::string& group) const {
+  return std::ranges::any_of(bodies_,
+                             [&](const BodyPart& body) { return group == body.pins || group == body.moved_pins; });
+}
+
+std::optional<std::size_t> UnchangedScene::find_body(const std::string& name) const {
+  const auto found = std::ranges::find(bodies_, name, &BodyPart::name);
+  if (found == bodies_.end()) return {};
+  return static_cast<std::size_t>(found - bodies_.begin());
+}
+
+SceneDocument UnchangedScene::with(const SceneChanges& changes) const {
+  if (!document_) document_.emplace(as_read_);
+  SceneDocument document = *document_;
+  // Whatever takes constraints out comes last: places count from the start of their list.
+  write_colliders(changes, document);
+  write_values(changes, document);
+  write_pins(changes, document);
+  write_materials(changes, document);
+  return document;
+}
+
+pliant::SceneText UnchangedScene::text_with(const SceneChanges& changes) const {
+  const pliant::SceneText& own = as_read_.source.texts.at(0);
+  return {own.name, own.folder, with(changes).text()};
+}
+
+void UnchangedScene::remove_events(const std::vector<std::pair<Index, std::string>>& left_out,
+                                   SceneDocument& document) {
+  const std::string moves = document.get("moves");
+  const Index move_count = moves.empty() ? 0 : static_cast<Index>(Json::parse(moves).size());
+  for (auto entry = left_out.rbegin(); entry != left_out.rend(); ++entry) {
+    const Index number = entry->first;
+    document.remove(number < move_count ? fmt::format("moves[{}]", number)
+                                        : fmt::format("events[{}]", number - move_count));
+  }
+}
+
+bool UnchangedScene::is_replaced(const std::string& place, const SceneChanges& changes) const {
+  return std::ranges::any_of(bodies_, [&](const BodyPart& body) {
+    return changes.materials.contains(body.name) && std::ranges::find(body.replaced, place) != body.replaced.end();
+  });
+}
+
+/// Nothing where the scene has no such place.
+std::optional<std::string> UnchangedScene::path_of(const Parameter& parameter, const SceneChanges& changes) const {
+  const pliant::ParameterOwner& owner = parameter.handle.owner;
+  const std::string& option = parameter.handle.option;
+  if (std::holds_alternative<std::monostate>(owner)) return "settings." + option;
+  if (std::holds_alternative<pliant::ContactOwner>(owner)) return "contact." + option;
+  if (std::holds_alternative<pliant::BodyId>(owner)) {
+    const auto body = find_body(parameter.name);
+    if (!body) return {};
+    return fmt::format("bodies[{}].contact.{}", *body, option);
+  }
+  const auto found = as_read_.places.find(parameter.name);
+  if (found == as_read_.places.end() || is_replaced(found->second, changes)) return {};
+  return found->second == "gravity" ? found->second : found->second + "." + option;
+}
+
+void UnchangedScene::write_values(const SceneChanges& changes, SceneDocument& document) const {
+  std::map<std::string, Json> of_groups;  // that have no place, being of a material: by events
+  for (const auto& [key, changed] : changes.values) {
+    const Parameter& parameter = changed.parameter;
+    std::optional<Json> value = value_json(parameter, changed.value);
+    const std::optional<std::string> path = path_of(parameter, changes);
+    if (!path) {
+      if (std::holds_alternative<pliant::GroupId>(parameter.handle.owner)) {
+        of_groups[parameter.name][parameter.handle.option] = *value;
+      }
+      continue;
+    }
+    const std::string given = document.get(*path);
+    const bool is_common_factor =
+        parameter.kind == ParameterKind::real && (given.starts_with('[') || given.starts_with('{'));
+    if (is_common_factor) value = multiplied(Json::parse(given), changed.value[0]);
+    if (!value) continue;
+    // With this key surfaces would touch.
+    if (path->starts_with("contact.") && document.get("contact").empty())
+      set(document, "contact.surfaces", has_surfaces_);
+    set(document, *path, *value);
+  }
+  for (const auto& [group, values] : of_groups) {
+    const bool is_there = std::ranges::find(groups_, group) != groups_.end();
+    const auto is_of = [&](const auto& entry) { return group.starts_with(entry.first + "."); };
+    if (is_there || std::ranges::any_of(changes.materials, is_of)) append_event(document, "change", group, values);
+  }
+}
+
+void UnchangedScene::write_materials(const SceneChanges& changes, SceneDocument& document) const {
+  for (const auto& [name, material] : changes.materials) {
+    const auto body = find_body(name);
+    if (!body) continue;
+    const std::string place = fmt::format("bodies[{}]", *body);
+    set(document, place + ".material", material_json(material));
+    document.remove(place + ".mass");
+    if (!changes.values.contains("contact:" + name + ".friction")) document.remove(place + ".contact.friction");
+    for (const std::string& constraint : bodies_[*body].replaced) document.remove(constraint);
+  }
+}
+
+void UnchangedScene::write_pins(const SceneChanges& changes, SceneDocument& document) const {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const BodyPart& body = bodies_[i];
+    Json held = Json::array(), moved = Json::array(), targets = Json::array();
+    for (const auto& [vertex, target] : changes.pins) {
+      if (vertex < body.first_vertex || vertex >= body.first_vertex + body.vertex_count) continue;
+      (target ? moved : held).push_back(vertex - body.first_vertex);
+      if (target) targets.push_back(json_of(*target));
+    }
+    const std::string list = fmt::format("bodies[{}].constraints", i);
+    if (!held.empty()) {
+      document.append(list, Json{{"type", "position"}, {"name", body.pins}, {"on", held}}.dump());
+    }
+    if (moved.empty()) continue;
+    const Json pins = {{"type", "position"}, {"name", body.moved_pins}, {"stencils", moved}, {"targets", targets}};
+    document.append(list, pins.dump());
+  }
+  std::map<std::string, Json> released;
+  for (const auto& [vertex, pin] : changes.released) {
+    const auto body = std::ranges::find_if(bodies_, [v = vertex](const BodyPart& each) {
+      return v >= each.first_vertex && v < each.first_vertex + each.vertex_count;
+    });
+    if (body == bodies_.end()) continue;
+    for (const std::string& group : pin.groups) released[group].push_back(vertex - body->first_vertex);
+  }
+  const auto is_there = [this](const std::string& group) { return as_read_.places.contains(group); };
+  for (const auto& [vertex, pin] : changes.moved) {
+    const Json move = {{"index", pin.number}, {"target", json_of(pin.target)}};
+    if (is_there(pin.group) && !changes.released.contains(vertex)) append_event(document, "move", pin.group, move);
+  }
+  for (const auto& [group, vertices] : released) {
+    if (is_there(group)) append_event(document, "release", group, {{"vertices", vertices}});
+  }
+}
+
+void UnchangedScene::write_colliders(const SceneChanges& changes, SceneDocument& document) const {
+  for (const auto& [name, position] : changes.collider_positions) {
+    const auto place = as_read_.places.find(name);
+    const auto start = collider_starts_.find(name);
+    if (place == as_read_.places.end() || start == collider_starts_.end()) continue;
+    const std::string type = document.get(place->second + ".type");
+    if (type != R"("capsule")") {
+      set(document, place->second + ".center", json_of(position));
+      continue;
+    }
+    const pliant::CapsuleCollider usual;
+    const Vec3 way = position - start->second;
+    for (const auto& [key, end] : {std::pair{".from", usual.from}, {".to", usual.to}}) {
+      const std::string given = document.get(place->second + key);
+      const auto point =
+          given.empty() ? std::array{end.x(), end.y(), end.z()} : Json::parse(given).get<std::array<Real, 3>>();
+      set(document, place->second + key, json_of(Vec3(Vec3(point[0], point[1], point[2]) + way)));
+    }
+  }
+}
+
+}  // namespace pliant_viewer

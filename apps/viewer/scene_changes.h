@@ -1,0 +1,102 @@
+#pragma once
+// What a user has changed of a scene, as a scene file has it: what a restart does again, undo takes back, and a saved
+// scene is written from.
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pliant/materials/material_groups.h"
+#include "pliant/simulation/parameters.h"
+#include "pliant_io/scene/scene_document.h"
+
+namespace pliant_viewer {
+
+using pliant::Index;
+using pliant::Real;
+
+struct ChangedValue {
+  pliant::Parameter parameter;  ///< as it was when it was first changed
+  pliant::Vec3 value = pliant::Vec3::Zero();
+
+  bool operator==(const ChangedValue& other) const { return value == other.value; }
+};
+
+struct ChangedMaterial {
+  std::string name;
+  pliant::MaterialPlacement placement{};
+
+  bool operator==(const ChangedMaterial& other) const { return name == other.name; }
+};
+
+/// Of a vertex that the scene pins: the groups that have let it go, or where one of them begins to hold it.
+struct ReleasedPin {
+  std::vector<std::string> groups;
+  bool operator==(const ReleasedPin&) const = default;
+};
+struct MovedPin {
+  std::string group;
+  Index number = 0;  ///< among the targets of the group
+  pliant::Vec3 target = pliant::Vec3::Zero();
+  bool operator==(const MovedPin&) const = default;
+};
+
+/// Vertices have their indices in the simulation.
+struct SceneChanges {
+  std::map<std::string, ChangedValue> values;              ///< by the key of the slider
+  std::map<std::string, ChangedMaterial> materials;        ///< by body
+  std::map<Index, std::optional<pliant::Vec3>> pins;       ///< set by hand, with the target where it was moved [m]
+  std::map<Index, ReleasedPin> released;                   ///< of the scene's
+  std::map<Index, MovedPin> moved;                         ///< of the scene's, before the first step
+  std::map<std::string, pliant::Vec3> collider_positions;  ///< where they begin [m]
+
+  bool operator==(const SceneChanges&) const = default;
+  bool is_empty() const { return *this == SceneChanges{}; }
+};
+
+/// What of a scene as it was read its changes refer to.
+class UnchangedScene {
+ public:
+  explicit UnchangedScene(const pliant::Scene& scene);
+
+  /// The scene with the changes in it. Those of what it does not have are left out.
+  pliant::SceneDocument with(const SceneChanges& changes) const;
+  /// The same as a text in place of the scene's first one.
+  pliant::SceneText text_with(const SceneChanges& changes) const;
+  /// Takes out events that were left out when the document was read.
+  static void remove_events(const std::vector<std::pair<Index, std::string>>& left_out,
+                            pliant::SceneDocument& document);
+  /// The number of its own events; those of changes stand behind them.
+  std::size_t event_count() const { return event_count_; }
+  /// Whether a group of that name holds pins that were set by hand, in a scene with changes.
+  bool is_of_hand(const std::string& group) const;
+
+ private:
+  struct BodyPart {
+    std::string name;
+    Index first_vertex = 0;
+    Index vertex_count = 0;
+    std::vector<std::string> replaced;  ///< places of the constraints that a material takes the place of, last first
+    std::string pins;                   ///< name of the group of pins that were set by hand
+    std::string moved_pins;             ///< of those that were moved
+  };
+  std::optional<std::size_t> find_body(const std::string& name) const;
+
+  std::string free_name(const std::string& base) const;
+  bool is_replaced(const std::string& place, const SceneChanges& changes) const;
+  void write_values(const SceneChanges& changes, pliant::SceneDocument& document) const;
+  std::optional<std::string> path_of(const pliant::Parameter& parameter, const SceneChanges& changes) const;
+  void write_materials(const SceneChanges& changes, pliant::SceneDocument& document) const;
+  void write_pins(const SceneChanges& changes, pliant::SceneDocument& document) const;
+  void write_colliders(const SceneChanges& changes, pliant::SceneDocument& document) const;
+
+  pliant::Scene as_read_;  // its texts alone
+  mutable std::optional<pliant::SceneDocument> document_;
+  std::vector<BodyPart> bodies_;
+  std::vector<std::string> groups_;                      // there at the start
+  std::map<std::string, pliant::Vec3> collider_starts_;  // [m]
+  bool has_surfaces_ = false;
+  std::size_t event_count_ = 0;
+};
+
+}  // namespace pliant_viewer

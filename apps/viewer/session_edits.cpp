@@ -1,0 +1,279 @@
+// What a session has changed of its scene: set, taken back, done again, saved.
+#include <algorithm>
+
+#include "pliant/core/error.h"
+#include "pliant/core/printable.h"
+#include "pliant/materials/change_material.h"
+#include "pliant_io/checkpoint/checkpoint.h"
+#include "pliant_io/files/atomic_file.h"
+#include "viewer/carry_over.h"
+#include "viewer/session.h"
+#include "viewer/view_document.h"
+
+namespace pliant_viewer {
+namespace {
+
+constexpr std::size_t most_edits = 1000;  // that can be taken back
+
+std::optional<pliant::BodyId> find_body(const pliant::Simulation& simulation, const std::string& name) {
+  const auto found = std::ranges::find(simulation.bodies(), name, &pliant::Body::name);
+  if (found == simulation.bodies().end()) return {};
+  return pliant::BodyId{static_cast<Index>(found - simulation.bodies().begin())};
+}
+
+/// The keys by which two maps differ.
+template <class Key, class Value>
+std::set<Key> difference(const std::map<Key, Value>& a, const std::map<Key, Value>& b) {
+  std::set<Key> keys;
+  const auto add = [&keys](const auto& from, const auto& to) {
+    for (const auto& [key, value] : from) {
+      const auto found = to.find(key);
+      if (found == to.end() || !(found->second == value)) keys.insert(key);
+    }
+  };
+  add(a, b);
+  add(b, a);
+  return keys;
+}
+
+bool differ_in_values_alone(const SceneChanges& a, SceneChanges b) {
+  b.values = a.values;
+  return a == b;
+}
+
+/// "stretch: stiffness"
+std::string text_of(const pliant::Parameter& parameter) {
+  std::string option = parameter.handle.option;
+  std::ranges::replace(option, '_', ' ');
+  return parameter.name.empty() ? option : parameter.name + ": " + option;
+}
+
+}  // namespace
+
+void Session::remember(Edit edit) {
+  edit.after = changes_;
+  done_.push_back(std::move(edit));
+  undone_.clear();
+  if (done_.size() > most_edits) done_.erase(done_.begin());
+}
+
+void Session::set(const std::string& key, const pliant::Vec3& value, bool goes_on) {
+  const std::vector<Slider> all = sliders();
+  const auto found = std::ranges::find(all, key, &Slider::key);
+  if (found == all.end() || found->parameter.value == value) return;
+  const pliant::Parameter& parameter = found->parameter;
+  set_parameter(scene_.simulation, parameter.handle, value);
+  Edit edit{.what = text_of(parameter), .before = changes_};
+  edit.old_values[key] = parameter.value;
+  changes_.values.try_emplace(key, ChangedValue{parameter}).first->second.value = value;
+  if (goes_on && !done_.empty() && done_.back().old_values.size() == 1 && done_.back().old_values.contains(key)) {
+    done_.back().after = changes_;
+    undone_.clear();
+  } else {
+    remember(std::move(edit));
+  }
+}
+
+void Session::set_material(const std::string& body, const std::string& material) {
+  const auto id = find_body(scene_.simulation, body);
+  if (!id) pliant::fail_input("there is no body '" + pliant::printable(body) + "'");
+  const std::vector<Slider> before = sliders();
+  // Threads lie as they did, also after a material that has none.
+  const auto placement = placements_.emplace(body, present_placement(simulation(), *id)).first;
+  std::set<std::string> of_body;  // keys of what may go
+  for (const Slider& slider : before) {
+    const auto* group = std::get_if<pliant::GroupId>(&slider.parameter.handle.owner);
+    if (group != nullptr && simulation().groups().at(*group).body == *id) of_body.insert(slider.key);
+  }
+  change_material(scene_, *id, material, placement->second);
+  Edit edit{.what = body + ": " + material, .before = changes_};
+  for (const std::string& key : of_body) changes_.values.erase(key);
+  changes_.values.erase("contact:" + body + ".friction");
+  changes_.materials[body] = {material, placement->second};
+  for (const pliant::Parameter& now : list_parameters(simulation(), {})) {  // the settings
+    const auto old = std::ranges::find(before, "settings." + now.handle.option, &Slider::key);
+    if (old == before.end() || old->parameter.value == now.value) continue;
+    edit.old_values[old->key] = old->parameter.value;
+    changes_.values[old->key] = {now, now.value};
+  }
+  remember(std::move(edit));
+  note_ = coarseness(scene_.materials.at(*id), simulation().body(*id).mesh);
+}
+
+void Session::drop_pin(Index vertex) {
+  const auto pin = find_pin(vertex);
+  if (!pin || simulation().state().step > 0) return;
+  Edit edit{.what = "move a pin", .before = changes_};
+  const pliant::Group& group = simulation().groups().at(pin->group);
+  const pliant::Vec3 target = target_of(*pin);
+  if (of_hand_.contains(pin->group)) {
+    changes_.pins[vertex] = target;
+  } else {
+    changes_.moved[vertex] = {group.name, group.points[static_cast<std::size_t>(pin->target)], target};
+  }
+  remember(std::move(edit));
+}
+
+void Session::drop_collider(pliant::ColliderId collider) {
+  const auto goal = collider_goals_.find(collider);
+  if (goal == collider_goals_.end() || simulation().state().step > 0) return;
+  Edit edit{.what = "move a collider", .before = changes_};
+  SceneChanges changes = changes_;
+  changes.collider_positions[simulation().colliders().at(collider).name] = goal->second;
+  pliant::Scene next = read_changed(unchanged_.text_with(changes));
+  collider_goals_.erase(goal);
+  left_alone_.erase(collider);
+  changes_ = std::move(changes);
+  take(std::move(next));
+  remember(std::move(edit));
+}
+
+/// What the text says, at its start, shown as this one is.
+pliant::Scene Session::read_changed(pliant::SceneText text) const {
+  pliant::SceneSource source;
+  source.texts.push_back(std::move(text));
+  source.leaves_out_events = true;
+  pliant::Scene scene = parse_scene(std::move(source));
+  scene.name = scene_.name;
+  scene.view = scene_.view;
+  return scene;
+}
+
+/// Takes a scene that was just made to where this one is.
+void Session::carry_into(pliant::Scene& next, const SceneChanges& to) const {
+  if (simulation().state().step == 0) return;
+  NotCarried rules;
+  rules.event_count = unchanged_.event_count();
+  for (const auto& [number, why] : scene_.left_out) rules.left_out_of_from.push_back(number);
+  for (const auto& [number, why] : next.left_out) rules.left_out_of_to.push_back(number);
+  rules.values = difference(changes_.values, to.values);
+  rules.bodies = difference(changes_.materials, to.materials);
+  rules.pins = difference(changes_.pins, to.pins);
+  rules.pins.merge(difference(changes_.moved, to.moved));
+  rules.is_hidden = [this](pliant::GroupId id) { return is_hidden(id); };
+  carry_over(scene_, next, rules);
+}
+
+/// Goes on with another scene, from wherever that is.
+void Session::settle(pliant::Scene next) {
+  // What the changes have as events shows at once, not with the first step.
+  const std::size_t own_events = unchanged_.event_count() - std::min(unchanged_.event_count(), next.left_out.size());
+  if (next.simulation.state().step == 0 && next.timeline.event_count() > own_events) {
+    next.timeline.act_due(next.simulation, 0, 0);
+  }
+  next.simulation.set_stop(stop_);
+  for (const pliant::ColliderId collider : left_alone_) {
+    if (next.simulation.colliders().contains(collider)) next.timeline.leave_alone(next.simulation, collider);
+  }
+  scene_ = std::move(next);
+  if (!scene_.left_out.empty()) note_ = "left out: " + scene_.left_out.front().second;
+  of_hand_.clear();
+  for (const auto& [id, group] : simulation().groups()) {
+    if (unchanged_.is_of_hand(group.name)) of_hand_.insert(id);
+  }
+  pull_group_.reset();
+}
+
+/// The same with one that stands where this one does: the mouse holds what it held.
+void Session::take(pliant::Scene next) {
+  const Index threads = simulation().settings().threads;
+  settle(std::move(next));
+  if (simulation().settings().threads != threads) set_threads(threads);
+  if (const std::optional<Pull> pull = std::exchange(pull_, {})) grab(*pull);
+  ++rebuilds_;
+}
+
+void Session::go(const Edit& edit, const SceneChanges& from, const SceneChanges& to) {
+  if (differ_in_values_alone(from, to)) {
+    std::map<std::string, pliant::Vec3> values;
+    for (const std::string& key : difference(from.values, to.values)) {
+      const auto changed = to.values.find(key);
+      const auto old = edit.old_values.find(key);
+      if (changed != to.values.end()) {
+        values[key] = changed->second.value;
+      } else if (old != edit.old_values.end()) {
+        values[key] = old->second;
+      }
+    }
+    set_values(std::move(values), scene_.simulation);
+    changes_ = to;
+    return;
+  }
+  pliant::Scene next = read_changed(unchanged_.text_with(to));
+  std::map<pliant::ColliderId, pliant::Vec3> starts;
+  for (const std::string& name : difference(from.collider_positions, to.collider_positions)) {
+    if (const auto id = next.simulation.find_collider(name)) starts[*id] = next.simulation.pose(*id).position;
+  }
+  carry_into(next, to);
+  take(std::move(next));
+  changes_ = to;
+  if (simulation().state().step == 0) return;
+  for (const auto& [id, start] : starts) collider_goals_[id] = start;
+  for (const auto& [vertex, target] : edit.held) {
+    if (const auto pin = find_pin(vertex)) scene_.simulation.set_target(pin->group, pin->target, target);
+  }
+}
+
+void Session::undo() {
+  if (done_.empty()) return;
+  go(done_.back(), done_.back().after, done_.back().before);
+  undone_.push_back(std::move(done_.back()));
+  done_.pop_back();
+}
+
+void Session::redo() {
+  if (undone_.empty()) return;
+  go(undone_.back(), undone_.back().before, undone_.back().after);
+  done_.push_back(std::move(undone_.back()));
+  undone_.pop_back();
+}
+
+void Session::restart(bool keep_changes) {
+  pliant::Scene scene = make_();
+  UnchangedScene unchanged(scene);
+  if (keep_changes && !changes_.is_empty()) {
+    pliant::Scene changed = read_changed(unchanged.text_with(changes_));
+    changed.name = scene.name;
+    changed.view = scene.view;
+    scene = std::move(changed);
+  }
+  if (!keep_changes) {
+    changes_ = {};
+    done_.clear();
+    undone_.clear();
+    placements_.clear();
+  }
+  unchanged_ = std::move(unchanged);
+  pull_.reset();
+  collider_goals_.clear();
+  left_alone_.clear();
+  collider_speed_ = suggest_collider_speed(scene.simulation);
+  note_.clear();
+  settle(std::move(scene));
+}
+
+std::vector<std::filesystem::path> Session::save(const std::filesystem::path& file, const pliant::ViewSettings& view) {
+  namespace fs = std::filesystem;
+  const fs::path folder = file.parent_path();
+  const auto text_of_file = [&](const pliant::SceneDocument& document) {
+    return pliant::SceneText{file.string(), folder, document.text(folder.empty() ? "." : folder), fs::absolute(file)};
+  };
+  pliant::SceneDocument document = unchanged_.with(changes_);
+  write_view(view, document);
+  pliant::Scene next = read_changed(text_of_file(document));
+  UnchangedScene::remove_events(next.left_out, document);
+  const pliant::SceneText written = text_of_file(document);
+  next.source.texts.at(0) = written;
+  next.source.leaves_out_events = false;
+  carry_into(next, changes_);
+  pliant::write_file_atomically(file, written.text);
+  std::vector<fs::path> files = {file};
+  if (simulation().state().step > 0) {
+    files.push_back(fs::path(file).replace_extension(".pliant"));
+    write_checkpoint(files.back(), next);
+  }
+  take(std::move(next));
+  return files;
+}
+
+}  // namespace pliant_viewer
