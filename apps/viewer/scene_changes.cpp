@@ -6,7 +6,10 @@
 #include <fmt/format.h>
 
 #include "pliant/collision/colliders/builtin.h"
+#include "pliant/constraints/position.h"
 #include "pliant/materials/change_material.h"
+#include "viewer/body_materials.h"
+#include "viewer/carry_over.h"
 #include "viewer/json_of.h"
 
 namespace pliant_viewer {
@@ -75,6 +78,12 @@ UnchangedScene::UnchangedScene(const pliant::Scene& scene) {
   groups_ = simulation.group_names();
   for (const auto& [id, collider] : simulation.colliders()) collider_starts_[collider.name] = collider.pose.position;
   has_surfaces_ = simulation.contact().surfaces;
+  const auto is_read = [&](const std::string& name) {
+    return scene.places.contains(name) || std::ranges::find(scene.group_names, name) != scene.group_names.end();
+  };
+  has_text_ = !scene.source.texts.empty() && std::ranges::all_of(groups_, is_read);
+  for (const auto& [id, collider] : simulation.colliders()) has_text_ = has_text_ && is_read(collider.name);
+  for (const auto& [id, force] : simulation.forces()) has_text_ = has_text_ && is_read(simulation.name(id));
   event_count_ = scene.timeline.event_count();
   for (Index i = 0; i < pliant::count_of(simulation.bodies()); ++i) {
     const pliant::Body& body = simulation.body(pliant::BodyId{i});
@@ -108,6 +117,50 @@ std::optional<std::size_t> UnchangedScene::find_body(const std::string& name) co
   const auto found = std::ranges::find(bodies_, name, &BodyPart::name);
   if (found == bodies_.end()) return {};
   return static_cast<std::size_t>(found - bodies_.begin());
+}
+
+void UnchangedScene::apply(const SceneChanges& changes, pliant::Scene& scene) const {
+  pliant::Simulation& simulation = scene.simulation;
+  for (const auto& [name, material] : changes.materials) {
+    if (const auto body = find_body(name)) {
+      change_material(scene, pliant::BodyId{static_cast<Index>(*body)}, material.name, material.placement);
+    }
+  }
+  std::map<std::string, Vec3> values;
+  for (const auto& [key, changed] : changes.values) values[key] = changed.value;
+  set_values(std::move(values), simulation);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const BodyPart& body = bodies_[i];
+    const pliant::BodyId id{static_cast<Index>(i)};
+    for (const auto& [vertex, target] : changes.pins) {
+      const Index of_body = vertex - body.first_vertex;
+      if (of_body < 0 || of_body >= body.vertex_count) continue;
+      pliant::Position pin{.on = {of_body}};
+      if (target) pin.targets = *target;
+      simulation.add(id, pin, target ? body.moved_pins : body.pins);
+    }
+    for (const auto& [vertex, pin] : changes.released) {
+      const Index of_body = vertex - body.first_vertex;
+      if (of_body < 0 || of_body >= body.vertex_count) continue;
+      for (const std::string& group : pin.groups) {
+        if (const auto found = simulation.find_group(group)) simulation.release(*found, std::span(&of_body, 1));
+      }
+    }
+  }
+  for (const auto& [vertex, pin] : changes.moved) {
+    const auto group = simulation.find_group(pin.group);
+    if (!group) continue;
+    const std::vector<Index>& numbers = simulation.groups().at(*group).points;
+    const auto place = std::ranges::find(numbers, pin.number);
+    if (place != numbers.end()) simulation.set_target(*group, static_cast<Index>(place - numbers.begin()), pin.target);
+  }
+  for (const auto& [name, position] : changes.collider_positions) {
+    const auto collider = simulation.find_collider(name);
+    if (!collider) continue;
+    pliant::Pose pose = simulation.pose(*collider);
+    pose.position = position;
+    simulation.set_target(*collider, pose);
+  }
 }
 
 SceneDocument UnchangedScene::with(const SceneChanges& changes) const {

@@ -59,6 +59,12 @@ class UnchangedScene {
  public:
   explicit UnchangedScene(const pliant::Scene& scene);
 
+  /// Whether all of it was read. What a program has made, if only in part, has no text: apply() changes it.
+  bool has_text() const { return has_text_; }
+  /// Makes the changes of such a scene as it was made, at its start.
+  /// @throws pliant::Error (input) where one does not fit.
+  void apply(const SceneChanges& changes, pliant::Scene& scene) const;
+
   /// The scene with the changes in it. Those of what it does not have are left out.
   pliant::SceneDocument with(const SceneChanges& changes) const;
   /// The same as a text in place of the scene's first one.
@@ -95,6 +101,7 @@ class UnchangedScene {
   std::vector<BodyPart> bodies_;
   std::vector<std::string> groups_;                      // there at the start
   std::map<std::string, pliant::Vec3> collider_starts_;  // [m]
+  bool has_text_ = false;
   bool has_surfaces_ = false;
   std::size_t event_count_ = 0;
 };

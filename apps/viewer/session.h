@@ -127,6 +127,7 @@ class Session {
   void remember(Edit edit);
   void go(const Edit& edit, const SceneChanges& from, const SceneChanges& to);
   pliant::Scene read_changed(pliant::SceneText text) const;
+  pliant::Scene make_with(const SceneChanges& changes, const UnchangedScene& unchanged) const;
   void carry_into(pliant::Scene& next, const SceneChanges& to) const;
   void settle(pliant::Scene next);
   void take(pliant::Scene next);

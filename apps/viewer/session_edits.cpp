@@ -120,7 +120,7 @@ void Session::drop_collider(pliant::ColliderId collider) {
   Edit edit{.what = "move a collider", .before = changes_};
   SceneChanges changes = changes_;
   changes.collider_positions[simulation().colliders().at(collider).name] = goal->second;
-  pliant::Scene next = read_changed(unchanged_.text_with(changes));
+  pliant::Scene next = make_with(changes, unchanged_);
   collider_goals_.erase(goal);
   left_alone_.erase(collider);
   changes_ = std::move(changes);
@@ -136,6 +136,14 @@ pliant::Scene Session::read_changed(pliant::SceneText text) const {
   pliant::Scene scene = parse_scene(std::move(source));
   scene.name = scene_.name;
   scene.view = scene_.view;
+  return scene;
+}
+
+/// The scene with changes, at its start.
+pliant::Scene Session::make_with(const SceneChanges& changes, const UnchangedScene& unchanged) const {
+  if (unchanged.has_text()) return read_changed(unchanged.text_with(changes));
+  pliant::Scene scene = make_();
+  unchanged.apply(changes, scene);
   return scene;
 }
 
@@ -199,7 +207,7 @@ void Session::go(const Edit& edit, const SceneChanges& from, const SceneChanges&
     changes_ = to;
     return;
   }
-  pliant::Scene next = read_changed(unchanged_.text_with(to));
+  pliant::Scene next = make_with(to, unchanged_);
   std::map<pliant::ColliderId, pliant::Vec3> starts;
   for (const std::string& name : difference(from.collider_positions, to.collider_positions)) {
     if (const auto id = next.simulation.find_collider(name)) starts[*id] = next.simulation.pose(*id).position;
@@ -232,7 +240,7 @@ void Session::restart(bool keep_changes) {
   pliant::Scene scene = make_();
   UnchangedScene unchanged(scene);
   if (keep_changes && !changes_.is_empty()) {
-    pliant::Scene changed = read_changed(unchanged.text_with(changes_));
+    pliant::Scene changed = make_with(changes_, unchanged);
     changed.name = scene.name;
     changed.view = scene.view;
     scene = std::move(changed);
@@ -254,6 +262,10 @@ void Session::restart(bool keep_changes) {
 
 std::vector<std::filesystem::path> Session::save(const std::filesystem::path& file, const pliant::ViewSettings& view) {
   namespace fs = std::filesystem;
+  if (!unchanged_.has_text()) {
+    pliant::fail_input(
+        "a scene that was made by a program has no text that could be saved; write one, see `pliant scenes`");
+  }
   const fs::path folder = file.parent_path();
   const auto text_of_file = [&](const pliant::SceneDocument& document) {
     return pliant::SceneText{file.string(), folder, document.text(folder.empty() ? "." : folder), fs::absolute(file)};

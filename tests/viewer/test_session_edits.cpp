@@ -385,6 +385,38 @@ TEST_CASE("how it is shown is saved with it") {
   CHECK(read.shadow);
 }
 
+TEST_CASE("a scene that a program has made keeps its changes, and takes them back; it has no text to save") {
+  const auto make = [] {
+    pliant::Scene scene = make_scene();
+    scene.source = {};
+    scene.places.clear();
+    return scene;
+  };
+  const TemporaryFolder folder;
+  Session session(make), read(make_scene);
+  for (Session* each : {&session, &read}) {
+    change_everything(*each);
+    each->set_material("scarf", "denim");
+    each->set("group:scarf.bend.stiffness", {3e-5, 0, 0});
+    each->restart(true);
+  }
+  CHECK_THROWS_WITH_AS(session.save(folder.path() / "none.json", session.scene().view), doctest::Contains("program"),
+                       pliant::Error);
+  CHECK(session.is_pinned(40));
+  CHECK_FALSE(session.is_pinned(72));
+  CHECK(session.materials().at(1).material == "denim");
+  for (const char* key : {"group:scarf.bend.stiffness", "force:wind.velocity", "settings.iterations"}) {
+    CHECK(value(session, key) == value(read, key));
+  }
+  steps(session, 20);
+  while (!session.undone_next().empty()) session.undo();
+  CHECK(session.changes().is_empty());
+  CHECK(session.is_pinned(72));
+  CHECK(value(session, "settings.iterations") == 10);
+  steps(session, 20);
+  REQUIRE(positions(session).allFinite());
+}
+
 TEST_CASE("what cannot be saved leaves the session as it is") {
   const TemporaryFolder folder;
   Session session(make_scene);
