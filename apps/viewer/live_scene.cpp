@@ -137,7 +137,12 @@ void LiveScene::run_commands() {
     const double speed = pacer_.speed();
     const std::uint64_t restarts = context_.restarts;
     try {
+      context_.message.clear();
       command(context_);
+      if (!context_.message.empty()) {
+        message_ = context_.message;
+        ++messages_;
+      }
       if (context_.restarts != restarts) note_.clear();
     } catch (const std::exception& error) {
       note_ = error.what();
@@ -150,6 +155,10 @@ void LiveScene::run_commands() {
     if (pacer_.speed() != speed) statistics_.clear();
     ++commands_done_;
     is_dirty_ = true;
+  }
+  if (session_.rebuilds() != rebuilds_seen_) {
+    rebuilds_seen_ = session_.rebuilds();
+    update_render_mesh();
   }
   if (context_.restarts == restarts_seen_) return;
   restarts_seen_ = context_.restarts;
@@ -216,6 +225,10 @@ void LiveScene::publish() {
   back_.is_playing = context_.is_playing;
   back_.is_behind = context_.is_playing && pacer_.steps_behind() > Pacer::most_behind - 1.5;
   back_.note = !note_.empty() ? note_ : session_.note();
+  back_.message = message_;
+  back_.messages = messages_;
+  back_.undone_next = session_.undone_next();
+  back_.redone_next = session_.redone_next();
   back_.restarts = context_.restarts;
   back_.commands = commands_published_ = commands_done_;
   {

@@ -31,6 +31,10 @@ struct Snapshot {
   bool is_playing = false;
   bool is_behind = false;      ///< as far behind the clock as the pacer allows
   std::string note;            ///< last error or warning; empty for none
+  std::string message;         ///< what a command last said that it has done
+  std::uint64_t messages = 0;  ///< number of such messages so far
+  std::string undone_next;     ///< what undo would take back, and redo do again; empty: nothing
+  std::string redone_next;
   std::uint64_t restarts = 0;  ///< number of restarts so far
   std::uint64_t commands = 0;  ///< number of commands that have taken effect
 };
@@ -43,10 +47,11 @@ struct CommandContext {
   std::int64_t single_steps = 0;  ///< still to take while paused
   pliant::ColorBy color = pliant::ColorBy::none;
   std::uint64_t restarts = 0;
+  std::string message = {};  ///< for the user; empty: none
 
   /// As Session::restart; also drops single steps that were requested.
-  void restart(bool keep_values) {
-    session.restart(keep_values);
+  void restart(bool keep_changes) {
+    session.restart(keep_changes);
     single_steps = 0;
     ++restarts;
   }
@@ -114,6 +119,9 @@ class LiveScene {
   std::uint64_t commands_done_ = 0;
   std::uint64_t commands_published_ = 0;
   std::uint64_t restarts_seen_ = 0;
+  std::uint64_t rebuilds_seen_ = 0;
+  std::string message_;
+  std::uint64_t messages_ = 0;
   std::shared_ptr<const std::vector<Slider>> sliders_;
   std::shared_ptr<const std::vector<BodyMaterial>> materials_;
   Clock::time_point sliders_listed_{};

@@ -162,6 +162,12 @@ void MouseInteraction::release(const MouseEvent& event, const View& view) {
     action_ = action;
     flush(view);
     action_ = Action::none;
+    post(view, LiveScene::Kind::changes,
+         [is_pin = action == Action::move_pin, vertex = static_cast<Index>(vertex_),
+          collider = pliant::ColliderId{collider_}](Session& session) {
+           if (is_pin) return session.drop_pin(vertex);
+           session.drop_collider(collider);
+         });
   } else if (action == Action::touch_pin) {
     toggle_pin(vertex_, true, view);
   } else if (action == Action::touch_body && (event.place - pressed_).norm() <= click_slack * view.unit) {

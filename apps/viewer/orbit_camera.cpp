@@ -67,4 +67,21 @@ pliant_render::Viewpoint OrbitCamera::viewpoint(const pliant_render::Bounds& bou
   return view;
 }
 
+pliant::Camera OrbitCamera::placed() const {
+  // Letters enough for what one can see, and no more.
+  const auto rounded = [](const Vec3f& point) {
+    return pliant::Vec3((point.cast<double>() * 1e4).array().round() / 1e4);
+  };
+  pliant::Camera camera;
+  camera.position = rounded(viewpoint_.eye);
+  camera.target = rounded(viewpoint_.target);
+  camera.up = axis_.cast<double>();
+  camera.field_of_view = std::round(viewpoint_.field_of_view * 1800 / std::numbers::pi_v<float>) / 10;
+  return camera;
+}
+
+bool OrbitCamera::is_like(const OrbitCamera& other) const {
+  return viewpoint_.eye == other.viewpoint_.eye && viewpoint_.target == other.viewpoint_.target;
+}
+
 }  // namespace pliant_viewer

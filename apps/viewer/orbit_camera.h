@@ -19,6 +19,11 @@ class OrbitCamera {
   /// Moves to where the box fits into the picture; `inset` as in Viewpoint.
   void frame(const pliant_render::Bounds& bounds, float aspect, float inset);
 
+  /// Where it stands, for a scene file.
+  pliant::Camera placed() const;
+  /// Whether both see the same.
+  bool is_like(const OrbitCamera& other) const;
+
   /// The viewpoint, with near and far planes chosen for the box; `inset` as in Viewpoint.
   pliant_render::Viewpoint viewpoint(const pliant_render::Bounds& bounds, float inset) const;
 

@@ -18,7 +18,7 @@ namespace pliant_viewer {
 struct ViewerOptions {
   pliant::ViewSettings appearance;  ///< initial appearance; its size is ignored in favor of the window's
   std::optional<int> samples{};     ///< per pixel; default: 4 on a graphics card, 1 where the processor draws
-  std::filesystem::path picture_folder = ".";  ///< where the key P saves pictures
+  std::filesystem::path picture_folder = ".";  ///< where pictures and scenes are saved
 };
 
 class Viewer {
@@ -37,6 +37,12 @@ class Viewer {
   /// Number of pictures drawn so far.
   std::uint64_t frame_count() const { return frame_count_; }
   bool is_help_open() const { return is_help_open_; }
+  /// Takes back the last change of the scene, and does it again, as soon as its thread comes to it.
+  void undo();
+  void redo();
+  /// Saves the scene as it has been changed, and as it is shown, with a checkpoint unless it is at its start: to the
+  /// file that was saved last, or the first time, and `as_new`, under the next free name like sheet-1.json.
+  void save_scene(bool as_new = false);
   /// Saves the picture without panels under the next free name like pliant-0001.png, and says so in the window.
   void save_picture() { wants_picture_ = true; }
 
@@ -68,6 +74,7 @@ class Viewer {
   void draw_main_panel();
   void draw_message();
   void write_picture(int width, int height);
+  void draw_edit_buttons(float width);
   void say(std::string message);
 
   Window& window_;
@@ -75,6 +82,8 @@ class Viewer {
   pliant::ViewSettings appearance_;
   int samples_;
   std::filesystem::path picture_folder_;
+  std::filesystem::path saved_scene_;  // last; empty: none
+  std::uint64_t messages_ = 0;         // of the scene that were shown
   Ui ui_;
   bool is_panel_open_ = true;
   OrbitCamera camera_;

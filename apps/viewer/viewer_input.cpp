@@ -76,7 +76,10 @@ void Viewer::take_key(const KeyEvent& event) {
     if (live != nullptr) interaction_.set_stiffness(std::max(interaction_.stiffness() / stiffer, 1e-3), *live);
     return;
   }
+  if (has_control && event.key == GLFW_KEY_Z) return has_shift ? redo() : undo();
+  if (has_control && event.key == GLFW_KEY_Y) return redo();
   if (is_repeated) return;
+  if (has_control && event.key == GLFW_KEY_S) return save_scene(has_shift);
   switch (event.key) {
     case GLFW_KEY_SPACE:
       return source_.play(!source_.is_playing());

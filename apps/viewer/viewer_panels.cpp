@@ -40,9 +40,10 @@ void Viewer::draw_main_panel() {
   explain("S");
   ImGui::SameLine();
   if (ImGui::Button("Restart", {third, 0})) source_.restart(true);
-  explain(source_.live() != nullptr ? "R: from the start, with the scene's pins and the values that are set here\n"
-                                      "Shift + R: all values as the scene's file has them"
+  explain(source_.live() != nullptr ? "R: from the start, with what was changed here\n"
+                                      "Shift + R: all as the scene's file has it"
                                     : "R: to the first frame");
+  draw_edit_buttons(third);
   ImGui::Spacing();
   if (LiveScene* live = source_.live()) {
     row_label("pull", "+ and −: stiffness of the spring by which the mouse pulls");

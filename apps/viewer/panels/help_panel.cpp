@@ -21,10 +21,12 @@ constexpr std::array<Key, 5> body_keys = {Key{"drag a body", "pull at it by a sp
 constexpr std::array<Key, 5> camera_keys = {
     Key{"drag beside, right drag", "turn about the middle"}, Key{"middle or Shift drag", "move sideways"},
     Key{"wheel", "nearer or further away"}, Key{"F", "everything in the picture"}, Key{"Shift + F", "as at the start"}};
-constexpr std::array<Key, 5> live_keys = {Key{"Space", "play or pause"}, Key{"S or →", "one step"},
-                                          Key{"R", "start over: the scene's pins, the values that are set"},
-                                          Key{"Shift + R", "start over, all values as in the scene's file"},
-                                          Key{"+ and −", "stiffer or softer pull"}};
+constexpr std::array<Key, 5> live_keys = {
+    Key{"Space", "play or pause"}, Key{"S or →", "one step"}, Key{"R", "start over, with what was changed"},
+    Key{"Shift + R", "start over, all as in the scene's file"}, Key{"+ and −", "stiffer or softer pull"}};
+constexpr std::array<Key, 3> scene_keys = {Key{"Ctrl + Z", "take back the last change"},
+                                           Key{"Ctrl + Shift + Z", "do it again"},
+                                           Key{"Ctrl + S", "save the scene; with Shift under a new name"}};
 constexpr std::array<Key, 3> run_keys = {Key{"Space", "play or pause"}, Key{"→ and ←", "one frame on or back"},
                                          Key{"R", "to the first frame"}};
 constexpr std::array<Key, 7> appearance_keys = {Key{"C", "color by the next quantity, or none"},
@@ -70,6 +72,7 @@ bool draw_help(bool is_live, const Vec2f& picture, const PanelStyle& style) {
   if (is_live) draw_keys("bodies and colliders", body_keys, column, right);
   draw_keys("the camera", camera_keys, column, right);
   draw_keys("time", is_live ? std::span<const Key>(live_keys) : std::span<const Key>(run_keys), column, right);
+  if (is_live) draw_keys("the scene", scene_keys, column, right);
   draw_keys("the picture", appearance_keys, column, right);
   draw_keys("the program", std::array{Key{"Ctrl + Q", "end it"}}, column, right);
   ImGui::Spacing();

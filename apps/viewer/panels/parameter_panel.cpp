@@ -227,9 +227,13 @@ void ParameterPanel::draw_row(const Slider& slider, const std::string& label, co
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
   places_[key] = {low.x, low.y, high.x, high.y};
   if (parameter.kind == ParameterKind::vector) explain(parameter.unit);
+  const bool goes_on = held_ == key;
+  if (goes_on && !ImGui::IsItemActive()) held_.clear();
   if (!has_changed || !value.allFinite()) return;
   const std::uint64_t command =
-      live.post([key, value](CommandContext& context) { context.session.set(key, value); }, LiveScene::Kind::changes);
+      live.post([key, value, goes_on](CommandContext& context) { context.session.set(key, value, goes_on); },
+                LiveScene::Kind::changes);
+  if (ImGui::IsItemActive()) held_ = key;
   edited_[key] = {value, command};
 }
 

@@ -31,6 +31,7 @@ class ParameterPanel {
   bool draw_real(const Slider& slider, double& value);
 
   std::map<std::string, Edited> edited_;
+  std::string held_;  // key of what is being dragged and has changed: one change for undo
   std::map<std::string, std::array<double, 2>> ranges_;  // of sliders, by the values that were seen first
   std::map<std::string, std::array<float, 4>> places_;
 };

@@ -1,0 +1,86 @@
+// What the window does with a scene as a whole: takes back, does again, saves.
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "viewer/viewer.h"
+
+namespace pliant_viewer {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A name that a scene and its checkpoint can have: "sheet-1.json".
+fs::path free_name(const fs::path& folder, const std::string& scene) {
+  std::string base = fs::path(scene).filename().string();
+  if (base.empty() || base == "." || base == "..") base = "scene";
+  fs::path file;
+  for (int number = 1; file.empty() || fs::exists(file) || fs::exists(fs::path(file).replace_extension(".pliant"));
+       ++number) {
+    file = folder / fmt::format("{}-{}.json", base, number);
+  }
+  return file;
+}
+
+std::string names_of(const std::vector<fs::path>& files) {
+  std::string names = files.front().lexically_normal().string();
+  for (std::size_t i = 1; i < files.size(); ++i) names += " and " + files[i].filename().string();
+  return names;
+}
+
+}  // namespace
+
+void Viewer::undo() {
+  if (LiveScene* live = source_.live()) {
+    live->post([](CommandContext& context) {
+      const std::string what = context.session.undone_next();
+      context.session.undo();
+      context.message = what.empty() ? "nothing to undo" : "undone: " + what;
+    });
+  }
+}
+
+void Viewer::redo() {
+  if (LiveScene* live = source_.live()) {
+    live->post([](CommandContext& context) {
+      const std::string what = context.session.redone_next();
+      context.session.redo();
+      context.message = what.empty() ? "nothing to redo" : "done again: " + what;
+    });
+  }
+}
+
+void Viewer::save_scene(bool as_new) {
+  LiveScene* live = source_.live();
+  if (live == nullptr) return say("this is a run; its scene is in the file it was made from");
+  if (as_new || saved_scene_.empty()) saved_scene_ = free_name(picture_folder_, live->name());
+  pliant::ViewSettings view = appearance_;
+  if (!camera_.is_like(first_camera_)) view.camera = camera_.placed();
+  live->post([file = saved_scene_, view](CommandContext& context) {
+    context.message = "saved " + names_of(context.session.save(file, view));
+  });
+}
+
+/// Of the panel's last row of buttons.
+void Viewer::draw_edit_buttons(float width) {
+  const LiveScene* live = source_.live();
+  if (live == nullptr) return;
+  const Snapshot& shown = live->shown();
+  const auto button = [&](const char* label, bool is_enabled, const std::string& help) {
+    ImGui::BeginDisabled(!is_enabled);
+    const bool is_pressed = ImGui::Button(label, {width, 0});
+    ImGui::EndDisabled();
+    explain(help);
+    return is_pressed;
+  };
+  if (button("Undo", !shown.undone_next.empty(), "Ctrl + Z: take back the last change, " + shown.undone_next)) undo();
+  ImGui::SameLine();
+  if (button("Redo", !shown.redone_next.empty(), "Ctrl + Shift + Z: do again, " + shown.redone_next)) redo();
+  ImGui::SameLine();
+  if (button("Save", true,
+             "Ctrl + S: the scene with its changes and this view, and a checkpoint of this moment;\n"
+             "Ctrl + Shift + S: under a new name")) {
+    save_scene();
+  }
+}
+
+}  // namespace pliant_viewer
