@@ -1,4 +1,5 @@
 // pliant view: a window in which a scene is simulated, or a run played.
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -14,6 +15,7 @@
 #include "interrupts.h"
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
+#include "pliant_io/scene/builtin_scenes.h"
 #include "render/scalar_fields.h"
 #include "viewer/live_source.h"
 #include "viewer/playback.h"
@@ -23,6 +25,8 @@ namespace pliant_cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* first_scene = "curtain_wind";  // behind the list of scenes
 
 struct ViewArguments : AppearanceArguments {
   std::optional<std::int64_t>
@@ -64,35 +68,98 @@ pliant_viewer::MakeScene scene_maker(const ViewArguments& arguments, std::shared
   };
 }
 
-int show(pliant_viewer::Window& window, pliant_viewer::ViewSource& source, const ViewArguments& arguments) {
-  pliant_viewer::ViewerOptions options;
-  options.appearance = source.appearance();
-  if (arguments.samples) options.samples = static_cast<int>(*arguments.samples);
-  pliant_viewer::Viewer viewer(window, source, std::move(options));
-  viewer.run(was_interrupted);
+/// What the window shows.
+struct Shown {
+  ViewArguments arguments;
+  std::unique_ptr<pliant_viewer::ViewSource> source;
+  std::string greeting = {};  ///< what was assumed, and warnings
+};
+
+Shown show_run(const ViewArguments& arguments) {
+  ShownRun run = shown_run(arguments);
+  const pliant::ViewSettings appearance = run.appearance;
+  if (arguments.color) pliant_render::check_known_of_runs(*arguments.color);
+  pliant::Animation animation = pliant::read_run(arguments.scene);
+  pliant_render::RunAnnotations annotations = annotations_of(run, animation);
+  return {arguments, std::make_unique<pliant_viewer::Playback>(
+                         pliant_render::RunFrames(std::move(animation), std::move(annotations)), appearance,
+                         !arguments.is_paused)};
+}
+
+Shown show_scene(const ViewArguments& arguments, std::shared_ptr<pliant::Scene> scene, pliant_viewer::Window& window) {
+  std::string greeting = assumptions_text(arguments, *scene);
+  while (greeting.ends_with('\n')) greeting.pop_back();
+  return {arguments,
+          std::make_unique<pliant_viewer::LiveSource>(scene_maker(arguments, std::move(scene)),
+                                                      window.is_software() ? spare_threads() : 0, !arguments.is_paused,
+                                                      pliant_viewer::Window::wake),
+          std::move(greeting)};
+}
+
+std::vector<pliant_viewer::OpenableScene> openable_scenes() {
+  std::vector<pliant_viewer::OpenableScene> scenes;
+  for (const pliant::BuiltinScene& scene : pliant::builtin_scenes()) {
+    scenes.push_back({std::string(scene.name), pliant::scene_description(scene.text, scene.name)});
+  }
+  return scenes;
+}
+
+/// As it was asked for on the command line, for what was chosen in the window: no option of the scene's own holds.
+ViewArguments arguments_for(const std::string& what, const ViewArguments& first) {
+  ViewArguments arguments;
+  arguments.scene = what;
+  arguments.samples = first.samples;
+  return arguments;
+}
+
+/// Shows one thing after another, until the window is closed.
+int show(pliant_viewer::Window& window, Shown shown, bool chooses_scene) {
+  while (true) {
+    std::optional<Shown> next;
+    pliant_viewer::ViewerOptions options;
+    options.appearance = shown.source->appearance();
+    if (shown.arguments.samples) options.samples = static_cast<int>(*shown.arguments.samples);
+    options.scenes = openable_scenes();
+    options.chooses_scene = std::exchange(chooses_scene, false);
+    options.greeting = shown.greeting;
+    options.open = [&](const std::string& what) -> std::string {
+      try {
+        const ViewArguments arguments = arguments_for(what, shown.arguments);
+        check(arguments);
+        next = is_run(arguments)
+                   ? show_run(arguments)
+                   : show_scene(arguments, std::make_shared<pliant::Scene>(make_scene(arguments)), window);
+        return "";
+      } catch (const std::exception& error) {
+        return error.what();
+      }
+    };
+    window.set_title(shown.source->name() + " - Pliant");
+    {
+      pliant_viewer::Viewer viewer(window, *shown.source, std::move(options));
+      viewer.run(was_interrupted);
+    }
+    if (!next) break;
+    shown = std::move(*next);
+  }
   return was_interrupted() ? exit_interrupted : 0;
 }
 
 int view_run(const ViewArguments& arguments) {
-  ShownRun run = shown_run(arguments);
-  const pliant::ViewSettings& appearance = run.appearance;
-  if (arguments.color) pliant_render::check_known_of_runs(*arguments.color);
-  pliant::Animation animation = pliant::read_run(arguments.scene);
-  pliant_render::RunAnnotations annotations = annotations_of(run, animation);
-  pliant_viewer::Playback source(pliant_render::RunFrames(std::move(animation), std::move(annotations)), appearance,
-                                 !arguments.is_paused);
-  pliant_viewer::Window window(source.name() + " - Pliant", appearance.size[0], appearance.size[1]);
-  return show(window, source, arguments);
+  Shown shown = show_run(arguments);
+  const std::array<pliant::Index, 2> size = shown.source->appearance().size;
+  pliant_viewer::Window window("Pliant", size[0], size[1]);
+  return show(window, std::move(shown), false);
 }
 
-int view_scene(const ViewArguments& arguments) {
+int view_scene(const ViewArguments& given) {
+  ViewArguments arguments = given;
+  if (given.scene.empty()) arguments.scene = first_scene;
   auto scene = std::make_shared<pliant::Scene>(make_scene(arguments));
   fmt::print("{}", assumptions_text(arguments, *scene));
   std::fflush(stdout);  // before the window opens
-  pliant_viewer::Window window(scene->name + " - Pliant", scene->view.size[0], scene->view.size[1]);
-  pliant_viewer::LiveSource source(scene_maker(arguments, std::move(scene)), window.is_software() ? spare_threads() : 0,
-                                   !arguments.is_paused, pliant_viewer::Window::wake);
-  return show(window, source, arguments);
+  pliant_viewer::Window window("Pliant", scene->view.size[0], scene->view.size[1]);
+  return show(window, show_scene(arguments, std::move(scene), window), given.scene.empty());
 }
 
 int view(const ViewArguments& arguments) {
@@ -108,7 +175,8 @@ int view(const ViewArguments& arguments) {
 void add_view_command(CLI::App& program, int& exit_code) {
   CLI::App* command = program.add_subcommand("view", "Open a window: pull at a scene or a mesh, or play a run");
   const auto arguments = std::make_shared<ViewArguments>();
-  add_scene_arguments(*command, *arguments, scene_or_run_help);
+  add_scene_arguments(*command, *arguments, std::string(scene_or_run_help) + "; none: a list to choose from");
+  command->get_option("scene")->required(false);
   add_appearance_options(*command, *arguments);
   add_number(*command, "--samples", arguments->samples, {1, 16},
              "Samples per pixel; default: 4 on a graphics card, 1 where the processor draws");
@@ -119,7 +187,9 @@ void add_view_command(CLI::App& program, int& exit_code) {
       "A file that ends in .obj, .ply, .off, .stl, .msh, .mesh, .vtu, .vtk, .node or .ele is a mesh, simulated as "
       "cloth, a\n"
       "skin or a solid; a folder is a run, played as it was recorded. The key H shows what mouse and keys do.\n"
+      "Other files are opened by dropping them onto the window, and the list of scenes by Ctrl + O.\n"
       "Examples:\n"
+      "  pliant view\n"
       "  pliant view curtain_wind\n"
       "  pliant view shirt.obj --up y\n"
       "  pliant view out/flag --color stretch");

@@ -66,16 +66,19 @@ Viewer::Viewer(Window& window, ViewSource& source, ViewerOptions options)
       camera_(first_viewpoint(source, appearance_, picture_size()), appearance_.camera.up.cast<float>()),
       first_camera_(camera_),
       interaction_(source.live() != nullptr ? source.live()->suggested_pull() : 1),
-      frame_interval_(1 / most_frames_a_second) {
+      frame_interval_(1 / most_frames_a_second),
+      open_(std::move(options.open)),
+      scene_panel_(std::move(options.scenes), options.chooses_scene) {
   if (!source.knows(appearance_.color)) appearance_.color = pliant::ColorBy::none;
   if (appearance_.color != source.appearance().color) source_.show(appearance_.color);
+  if (!options.greeting.empty()) say(std::move(options.greeting));
   update_bounds();
   place_screen();
 }
 
 void Viewer::run(const std::function<bool()>& shall_end) {
-  while (!window_.wants_to_close() && !shall_end()) turn(idle_turn);
-  window_.hide();
+  while (!window_.wants_to_close() && !shall_end() && !is_over_) turn(idle_turn);
+  if (!is_over_) window_.hide();
 }
 
 bool Viewer::turn(double most_wait) {
@@ -91,7 +94,10 @@ bool Viewer::turn(double most_wait) {
   }
   if (window_.was_touched()) draws_left_ = 3;
   take_input();
-  if (!message_.empty() && Clock::now() - last_message_ > Seconds(4)) {
+  take_dropped_files();
+  open_what_waits();
+  const Seconds reading_time(std::max(4.0, static_cast<double>(message_.size()) / 15));
+  if (!message_.empty() && Clock::now() - last_message_ > reading_time) {
     message_.clear();
     draws_left_ = 1;
   }

@@ -2,13 +2,17 @@
 // The window as a whole: handles input and shows a source.
 #include <deque>
 #include <filesystem>
+#include <functional>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "render/render_target.h"
 #include "render/renderer.h"
 #include "viewer/auto_range.h"
 #include "viewer/frame_statistics.h"
 #include "viewer/mouse_interaction.h"
+#include "viewer/panels/scene_panel.h"
 #include "viewer/quality_chooser.h"
 #include "viewer/ui.h"
 #include "viewer/view_source.h"
@@ -19,13 +23,20 @@ struct ViewerOptions {
   pliant::ViewSettings appearance;  ///< initial appearance; its size is ignored in favor of the window's
   std::optional<int> samples{};     ///< per pixel; default: 4 on a graphics card, 1 where the processor draws
   std::filesystem::path picture_folder = ".";  ///< where pictures and scenes are saved
+  /// Opens what was dropped onto the window, typed, or chosen, a file, a folder of a run or the name of a scene, to be
+  /// shown once run() has returned; returns "", or what is wrong with it. None: nothing can be opened.
+  std::function<std::string(const std::string&)> open = {};
+  std::vector<OpenableScene> scenes = {};  ///< to choose from
+  bool chooses_scene = false;              ///< begin with the list of them
+  std::string greeting = {};               ///< shown at first
 };
 
 class Viewer {
  public:
   Viewer(Window& window, ViewSource& source, ViewerOptions options);
 
-  /// Runs until the window is closed or `shall_end`, asked several times a second, returns true.
+  /// Runs until the window is closed, something else was opened, or `shall_end`, asked several times a second, returns
+  /// true.
   void run(const std::function<bool()>& shall_end);
   /// Waits at most `most_wait` [s] until there is something to draw, and draws it. Returns whether it has drawn.
   bool turn(double most_wait);
@@ -37,6 +48,8 @@ class Viewer {
   /// Number of pictures drawn so far.
   std::uint64_t frame_count() const { return frame_count_; }
   bool is_help_open() const { return is_help_open_; }
+  const ScenePanel& scene_panel() const { return scene_panel_; }
+  const std::string& message() const { return message_; }
   /// Takes back the last change of the scene, and does it again, as soon as its thread comes to it.
   void undo();
   void redo();
@@ -75,6 +88,9 @@ class Viewer {
   void draw_message();
   void write_picture(int width, int height);
   void draw_edit_buttons(float width);
+  void take_dropped_files();
+  void open(const std::string& what);
+  void open_what_waits();
   void say(std::string message);
 
   Window& window_;
@@ -115,6 +131,11 @@ class Viewer {
   std::uint64_t frame_count_ = 0;
   bool is_help_open_ = false;
   bool wants_picture_ = false;
+  std::function<std::string(const std::string&)> open_;
+  ScenePanel scene_panel_;
+  std::string waits_;     // to be opened once the picture has said so; empty: nothing
+  int waits_turns_ = 0;   // pictures until then
+  bool is_over_ = false;  // something else was opened
 };
 
 }  // namespace pliant_viewer

@@ -1,4 +1,6 @@
-// What the window does with a scene as a whole: takes back, does again, saves.
+// What the window does with a scene as a whole: takes back, does again, saves, opens another one.
+#include <utility>
+
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -58,6 +60,26 @@ void Viewer::save_scene(bool as_new) {
   live->post([file = saved_scene_, view](CommandContext& context) {
     context.message = "saved " + names_of(context.session.save(file, view));
   });
+}
+
+void Viewer::take_dropped_files() {
+  const std::vector<std::string> files = window_.take_dropped_files();
+  if (!files.empty()) open(files.front());
+}
+
+/// Says so first: a large mesh takes a while to read.
+void Viewer::open(const std::string& what) {
+  if (open_ == nullptr) return say("nothing else can be opened here");
+  waits_ = what;
+  waits_turns_ = 2;
+  say("opening " + fs::path(what).filename().string() + " ...");
+}
+
+void Viewer::open_what_waits() {
+  if (waits_.empty() || --waits_turns_ > 0) return;
+  const std::string reason = open_(std::exchange(waits_, {}));
+  if (!reason.empty()) return say(reason);
+  is_over_ = true;
 }
 
 /// Of the panel's last row of buttons.

@@ -80,6 +80,10 @@ void Viewer::take_key(const KeyEvent& event) {
   if (has_control && event.key == GLFW_KEY_Y) return redo();
   if (is_repeated) return;
   if (has_control && event.key == GLFW_KEY_S) return save_scene(has_shift);
+  if (has_control && event.key == GLFW_KEY_O) {
+    scene_panel_.is_open = !scene_panel_.is_open && open_ != nullptr;
+    return;
+  }
   switch (event.key) {
     case GLFW_KEY_SPACE:
       return source_.play(!source_.is_playing());
@@ -110,6 +114,7 @@ void Viewer::take_key(const KeyEvent& event) {
       return;
     case GLFW_KEY_ESCAPE:
       is_help_open_ = false;
+      scene_panel_.is_open = false;
       return;
     default:
       return;

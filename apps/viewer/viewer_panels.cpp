@@ -21,6 +21,7 @@ void Viewer::draw_panels() {
   if (auto* playback = dynamic_cast<Playback*>(&source_)) {
     draw_time_bar(*playback, screen_.size, ui_.style());
   }
+  if (const auto chosen = scene_panel_.draw(screen_.size, ui_.style())) open(*chosen);
   if (is_help_open_) is_help_open_ = draw_help(source_.live() != nullptr, screen_.size, ui_.style());
   draw_message();
 }
@@ -81,7 +82,7 @@ void Viewer::draw_message() {
   if (text.empty()) return;
   const float unit = ui_.style().unit;
   ImGui::SetNextWindowPos({screen_.size.x() / 2, 16 * unit}, ImGuiCond_Always, {0.5F, 0});
-  ImGui::Begin("message", nullptr, fixed | ImGuiWindowFlags_NoInputs);
+  ImGui::Begin("message", nullptr, fixed | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoFocusOnAppearing);
   ImGui::PushTextWrapPos(0.8F * screen_.size.x());
   ImGui::TextUnformatted(text.c_str());
   ImGui::PopTextWrapPos();

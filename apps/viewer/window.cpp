@@ -112,6 +112,11 @@ void Window::install_callbacks() {
         {MouseEvent::Kind::wheel, MouseButton::left, cursor_of(handle), static_cast<float>(y), is_shift_down(handle)});
   });
   install_key_callbacks();
+  glfwSetDropCallback(window_, [](GLFWwindow* handle, int count, const char** files) {
+    Window& window = window_of(handle);
+    window.touched_ = true;
+    window.dropped_.insert(window.dropped_.end(), files, files + count);
+  });
   const auto touch = [](GLFWwindow* handle) { window_of(handle).touched_ = true; };
   glfwSetWindowRefreshCallback(window_, touch);
   glfwSetWindowCloseCallback(window_, touch);
@@ -145,6 +150,10 @@ bool Window::wants_to_close() const {
 void Window::hide() {
   glfwHideWindow(window_);
   glfwPollEvents();
+}
+
+void Window::set_title(const std::string& title) {
+  glfwSetWindowTitle(window_, title.c_str());
 }
 
 Vec2f Window::size() const {
@@ -194,6 +203,10 @@ std::vector<MouseEvent> Window::take_mouse_events() {
 
 std::vector<KeyEvent> Window::take_key_events() {
   return std::exchange(keys_, {});
+}
+
+std::vector<std::string> Window::take_dropped_files() {
+  return std::exchange(dropped_, {});
 }
 
 bool Window::was_touched() {

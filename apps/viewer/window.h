@@ -50,6 +50,7 @@ class Window {
   bool wants_to_close() const;
   /// Takes the window off the screen, which may have to wait for a step before its program ends.
   void hide();
+  void set_title(const std::string& title);
 
   Vec2f size() const;                           ///< in window units, as the mouse is measured
   std::array<int, 2> framebuffer_size() const;  ///< in pixels; 0 while it is minimized
@@ -67,6 +68,8 @@ class Window {
   /// Events since the last call; was_touched() reports any event at all, such as resizing.
   std::vector<MouseEvent> take_mouse_events();
   std::vector<KeyEvent> take_key_events();
+  /// Files that were dropped onto the window since the last call.
+  std::vector<std::string> take_dropped_files();
   bool was_touched();
   void swap();
   /// Queues key events, and leaves them to nobody else; to be called again by whoever has let others set callbacks.
@@ -79,6 +82,7 @@ class Window {
   std::string driver_;
   std::vector<MouseEvent> mouse_;
   std::vector<KeyEvent> keys_;
+  std::vector<std::string> dropped_;
   bool touched_ = true;
 };
 

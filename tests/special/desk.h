@@ -52,10 +52,14 @@ struct Desk {
   LiveSource source;
   Viewer viewer;
 
-  explicit Desk(MakeScene make = make_sheet, int samples = 1)
+  explicit Desk(MakeScene make = make_sheet, int samples = 1, std::function<std::string(const std::string&)> open = {})
       : source(std::move(make), 1, true, Window::wake),
         viewer(window, source,
-               {.appearance = source.appearance(), .samples = samples, .picture_folder = folder.path()}) {
+               {.appearance = source.appearance(),
+                .samples = samples,
+                .picture_folder = folder.path(),
+                .open = std::move(open),
+                .scenes = {{"flag", "A flag"}, {"towel", "A towel over a rail"}}}) {
     turn_until([&] { return viewer.frame_count() > 3; });
     xdotool("search --sync --name 'Pliant test' windowfocus");
     turns(3);

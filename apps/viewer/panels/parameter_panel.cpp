@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -48,6 +49,14 @@ using SliderPlace = std::span<const Slider>::iterator;
 SliderPlace find_end_of_owner(SliderPlace begin, SliderPlace end) {
   const pliant::ParameterOwner& owner = begin->parameter.handle.owner;
   return std::find_if(begin, end, [&](const Slider& other) { return other.parameter.handle.owner != owner; });
+}
+
+bool is_allowed(const Parameter& parameter, const pliant::Vec3& value) {
+  const pliant::Range& range = parameter.range;
+  const int count = parameter.kind == ParameterKind::vector ? 3 : 1;
+  return (value.head(count).array() <= range.max).all() &&
+         (range.excludes_min ? (value.head(count).array() > range.min).all()
+                             : (value.head(count).array() >= range.min).all());
 }
 
 std::string help_of(const Parameter& parameter) {
@@ -226,14 +235,32 @@ void ParameterPanel::draw_row(const Slider& slider, const std::string& label, co
   }
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
   places_[key] = {low.x, low.y, high.x, high.y};
+  post_change(key, parameter, value, has_changed, live);
   if (parameter.kind == ParameterKind::vector) explain(parameter.unit);
+}
+
+/// What is on the way to a number, as the 0 of 0.02, is not sent, unless it is left like that.
+void ParameterPanel::post_change(const std::string& key, const Parameter& parameter, pliant::Vec3 value,
+                                 bool has_changed, LiveScene& live) {
+  const bool is_active = ImGui::IsItemActive();
   const bool goes_on = held_ == key;
-  if (goes_on && !ImGui::IsItemActive()) held_.clear();
-  if (!has_changed || !value.allFinite()) return;
+  if (goes_on && !is_active) held_.clear();
+  if (has_changed && is_active && !is_allowed(parameter, value)) {
+    withheld_ = {key, value};
+    return;
+  }
+  if (has_changed) {
+    withheld_.reset();
+  } else if (ImGui::IsItemDeactivated() && withheld_ && withheld_->first == key) {
+    value = std::exchange(withheld_, {})->second;
+  } else {
+    return;
+  }
+  if (!value.allFinite()) return;
   const std::uint64_t command =
       live.post([key, value, goes_on](CommandContext& context) { context.session.set(key, value, goes_on); },
                 LiveScene::Kind::changes);
-  if (ImGui::IsItemActive()) held_ = key;
+  if (is_active) held_ = key;
   edited_[key] = {value, command};
 }
 

@@ -28,9 +28,12 @@ class ParameterPanel {
   void draw_colliders(std::span<const Slider> sliders, const Snapshot& snapshot, LiveScene& live);
   void draw_body_contacts(std::span<const Slider> sliders, LiveScene& live);
   void draw_row(const Slider& slider, const std::string& label, const std::string& help, LiveScene& live);
+  void post_change(const std::string& key, const pliant::Parameter& parameter, pliant::Vec3 value, bool has_changed,
+                   LiveScene& live);
   bool draw_real(const Slider& slider, double& value);
 
   std::map<std::string, Edited> edited_;
+  std::optional<std::pair<std::string, pliant::Vec3>> withheld_;  // what is being typed and may become a value
   std::string held_;  // key of what is being dragged and has changed: one change for undo
   std::map<std::string, std::array<double, 2>> ranges_;  // of sliders, by the values that were seen first
   std::map<std::string, std::array<float, 4>> places_;

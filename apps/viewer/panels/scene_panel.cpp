@@ -1,0 +1,69 @@
+#include "viewer/panels/scene_panel.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <imgui.h>
+
+namespace pliant_viewer {
+
+std::optional<std::array<float, 4>> ScenePanel::place_of(const std::string& scene) const {
+  const auto found = std::ranges::find(scenes_, scene, &OpenableScene::name);
+  const auto number = static_cast<std::size_t>(found - scenes_.begin());
+  if (number >= places_.size()) return {};
+  return places_[number];
+}
+
+std::optional<std::string> ScenePanel::draw(const Vec2f& picture, const PanelStyle& style) {
+  std::optional<std::string> chosen;
+  places_.clear();
+  if (!is_open) return chosen;
+  const float width = std::min(picture.x() - 16 * style.unit, 760 * style.unit);
+  const float height = std::min(picture.y() - 16 * style.unit, 560 * style.unit);
+  ImGui::SetNextWindowPos({picture.x() / 2, picture.y() / 2}, ImGuiCond_Always, {0.5F, 0.5F});
+  ImGui::SetNextWindowSize({width, height});
+  ImGui::SetNextWindowBgAlpha(0.98F);
+  ImGui::Begin("Scenes", nullptr,
+               ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoNav);
+  ImGui::TextUnformatted("Open a scene, a mesh or a run");
+  ImGui::TextDisabled("Drop a file onto the window, type its name, or choose a scene.");
+  ImGui::Spacing();
+  const ImGuiStyle& spaces = ImGui::GetStyle();
+  const float button = ImGui::CalcTextSize("Close").x + 2 * spaces.FramePadding.x + 12 * style.unit;
+  ImGui::SetNextItemWidth(-2 * (button + spaces.ItemSpacing.x));
+  const bool is_typed = ImGui::InputTextWithHint("##file", "name of a file or a folder", typed_.data(), typed_.size(),
+                                                 ImGuiInputTextFlags_EnterReturnsTrue);
+  ImGui::SameLine();
+  const bool is_pressed = ImGui::Button("Open", {button, 0});
+  ImGui::SameLine();
+  if (ImGui::Button("Close", {button, 0})) is_open = false;
+  if ((is_typed || is_pressed) && typed_[0] != '\0') chosen = typed_.data();
+  ImGui::Separator();
+  ImGui::BeginChild("list");
+  const float column = 150 * style.unit;
+  for (const OpenableScene& scene : scenes_) {
+    ImGui::PushID(scene.name.c_str());
+    const float top = ImGui::GetCursorPosY();
+    const float left = ImGui::GetCursorPosX() + column;
+    const float wrap = ImGui::GetContentRegionMax().x;
+    const float text_height = ImGui::CalcTextSize(scene.description.c_str(), nullptr, false, wrap - left).y;
+    if (ImGui::Selectable("##open", false, 0, {0, text_height})) chosen = scene.name;
+    const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+    places_.push_back({low.x, low.y, high.x, high.y});
+    const float below = ImGui::GetCursorPosY();
+    ImGui::SetCursorPosY(top);
+    ImGui::TextUnformatted(scene.name.c_str());
+    ImGui::SetCursorPos({left, top});
+    ImGui::PushTextWrapPos(wrap);
+    ImGui::TextDisabled("%s", scene.description.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::SetCursorPosY(below);
+    ImGui::PopID();
+  }
+  ImGui::EndChild();
+  ImGui::End();
+  return chosen;
+}
+
+}  // namespace pliant_viewer

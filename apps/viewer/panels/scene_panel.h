@@ -1,0 +1,37 @@
+#pragma once
+// The list of scenes that can be opened, and a field for the name of a file.
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "viewer/panels/panel_style.h"
+#include "viewer/picking.h"
+
+namespace pliant_viewer {
+
+/// What the window can open beside what it shows.
+struct OpenableScene {
+  std::string name;
+  std::string description;
+};
+
+class ScenePanel {
+ public:
+  ScenePanel(std::vector<OpenableScene> scenes, bool is_open_at_first)
+      : is_open(is_open_at_first), scenes_(std::move(scenes)) {}
+
+  /// Draws it over the picture; returns what was chosen.
+  std::optional<std::string> draw(const Vec2f& picture, const PanelStyle& style);
+  /// Where a scene stands in the window, as of the last drawing: left, top, right, bottom.
+  std::optional<std::array<float, 4>> place_of(const std::string& scene) const;
+
+  bool is_open = false;
+
+ private:
+  std::vector<OpenableScene> scenes_;
+  std::vector<std::array<float, 4>> places_;
+  std::array<char, 1024> typed_{};
+};
+
+}  // namespace pliant_viewer

@@ -1,0 +1,184 @@
+// Undo, redo, saving and opening in the real window, driven by mouse and keys; files are dropped through the window's
+// own callback.
+#define DOCTEST_CONFIG_IMPLEMENT
+#include <algorithm>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include "desk.h"
+#include "pliant_io/checkpoint/checkpoint.h"
+#include "pliant_io/scene/scene.h"
+
+using namespace pliant_tests;
+
+namespace {
+
+constexpr std::uint32_t middle = side * 5 + 6;
+
+Scene read_sheet() {
+  return pliant::parse_scene(R"({
+    "pliant": 1,
+    "name": "sheet",
+    "settings": { "iterations": 20, "threads": 1 },
+    "bodies": [ {
+      "name": "cloth",
+      "mesh": { "shape": "grid", "columns": 12, "rows": 12, "plane": "xz" },
+      "mass": { "area_density": 0.3 },
+      "constraints": [
+        { "type": "triangle_strain", "name": "stretch", "stiffness": 500 },
+        { "type": "hinge", "name": "bend", "stiffness": 1e-3 },
+        { "type": "position", "name": "hooks", "on": [132, 143] }
+      ]
+    } ],
+    "forces": [ { "type": "wind", "velocity": [0, 0, 0], "drag": 3 } ],
+    "colliders": [ { "type": "sphere", "name": "ball", "center": [0.5, -0.6, 0.5], "radius": 0.15 } ]
+  })",
+                             {}, "sheet");
+}
+
+/// What a desktop does when files are let go over the window.
+void drop(Desk& desk, const std::vector<std::string>& files) {
+  std::vector<const char*> names;
+  for (const std::string& file : files) names.push_back(file.c_str());
+  const GLFWdropfun callback = glfwSetDropCallback(desk.window.handle(), nullptr);
+  REQUIRE((callback != nullptr));
+  glfwSetDropCallback(desk.window.handle(), callback);
+  callback(desk.window.handle(), static_cast<int>(names.size()), names.data());
+}
+
+std::string text_of(const std::filesystem::path& file) {
+  return TemporaryFolder::read(file);
+}
+
+}  // namespace
+
+TEST_CASE("what keys and mouse have changed is undone and done again by keys") {
+  Desk desk(read_sheet);
+  desk.settle();
+  desk.click(desk.place(middle));
+  desk.turn_until([&] { return desk.is_pinned(middle); });
+  desk.type_into("group:bend.stiffness");
+  xdotool("key 0 period 0 2 Return");
+  desk.turn_until([&] { return desk.parameter("group:bend.stiffness") == 0.02; });
+  CHECK(desk.shown().note.empty());  // 0, on the way there, is none that bending can have
+  CHECK(desk.shown().undone_next == "bend: stiffness");
+  desk.key("ctrl+z");
+  desk.turn_until([&] { return desk.parameter("group:bend.stiffness") == 0.001; });
+  desk.turn_until([&] { return desk.viewer.message() == "undone: bend: stiffness"; });
+  desk.key("ctrl+z");
+  desk.turn_until([&] { return !desk.is_pinned(middle); });
+  desk.key("ctrl+z");
+  desk.turn_until([&] { return desk.viewer.message() == "nothing to undo"; });
+  desk.key("ctrl+shift+z");
+  desk.turn_until([&] { return desk.is_pinned(middle); });
+  desk.key("ctrl+y");
+  desk.turn_until([&] { return desk.parameter("group:bend.stiffness") == 0.02; });
+  CHECK(desk.shown().redone_next.empty());
+  // A slider that is dragged is one change, however far it goes.
+  const auto rect = desk.source.parameter_panel().place_of("settings.iterations").value();
+  const float y = (rect[1] + rect[3]) / 2, width = rect[2] - rect[0];
+  desk.drag({rect[0] + 0.55F * width, y}, {rect[0] + 0.9F * width, y});
+  desk.release();
+  desk.turn_until([&] { return desk.parameter("settings.iterations") > 50; });
+  desk.key("ctrl+z");
+  desk.turn_until([&] { return desk.parameter("settings.iterations") == 20; });
+  CHECK(desk.shown().undone_next == "bend: stiffness");
+}
+
+TEST_CASE("a scene that is saved by a key has what was changed, and how it is seen") {
+  Desk desk(read_sheet);
+  desk.key("space");
+  desk.turn_until([&] { return !desk.shown().is_playing; });
+  desk.key("shift+r");
+  desk.turn_until([&] { return desk.shown().step == 0; });
+  // Before the first step the ball is put elsewhere.
+  const auto ball = [&] { return desk.shown().frame.content.colliders.at(0).pose.position; };
+  const Vec2f from = desk.viewer.screen().place_of(ball().cast<float>().eval()).value();
+  desk.drag(from, from + Vec2f(60, 20));
+  desk.release();
+  desk.turn_until([&] { return ball().x() > 0.52; });
+  desk.click(desk.place(middle));
+  desk.turn_until([&] { return desk.is_pinned(middle); });
+  desk.key("w");
+  desk.drag({40, 600}, {140, 580}, 3);
+  desk.release(3);
+  desk.key("ctrl+s");
+  const auto file = desk.folder.path() / "sheet-1.json";
+  desk.turn_until([&] { return std::filesystem::exists(file) && desk.viewer.message().starts_with("saved"); });
+  CHECK(desk.folder.file_count() == 1);  // no checkpoint of the start
+  const Scene read = pliant::load_scene(file);
+  CHECK(read.view.wireframe);
+  REQUIRE(read.view.camera.position.has_value());
+  const pliant_render::Viewpoint& seen = desk.viewer.screen().viewpoint;
+  CHECK((read.view.camera.position->cast<float>() - seen.eye).norm() < 1e-3F);
+  CHECK((read.simulation.pose(pliant::ColliderId{0}).position - ball()).norm() < 1e-12);
+  CHECK(read.simulation.find_group("cloth.pins").has_value());
+
+  // Later a checkpoint stands beside it, and the file is the same one.
+  desk.key("space");
+  desk.turn_until([&] { return desk.shown().step > 20; });
+  desk.key("ctrl+s");
+  const auto checkpoint = desk.folder.path() / "sheet-1.pliant";
+  desk.turn_until([&] { return std::filesystem::exists(checkpoint); });
+  CHECK(pliant::read_checkpoint(checkpoint).simulation.state().step > 20);
+  desk.key("ctrl+shift+s");
+  desk.turn_until([&] { return std::filesystem::exists(desk.folder.path() / "sheet-2.pliant"); });
+  CHECK(text_of(file) == text_of(desk.folder.path() / "sheet-2.json"));
+}
+
+TEST_CASE("a file that cannot be saved is told in the window, which goes on") {
+  Desk desk(make_sheet);  // by a program
+  desk.key("ctrl+s");
+  desk.turn_until([&] { return desk.shown().note.find("program") != std::string::npos; });
+  const auto step = desk.shown().step;
+  desk.turn_until([&] { return desk.shown().step > step; });
+}
+
+TEST_CASE("what is dropped onto the window is opened, and what is wrong with it is told") {
+  std::vector<std::string> opened;
+  Desk desk(read_sheet, 1, [&](const std::string& what) {
+    opened.push_back(what);
+    return what == "good.json" ? "" : what + ": this is no scene";
+  });
+  drop(desk, {"/tmp/some folder/notes.txt", "good.json"});  // the first one counts
+  desk.turn_until([&] { return desk.viewer.message() == "/tmp/some folder/notes.txt: this is no scene"; });
+  const auto step = desk.shown().step;
+  desk.turn_until([&] { return desk.shown().step > step; });
+  drop(desk, {"good.json"});
+  desk.viewer.run([] { return false; });  // ends by itself
+  CHECK(opened == std::vector<std::string>{"/tmp/some folder/notes.txt", "good.json"});
+  CHECK_FALSE(desk.window.wants_to_close());
+}
+
+TEST_CASE("a scene is chosen from the list, or its name typed") {
+  std::vector<std::string> opened;
+  Desk desk(read_sheet, 1, [&](const std::string& what) {
+    opened.push_back(what);
+    return std::string("not now");
+  });
+  desk.key("ctrl+o");
+  desk.turn_until([&] { return desk.viewer.scene_panel().place_of("towel").has_value(); });
+  const auto rect = desk.viewer.scene_panel().place_of("towel").value();
+  desk.click({(rect[0] + rect[2]) / 2, (rect[1] + rect[3]) / 2});
+  desk.turn_until([&] { return desk.viewer.message() == "not now"; });
+  CHECK(opened == std::vector<std::string>{"towel"});
+  const auto first = desk.viewer.scene_panel().place_of("flag").value();
+  desk.click({(first[0] + first[2]) / 2, first[1] - 22});  // the field above the list
+  xdotool("type my_mesh.obj");
+  desk.turns(4);
+  desk.key("Return");
+  desk.turn_until([&] { return opened.size() == 2; });
+  CHECK(opened.back() == "my_mesh.obj");
+  // Keys that are typed there are none of the window's.
+  CHECK(desk.shown().is_playing);
+  desk.key("Escape");
+  desk.key("Escape");
+  desk.turn_until([&] { return !desk.viewer.scene_panel().is_open; });
+}
+
+int main(int argc, char** argv) {
+  return run_on_display(argc, argv);
+}
