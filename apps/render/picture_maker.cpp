@@ -29,7 +29,8 @@ Image PictureMaker::draw(const FrameContent& frame, const std::optional<WindAnno
   target_.begin();
   renderer_.draw(options_.appearance, options, width, height);
   target_.resolve();
-  overlay_.draw(options_.appearance, options.viewpoint, legend_, wind, target_.width(), target_.height());
+  const std::optional<WindAnnotation> shown_wind = options_.appearance.wind_arrow ? wind : std::nullopt;
+  overlay_.draw(options_.appearance, options.viewpoint, legend_, shown_wind, target_.width(), target_.height());
   return target_.read();
 }
 

@@ -282,7 +282,7 @@ void Viewer::draw_annotations() {
   draw_gizmos(canvas);
   canvas.list.PopClipRect();
   if (legend) draw_legend(*legend, canvas);
-  if (source_.frame().wind) draw_wind(*source_.frame().wind, screen_.viewpoint, canvas);
+  if (source_.frame().wind && appearance_.wind_arrow) draw_wind(*source_.frame().wind, screen_.viewpoint, canvas);
 }
 
 /// Marks what the mouse holds or would grab, and pins that are about to change.

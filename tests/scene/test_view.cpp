@@ -30,7 +30,7 @@ std::string message_of(const std::string& view) {
 TEST_CASE("every key of a view") {
   const ViewSettings view = with_view(R"({
     "camera": {"position": [1, 2, 3], "target": [0, 0, 1], "up": [0, 1, 0], "field_of_view": 55.5},
-    "background": "#FF8000", "color": "stretch", "color_range": [0.5, 2], "legend": false, "front": [0, 0.5, 1],
+    "background": "#FF8000", "color": "stretch", "color_range": [0.5, 2], "legend": false, "wind_arrow": false, "front": [0, 0.5, 1],
     "back": "#000000", "shading": "flat", "wireframe": true, "colliders": false, "ground": false, "ground_height": -2,
     "shadow": false, "light": [0, 0, 3], "size": [640, 480]})")
                                 .view;
@@ -46,6 +46,7 @@ TEST_CASE("every key of a view") {
   CHECK(view.color == ColorBy::stretch);
   CHECK(view.color_range.value_or(std::array<Real, 2>{})[1] == 2);
   CHECK_FALSE(view.legend);
+  CHECK_FALSE(view.wind_arrow);
   CHECK(view.shading == Shading::flat);
   CHECK(view.wireframe);
   CHECK_FALSE(view.colliders);

@@ -47,6 +47,7 @@ struct ViewSettings {
   ColorBy color = ColorBy::none;                     ///< none: two tones, front and back
   std::optional<std::array<Real, 2>> color_range{};  ///< low, high, in the unit of `color`; none: those of all frames
   bool legend = true;                                ///< show the color map and its range
+  bool wind_arrow = true;                            ///< show the wind by an arrow and its speed
   /// Of the side that normals point from, and of the other, of all bodies without an appearance of their own; none of
   /// both: of several free bodies each has tones of its own, see body_tones
   std::optional<Color> front{}, back{};
@@ -72,6 +73,7 @@ struct ViewSettings {
     field(OptionInfo{"color_range", "", "values at the two ends of the color map; default: those of all frames"},
           self.color_range);
     field(OptionInfo{"legend", "", "show the color map and its range"}, self.legend);
+    field(OptionInfo{"wind_arrow", "", "show the wind by an arrow and its speed"}, self.wind_arrow);
     field(OptionInfo{"front", "",
                      "tone of the side that normals point from, of bodies without an `appearance`; default: of several "
                      "bodies one each"},
