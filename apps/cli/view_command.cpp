@@ -15,6 +15,7 @@
 #include "interrupts.h"
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
+#include "pliant_io/checkpoint/checkpoint.h"
 #include "pliant_io/scene/builtin_scenes.h"
 #include "render/scalar_fields.h"
 #include "viewer/live_source.h"
@@ -34,9 +35,18 @@ struct ViewArguments : AppearanceArguments {
   bool is_paused = false;  ///< begin paused
 };
 
+bool is_checkpoint(const ViewArguments& arguments) {
+  return fs::path(arguments.scene).extension() == ".pliant";
+}
+
 void check(const ViewArguments& arguments) {
   check_import(arguments);
-  if (arguments.overrides.steps) pliant::fail_input("--steps: a window goes on until it is closed; leave it out");
+  const pliant::SceneOverrides& overrides = arguments.overrides;
+  if (is_checkpoint(arguments) && (!overrides.set.empty() || overrides.time_step || overrides.iterations)) {
+    pliant::fail_input(
+        "--set and the like: a checkpoint goes on as it was; change it in the window, or its scene file");
+  }
+  if (overrides.steps) pliant::fail_input("--steps: a window goes on until it is closed; leave it out");
 }
 
 /// A driver that draws with the processor and the simulation each leave one to the other, unless their user has said
@@ -54,7 +64,7 @@ bool is_run(const ViewArguments& arguments) {
 }
 
 pliant::Scene make_scene(const ViewArguments& arguments) {
-  pliant::Scene scene = open_scene(arguments);
+  pliant::Scene scene = is_checkpoint(arguments) ? pliant::read_checkpoint(arguments.scene) : open_scene(arguments);
   print_warnings(scene);
   apply_appearance(arguments, scene.view);
   return scene;
@@ -62,9 +72,15 @@ pliant::Scene make_scene(const ViewArguments& arguments) {
 
 /// Hands out a scene that is there already, and makes it anew from then on.
 pliant_viewer::MakeScene scene_maker(const ViewArguments& arguments, std::shared_ptr<pliant::Scene> first) {
-  return [arguments, first = std::move(first)]() mutable {
-    const std::shared_ptr<pliant::Scene> ready = std::exchange(first, nullptr);
-    return ready != nullptr ? std::move(*ready) : make_scene(arguments);
+  return [arguments, first = std::move(first), source = std::optional<pliant::SceneSource>()]() mutable {
+    if (const std::shared_ptr<pliant::Scene> ready = std::exchange(first, nullptr)) {
+      if (is_checkpoint(arguments)) source = ready->source;
+      return std::move(*ready);
+    }
+    if (!source) return make_scene(arguments);
+    pliant::Scene scene = parse_scene(*source);  // what a checkpoint goes on from begins like this
+    apply_appearance(arguments, scene.view);
+    return scene;
   };
 }
 
@@ -107,7 +123,8 @@ std::vector<pliant_viewer::OpenableScene> openable_scenes() {
 /// As it was asked for on the command line, for what was chosen in the window: no option of the scene's own holds.
 ViewArguments arguments_for(const std::string& what, const ViewArguments& first) {
   ViewArguments arguments;
-  arguments.scene = what;
+  const char* home = std::getenv("HOME");
+  arguments.scene = home != nullptr && what.starts_with("~/") ? home + what.substr(1) : what;
   arguments.samples = first.samples;
   return arguments;
 }
@@ -186,7 +203,8 @@ void add_view_command(CLI::App& program, int& exit_code) {
   command->footer(
       "A file that ends in .obj, .ply, .off, .stl, .msh, .mesh, .vtu, .vtk, .node or .ele is a mesh, simulated as "
       "cloth, a\n"
-      "skin or a solid; a folder is a run, played as it was recorded. The key H shows what mouse and keys do.\n"
+      "skin or a solid; a folder is a run, played as it was recorded; .pliant is a checkpoint that the window has "
+      "saved. The key H shows what mouse and keys do.\n"
       "Other files are opened by dropping them onto the window, and the list of scenes by Ctrl + O.\n"
       "Examples:\n"
       "  pliant view\n"

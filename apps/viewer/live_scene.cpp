@@ -229,6 +229,7 @@ void LiveScene::publish() {
   back_.messages = messages_;
   back_.undone_next = session_.undone_next();
   back_.redone_next = session_.redone_next();
+  back_.has_unsaved_changes = session_.has_unsaved_changes();
   back_.restarts = context_.restarts;
   back_.commands = commands_published_ = commands_done_;
   {

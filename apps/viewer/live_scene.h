@@ -35,8 +35,9 @@ struct Snapshot {
   std::uint64_t messages = 0;  ///< number of such messages so far
   std::string undone_next;     ///< what undo would take back, and redo do again; empty: nothing
   std::string redone_next;
-  std::uint64_t restarts = 0;  ///< number of restarts so far
-  std::uint64_t commands = 0;  ///< number of commands that have taken effect
+  bool has_unsaved_changes = false;  ///< of the scene
+  std::uint64_t restarts = 0;        ///< number of restarts so far
+  std::uint64_t commands = 0;        ///< number of commands that have taken effect
 };
 
 /// What commands act on, in the simulation's thread.

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "pliant/collision/colliders/builtin.h"
+#include "pliant/constraints/attachment.h"
 #include "pliant/constraints/position.h"
 #include "pliant/materials/change_material.h"
 #include "viewer/body_materials.h"
@@ -76,6 +77,10 @@ UnchangedScene::UnchangedScene(const pliant::Scene& scene) {
   as_read_.collider_names = scene.collider_names;
   const pliant::Simulation& simulation = scene.simulation;
   groups_ = simulation.group_names();
+  for (const auto& [id, group] : simulation.groups()) {
+    const bool is_tie = group.type == pliant::Attachment::info.name && !scene.places.contains(group.name);
+    if (is_tie && std::ranges::find(scene.group_names, group.name) != scene.group_names.end()) ties_.insert(group.name);
+  }
   for (const auto& [id, collider] : simulation.colliders()) collider_starts_[collider.name] = collider.pose.position;
   has_surfaces_ = simulation.contact().surfaces;
   const auto is_read = [&](const std::string& name) {
@@ -132,19 +137,19 @@ void UnchangedScene::apply(const SceneChanges& changes, pliant::Scene& scene) co
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const BodyPart& body = bodies_[i];
     const pliant::BodyId id{static_cast<Index>(i)};
-    for (const auto& [vertex, target] : changes.pins) {
-      const Index of_body = vertex - body.first_vertex;
-      if (of_body < 0 || of_body >= body.vertex_count) continue;
-      pliant::Position pin{.on = {of_body}};
-      if (target) pin.targets = *target;
-      simulation.add(id, pin, target ? body.moved_pins : body.pins);
-    }
     for (const auto& [vertex, pin] : changes.released) {
       const Index of_body = vertex - body.first_vertex;
       if (of_body < 0 || of_body >= body.vertex_count) continue;
       for (const std::string& group : pin.groups) {
         if (const auto found = simulation.find_group(group)) simulation.release(*found, std::span(&of_body, 1));
       }
+    }
+    for (const auto& [vertex, target] : changes.pins) {
+      const Index of_body = vertex - body.first_vertex;
+      if (of_body < 0 || of_body >= body.vertex_count) continue;
+      pliant::Position pin{.on = {of_body}};
+      if (target) pin.targets = *target;
+      simulation.add(id, pin, target ? body.moved_pins : body.pins);
     }
   }
   for (const auto& [vertex, pin] : changes.moved) {
@@ -163,20 +168,37 @@ void UnchangedScene::apply(const SceneChanges& changes, pliant::Scene& scene) co
   }
 }
 
-SceneDocument UnchangedScene::with(const SceneChanges& changes) const {
+SceneDocument UnchangedScene::with(const SceneChanges& changes, std::vector<std::string>* unwritten) const {
   if (!document_) document_.emplace(as_read_);
   SceneDocument document = *document_;
   // Whatever takes constraints out comes last: places count from the start of their list.
   write_colliders(changes, document);
-  write_values(changes, document);
+  write_values(changes, document, unwritten);
   write_pins(changes, document);
+  write_names(changes, document);
   write_materials(changes, document);
   return document;
 }
 
 pliant::SceneText UnchangedScene::text_with(const SceneChanges& changes) const {
+  SceneChanges of_text = changes;
+  for (const auto& [key, value] : factors(changes)) of_text.values.erase(key);
   const pliant::SceneText& own = as_read_.source.texts.at(0);
-  return {own.name, own.folder, with(changes).text()};
+  return {own.name, own.folder, with(of_text).text()};
+}
+
+std::map<std::string, Vec3> UnchangedScene::factors(const SceneChanges& changes) const {
+  std::map<std::string, Vec3> found;
+  if (!has_text_) return found;
+  if (!document_) document_.emplace(as_read_);
+  for (const auto& [key, changed] : changes.values) {
+    const Parameter& parameter = changed.parameter;
+    const std::optional<std::string> path = path_of(parameter, changes);
+    const std::string given = path ? document_->get(*path) : "";
+    const bool is_factor = parameter.kind == ParameterKind::real && (given.starts_with('[') || given.starts_with('{'));
+    if (is_factor || ties_.contains(parameter.name)) found[key] = changed.value;
+  }
+  return found;
 }
 
 void UnchangedScene::remove_events(const std::vector<std::pair<Index, std::string>>& left_out,
@@ -212,7 +234,17 @@ std::optional<std::string> UnchangedScene::path_of(const Parameter& parameter, c
   return found->second == "gravity" ? found->second : found->second + "." + option;
 }
 
-void UnchangedScene::write_values(const SceneChanges& changes, SceneDocument& document) const {
+/// Names that follow from the order of constraints stay when some of these go.
+void UnchangedScene::write_names(const SceneChanges& changes, SceneDocument& document) const {
+  if (changes.materials.empty()) return;
+  for (const auto& [name, place] : as_read_.places) {
+    if (!place.starts_with("bodies[") || is_replaced(place, changes)) continue;
+    if (document.get(place + ".name").empty()) set(document, place + ".name", name);
+  }
+}
+
+void UnchangedScene::write_values(const SceneChanges& changes, SceneDocument& document,
+                                  std::vector<std::string>* unwritten) const {
   std::map<std::string, Json> of_groups;  // that have no place, being of a material: by events
   for (const auto& [key, changed] : changes.values) {
     const Parameter& parameter = changed.parameter;
@@ -220,7 +252,11 @@ void UnchangedScene::write_values(const SceneChanges& changes, SceneDocument& do
     const std::optional<std::string> path = path_of(parameter, changes);
     if (!path) {
       if (std::holds_alternative<pliant::GroupId>(parameter.handle.owner)) {
-        of_groups[parameter.name][parameter.handle.option] = *value;
+        if (!ties_.contains(parameter.name)) {
+          of_groups[parameter.name][parameter.handle.option] = *value;
+        } else if (unwritten != nullptr) {
+          unwritten->push_back(key);
+        }
       }
       continue;
     }
@@ -228,6 +264,7 @@ void UnchangedScene::write_values(const SceneChanges& changes, SceneDocument& do
     const bool is_common_factor =
         parameter.kind == ParameterKind::real && (given.starts_with('[') || given.starts_with('{'));
     if (is_common_factor) value = multiplied(Json::parse(given), changed.value[0]);
+    if (!value && unwritten != nullptr) unwritten->push_back(key);
     if (!value) continue;
     // With this key surfaces would touch.
     if (path->starts_with("contact.") && document.get("contact").empty())
@@ -259,6 +296,7 @@ void UnchangedScene::write_pins(const SceneChanges& changes, SceneDocument& docu
     Json held = Json::array(), moved = Json::array(), targets = Json::array();
     for (const auto& [vertex, target] : changes.pins) {
       if (vertex < body.first_vertex || vertex >= body.first_vertex + body.vertex_count) continue;
+      if (changes.released.contains(vertex)) continue;  // by the scene's own group
       (target ? moved : held).push_back(vertex - body.first_vertex);
       if (target) targets.push_back(json_of(*target));
     }
@@ -271,17 +309,21 @@ void UnchangedScene::write_pins(const SceneChanges& changes, SceneDocument& docu
     document.append(list, pins.dump());
   }
   std::map<std::string, Json> released;
+  const auto is_there = [this](const std::string& group) { return as_read_.places.contains(group); };
+  const auto move = [&](const std::string& group, Index number, const Vec3& target) {
+    if (is_there(group)) append_event(document, "move", group, {{"index", number}, {"target", json_of(target)}});
+  };
   for (const auto& [vertex, pin] : changes.released) {
     const auto body = std::ranges::find_if(bodies_, [v = vertex](const BodyPart& each) {
       return v >= each.first_vertex && v < each.first_vertex + each.vertex_count;
     });
-    if (body == bodies_.end()) continue;
+    const auto again = changes.pins.find(vertex);
+    if (again != changes.pins.end() && again->second) move(pin.groups.front(), pin.number, *again->second);
+    if (body == bodies_.end() || again != changes.pins.end()) continue;
     for (const std::string& group : pin.groups) released[group].push_back(vertex - body->first_vertex);
   }
-  const auto is_there = [this](const std::string& group) { return as_read_.places.contains(group); };
   for (const auto& [vertex, pin] : changes.moved) {
-    const Json move = {{"index", pin.number}, {"target", json_of(pin.target)}};
-    if (is_there(pin.group) && !changes.released.contains(vertex)) append_event(document, "move", pin.group, move);
+    if (!changes.released.contains(vertex)) move(pin.group, pin.number, pin.target);
   }
   for (const auto& [group, vertices] : released) {
     if (is_there(group)) append_event(document, "release", group, {{"vertices", vertices}});

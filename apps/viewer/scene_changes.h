@@ -3,6 +3,7 @@
 // scene is written from.
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -29,9 +30,11 @@ struct ChangedMaterial {
   bool operator==(const ChangedMaterial& other) const { return name == other.name; }
 };
 
-/// Of a vertex that the scene pins: the groups that have let it go, or where one of them begins to hold it.
+/// Of a vertex that the scene pins: the groups that have let it go, or where one of them begins to hold it. One that
+/// was pinned again by hand is among the pins as well, and is that group's again in a scene with the changes.
 struct ReleasedPin {
   std::vector<std::string> groups;
+  Index number = 0;  ///< among the targets of the first one
   bool operator==(const ReleasedPin&) const = default;
 };
 struct MovedPin {
@@ -65,10 +68,14 @@ class UnchangedScene {
   /// @throws pliant::Error (input) where one does not fit.
   void apply(const SceneChanges& changes, pliant::Scene& scene) const;
 
-  /// The scene with the changes in it. Those of what it does not have are left out.
-  pliant::SceneDocument with(const SceneChanges& changes) const;
-  /// The same as a text in place of the scene's first one.
+  /// The scene with the changes in it. Those of what it does not have are left out; the keys of values that a text
+  /// cannot have are added to `unwritten`.
+  pliant::SceneDocument with(const SceneChanges& changes, std::vector<std::string>* unwritten = nullptr) const;
+  /// The same as a text in place of the scene's first one, to be read again and given its factors().
   pliant::SceneText text_with(const SceneChanges& changes) const;
+  /// What a text has otherwise, by key: the common factor of stiffnesses, which it has multiplied into them, and what
+  /// only the simulation has a name for.
+  std::map<std::string, pliant::Vec3> factors(const SceneChanges& changes) const;
   /// Takes out events that were left out when the document was read.
   static void remove_events(const std::vector<std::pair<Index, std::string>>& left_out,
                             pliant::SceneDocument& document);
@@ -89,8 +96,10 @@ class UnchangedScene {
   std::optional<std::size_t> find_body(const std::string& name) const;
 
   std::string free_name(const std::string& base) const;
+  void write_names(const SceneChanges& changes, pliant::SceneDocument& document) const;
   bool is_replaced(const std::string& place, const SceneChanges& changes) const;
-  void write_values(const SceneChanges& changes, pliant::SceneDocument& document) const;
+  void write_values(const SceneChanges& changes, pliant::SceneDocument& document,
+                    std::vector<std::string>* unwritten) const;
   std::optional<std::string> path_of(const pliant::Parameter& parameter, const SceneChanges& changes) const;
   void write_materials(const SceneChanges& changes, pliant::SceneDocument& document) const;
   void write_pins(const SceneChanges& changes, pliant::SceneDocument& document) const;
@@ -100,6 +109,7 @@ class UnchangedScene {
   mutable std::optional<pliant::SceneDocument> document_;
   std::vector<BodyPart> bodies_;
   std::vector<std::string> groups_;                      // there at the start
+  std::set<std::string> ties_;                           // of them, those of carried surfaces
   std::map<std::string, pliant::Vec3> collider_starts_;  // [m]
   bool has_text_ = false;
   bool has_surfaces_ = false;

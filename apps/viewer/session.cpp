@@ -60,7 +60,8 @@ void stop_collider(std::tuple<Types...>*, pliant::Simulation& simulation, pliant
 Session::Session(MakeScene make)
     : make_(std::move(make)),
       scene_(make_()),
-      unchanged_(scene_),
+      unchanged_(scene_.simulation.state().step == 0 ? UnchangedScene(scene_)
+                                                     : UnchangedScene(parse_scene(scene_.source))),
       collider_speed_(suggest_collider_speed(scene_.simulation)) {}
 
 void Session::set_stop(std::function<bool()> stop) {
@@ -119,7 +120,7 @@ void Session::pin(Index vertex) {
   pliant::Position position;
   position.on = pliant::Selection({vertex - scene_.simulation.body(body).first_vertex});
   of_hand_.insert(scene_.simulation.add(body, position, std::string(pin_name)));
-  if (changes_.released.erase(vertex) == 0) changes_.pins[vertex] = std::nullopt;
+  changes_.pins[vertex] = std::nullopt;
   edit.held[vertex] = target_of(*find_pin(vertex));
   remember(std::move(edit));
 }
@@ -132,7 +133,7 @@ void Session::unpin(Index vertex) {
   while (const auto pin = find_pin(vertex)) {
     const pliant::Group& group = scene_.simulation.groups().at(pin->group);
     const bool is_of_hand = of_hand_.contains(pin->group);
-    if (!is_of_hand) changes_.released[vertex].groups.push_back(group.name);
+    if (!is_of_hand) note_release(vertex, group, *pin);
     if (is_of_hand && scene_.simulation.target_count(pin->group) == 1) {
       of_hand_.erase(pin->group);
       scene_.simulation.remove(pin->group);
@@ -144,6 +145,13 @@ void Session::unpin(Index vertex) {
   changes_.pins.erase(vertex);
   changes_.moved.erase(vertex);
   remember(std::move(edit));
+}
+
+void Session::note_release(Index vertex, const pliant::Group& group, const Pin& pin) {
+  ReleasedPin& released = changes_.released[vertex];
+  if (std::ranges::find(released.groups, group.name) != released.groups.end()) return;
+  if (released.groups.empty()) released.number = group.points[static_cast<std::size_t>(pin.target)];
+  released.groups.push_back(group.name);
 }
 
 void Session::move_pin(Index vertex, const Vec3f& target) {

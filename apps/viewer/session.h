@@ -28,7 +28,8 @@ struct Pull {
 
 class Session {
  public:
-  /// Calls `make` now and at each restart. @throws whatever `make` throws.
+  /// Calls `make` now and at each restart; only the first scene may stand elsewhere than at its start, being of a
+  /// checkpoint. @throws whatever `make` throws.
   explicit Session(MakeScene make);
 
   const pliant::Simulation& simulation() const { return scene_.simulation; }
@@ -102,6 +103,8 @@ class Session {
   /// events of the scene; nothing has changed then but for the files.
   std::vector<std::filesystem::path> save(const std::filesystem::path& file, const pliant::ViewSettings& view);
 
+  /// Whether anything has changed since it was saved, or read.
+  bool has_unsaved_changes() const { return !(changes_ == saved_changes_); }
   /// How often the scene was made anew with other changes: groups have other ids then.
   std::uint64_t rebuilds() const { return rebuilds_; }
   const SceneChanges& changes() const { return changes_; }
@@ -123,12 +126,14 @@ class Session {
   pliant::Vec3 target_of(const Pin& pin) const { return scene_.simulation.target(pin.group, pin.target); }
   pliant::BodyId body_of(Index vertex) const;
   void steer_colliders();
+  void note_release(Index vertex, const pliant::Group& group, const Pin& pin);
   bool is_hidden(pliant::GroupId group) const;
   void remember(Edit edit);
+  void take_old_values_of(const pliant::Simulation& at_start);
   void go(const Edit& edit, const SceneChanges& from, const SceneChanges& to);
   pliant::Scene read_changed(pliant::SceneText text) const;
   pliant::Scene make_with(const SceneChanges& changes, const UnchangedScene& unchanged) const;
-  void carry_into(pliant::Scene& next, const SceneChanges& to) const;
+  void carry_into(pliant::Scene& next, const SceneChanges& to, const std::set<std::string>& but = {}) const;
   void settle(pliant::Scene next);
   void take(pliant::Scene next);
 
@@ -136,7 +141,7 @@ class Session {
   pliant::Scene scene_;
   std::function<bool()> stop_;
   UnchangedScene unchanged_;
-  SceneChanges changes_;
+  SceneChanges changes_, saved_changes_;
   std::vector<Edit> done_, undone_;
   std::map<std::string, pliant::MaterialPlacement> placements_;  // of the bodies whose material changed, as they had it
   std::set<pliant::ColliderId> left_alone_;                      // moved by hand while time went on

@@ -106,7 +106,7 @@ void Session::drop_pin(Index vertex) {
   Edit edit{.what = "move a pin", .before = changes_};
   const pliant::Group& group = simulation().groups().at(pin->group);
   const pliant::Vec3 target = target_of(*pin);
-  if (of_hand_.contains(pin->group)) {
+  if (changes_.pins.contains(vertex)) {
     changes_.pins[vertex] = target;
   } else {
     changes_.moved[vertex] = {group.name, group.points[static_cast<std::size_t>(pin->target)], target};
@@ -141,20 +141,25 @@ pliant::Scene Session::read_changed(pliant::SceneText text) const {
 
 /// The scene with changes, at its start.
 pliant::Scene Session::make_with(const SceneChanges& changes, const UnchangedScene& unchanged) const {
-  if (unchanged.has_text()) return read_changed(unchanged.text_with(changes));
-  pliant::Scene scene = make_();
-  unchanged.apply(changes, scene);
+  if (!unchanged.has_text()) {
+    pliant::Scene scene = make_();
+    unchanged.apply(changes, scene);
+    return scene;
+  }
+  pliant::Scene scene = read_changed(unchanged.text_with(changes));
+  set_values(unchanged.factors(changes), scene.simulation);
   return scene;
 }
 
 /// Takes a scene that was just made to where this one is.
-void Session::carry_into(pliant::Scene& next, const SceneChanges& to) const {
+void Session::carry_into(pliant::Scene& next, const SceneChanges& to, const std::set<std::string>& but) const {
   if (simulation().state().step == 0) return;
   NotCarried rules;
   rules.event_count = unchanged_.event_count();
   for (const auto& [number, why] : scene_.left_out) rules.left_out_of_from.push_back(number);
   for (const auto& [number, why] : next.left_out) rules.left_out_of_to.push_back(number);
   rules.values = difference(changes_.values, to.values);
+  rules.values.insert(but.begin(), but.end());
   rules.bodies = difference(changes_.materials, to.materials);
   rules.pins = difference(changes_.pins, to.pins);
   rules.pins.merge(difference(changes_.moved, to.moved));
@@ -174,7 +179,7 @@ void Session::settle(pliant::Scene next) {
     if (next.simulation.colliders().contains(collider)) next.timeline.leave_alone(next.simulation, collider);
   }
   scene_ = std::move(next);
-  if (!scene_.left_out.empty()) note_ = "left out: " + scene_.left_out.front().second;
+  note_ = scene_.left_out.empty() ? "" : "left out: " + scene_.left_out.front().second;
   of_hand_.clear();
   for (const auto& [id, group] : simulation().groups()) {
     if (unchanged_.is_of_hand(group.name)) of_hand_.insert(id);
@@ -236,9 +241,24 @@ void Session::redo() {
   undone_.pop_back();
 }
 
+/// A value that was changed while time went on was changed from what an event had made of it; from the start on it is
+/// changed from the scene's own.
+void Session::take_old_values_of(const pliant::Simulation& at_start) {
+  std::map<std::string, pliant::Vec3> values;
+  for (const Slider& slider : list_sliders(at_start)) values[slider.key] = slider.parameter.value;
+  for (std::vector<Edit>* edits : {&done_, &undone_}) {
+    for (Edit& edit : *edits) {
+      for (auto& [key, old] : edit.old_values) {
+        if (const auto found = values.find(key); found != values.end()) old = found->second;
+      }
+    }
+  }
+}
+
 void Session::restart(bool keep_changes) {
   pliant::Scene scene = make_();
   UnchangedScene unchanged(scene);
+  if (keep_changes) take_old_values_of(scene.simulation);
   if (keep_changes && !changes_.is_empty()) {
     pliant::Scene changed = make_with(changes_, unchanged);
     changed.name = scene.name;
@@ -246,7 +266,7 @@ void Session::restart(bool keep_changes) {
     scene = std::move(changed);
   }
   if (!keep_changes) {
-    changes_ = {};
+    changes_ = saved_changes_ = {};
     done_.clear();
     undone_.clear();
     placements_.clear();
@@ -270,21 +290,34 @@ std::vector<std::filesystem::path> Session::save(const std::filesystem::path& fi
   const auto text_of_file = [&](const pliant::SceneDocument& document) {
     return pliant::SceneText{file.string(), folder, document.text(folder.empty() ? "." : folder), fs::absolute(file)};
   };
-  pliant::SceneDocument document = unchanged_.with(changes_);
+  std::vector<std::string> unwritten;
+  pliant::SceneDocument document = unchanged_.with(changes_, &unwritten);
   write_view(view, document);
   pliant::Scene next = read_changed(text_of_file(document));
   UnchangedScene::remove_events(next.left_out, document);
   const pliant::SceneText written = text_of_file(document);
   next.source.texts.at(0) = written;
   next.source.leaves_out_events = false;
-  carry_into(next, changes_);
-  pliant::write_file_atomically(file, written.text);
+  std::set<std::string> factors;  // which the file has multiplied into its numbers
+  for (const auto& [key, factor] : unchanged_.factors(changes_)) factors.insert(key);
+  carry_into(next, changes_, factors);
   std::vector<fs::path> files = {file};
+  const fs::path checkpoint = fs::path(file).replace_extension(".pliant");
+  std::error_code ignored;
   if (simulation().state().step > 0) {
-    files.push_back(fs::path(file).replace_extension(".pliant"));
-    write_checkpoint(files.back(), next);
+    write_checkpoint(checkpoint, next);
+    files.push_back(checkpoint);
+  } else {
+    fs::remove(checkpoint, ignored);  // of what the file was before
+  }
+  pliant::write_file_atomically(file, written.text);
+  if (!factors.empty()) {
+    next = make_with(changes_, unchanged_);
+    carry_into(next, changes_);
   }
   take(std::move(next));
+  saved_changes_ = changes_;
+  if (!unwritten.empty()) note_ = "not in the file: " + unwritten.front() + ", which a scene file has no key for";
   return files;
 }
 

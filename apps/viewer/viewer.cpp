@@ -62,6 +62,7 @@ Viewer::Viewer(Window& window, ViewSource& source, ViewerOptions options)
       appearance_(options.appearance),
       samples_(options.samples.value_or(window.is_software() ? 1 : 4)),
       picture_folder_(std::move(options.picture_folder)),
+      saved_scene_(std::make_shared<std::filesystem::path>()),
       ui_(window, appearance_.background),
       camera_(first_viewpoint(source, appearance_, picture_size()), appearance_.camera.up.cast<float>()),
       first_camera_(camera_),

@@ -3,6 +3,7 @@
 #include <deque>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -65,6 +66,7 @@ class Viewer {
   void take_keys();
   void take_key(const KeyEvent& event);
   MouseInteraction::View mouse_view();
+  void take_control_key(char letter, bool has_shift, bool is_repeated);
   void toggle_color();
   void change_color();
   void frame_everything();
@@ -98,8 +100,9 @@ class Viewer {
   pliant::ViewSettings appearance_;
   int samples_;
   std::filesystem::path picture_folder_;
-  std::filesystem::path saved_scene_;  // last; empty: none
-  std::uint64_t messages_ = 0;         // of the scene that were shown
+  std::shared_ptr<std::filesystem::path> saved_scene_;  // last, for the thread of the scene; empty: none
+  std::string refused_;         // to be opened, though changes would be lost; once more, and it is
+  std::uint64_t messages_ = 0;  // of the scene that were shown
   Ui ui_;
   bool is_panel_open_ = true;
   OrbitCamera camera_;

@@ -54,12 +54,14 @@ void Viewer::redo() {
 void Viewer::save_scene(bool as_new) {
   LiveScene* live = source_.live();
   if (live == nullptr) return say("this is a run; its scene is in the file it was made from");
-  if (as_new || saved_scene_.empty()) saved_scene_ = free_name(picture_folder_, live->name());
   pliant::ViewSettings view = appearance_;
   if (!camera_.is_like(first_camera_)) view.camera = camera_.placed();
-  live->post([file = saved_scene_, view](CommandContext& context) {
-    context.message = "saved " + names_of(context.session.save(file, view));
-  });
+  live->post(
+      [saved = saved_scene_, view, as_new, folder = picture_folder_, name = live->name()](CommandContext& context) {
+        const fs::path file = as_new || saved->empty() ? free_name(folder, name) : *saved;
+        context.message = "saved " + names_of(context.session.save(file, view));
+        *saved = file;
+      });
 }
 
 void Viewer::take_dropped_files() {
@@ -70,6 +72,12 @@ void Viewer::take_dropped_files() {
 /// Says so first: a large mesh takes a while to read.
 void Viewer::open(const std::string& what) {
   if (open_ == nullptr) return say("nothing else can be opened here");
+  const LiveScene* live = source_.live();
+  if (live != nullptr && live->shown().has_unsaved_changes && refused_ != what) {
+    refused_ = what;
+    return say(
+        "this scene has changes that are not saved: Ctrl + S saves them; open the other one once more to lose them");
+  }
   waits_ = what;
   waits_turns_ = 2;
   say("opening " + fs::path(what).filename().string() + " ...");

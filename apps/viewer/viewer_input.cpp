@@ -11,6 +11,13 @@ namespace {
 
 constexpr double stiffer = 1.5;  // per key press
 
+/// What the key writes on this keyboard, where it writes one letter.
+char letter_of(const KeyEvent& event) {
+  const char* name = glfwGetKeyName(event.key, event.scancode);
+  if (name == nullptr || name[0] == '\0' || name[1] != '\0') return '\0';
+  return name[0] >= 'A' && name[0] <= 'Z' ? static_cast<char>(name[0] - 'A' + 'a') : name[0];
+}
+
 }  // namespace
 
 MouseInteraction::View Viewer::mouse_view() {
@@ -76,14 +83,8 @@ void Viewer::take_key(const KeyEvent& event) {
     if (live != nullptr) interaction_.set_stiffness(std::max(interaction_.stiffness() / stiffer, 1e-3), *live);
     return;
   }
-  if (has_control && event.key == GLFW_KEY_Z) return has_shift ? redo() : undo();
-  if (has_control && event.key == GLFW_KEY_Y) return redo();
-  if (is_repeated) return;
-  if (has_control && event.key == GLFW_KEY_S) return save_scene(has_shift);
-  if (has_control && event.key == GLFW_KEY_O) {
-    scene_panel_.is_open = !scene_panel_.is_open && open_ != nullptr;
-    return;
-  }
+  if (is_repeated && !has_control) return;
+  if (has_control) return take_control_key(letter_of(event), has_shift, is_repeated);
   switch (event.key) {
     case GLFW_KEY_SPACE:
       return source_.play(!source_.is_playing());
@@ -119,6 +120,14 @@ void Viewer::take_key(const KeyEvent& event) {
     default:
       return;
   }
+}
+
+void Viewer::take_control_key(char letter, bool has_shift, bool is_repeated) {
+  if (letter == 'z') return has_shift ? redo() : undo();
+  if (letter == 'y') return redo();
+  if (is_repeated) return;
+  if (letter == 's') return save_scene(has_shift);
+  if (letter == 'o') scene_panel_.is_open = !scene_panel_.is_open && open_ != nullptr;
 }
 
 void Viewer::view_as_at_first() {

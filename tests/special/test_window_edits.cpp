@@ -179,6 +179,39 @@ TEST_CASE("a scene is chosen from the list, or its name typed") {
   desk.turn_until([&] { return !desk.viewer.scene_panel().is_open; });
 }
 
+TEST_CASE("changes that are not saved are lost only when asked for twice") {
+  int opened = 0;
+  Desk desk(read_sheet, 1, [&](const std::string&) {
+    ++opened;
+    return std::string("no");
+  });
+  desk.settle();
+  desk.click(desk.place(middle));
+  desk.turn_until([&] { return desk.is_pinned(middle); });
+  drop(desk, {"a.json"});
+  desk.turn_until([&] { return desk.viewer.message().find("not saved") != std::string::npos; });
+  desk.turns(5);
+  CHECK(opened == 0);
+  drop(desk, {"a.json"});
+  desk.turn_until([&] { return opened == 1; });
+  desk.key("ctrl+s");
+  desk.turn_until([&] { return !desk.shown().has_unsaved_changes; });
+  drop(desk, {"b.json"});
+  desk.turn_until([&] { return opened == 2; });
+}
+
+TEST_CASE("a number that is given up by Escape is no value") {
+  Desk desk(read_sheet);
+  desk.type_into("group:bend.stiffness");
+  xdotool("key 0 Escape");
+  desk.turns(12);
+  CHECK(desk.shown().note.empty());
+  CHECK(desk.parameter("group:bend.stiffness") == 0.001);
+  desk.type_into("group:bend.stiffness");
+  xdotool("key 0 Return");  // and one that is left like that is refused
+  desk.turn_until([&] { return desk.shown().note.find("out of range") != std::string::npos; });
+}
+
 int main(int argc, char** argv) {
   return run_on_display(argc, argv);
 }

@@ -243,6 +243,7 @@ void ParameterPanel::draw_row(const Slider& slider, const std::string& label, co
 void ParameterPanel::post_change(const std::string& key, const Parameter& parameter, pliant::Vec3 value,
                                  bool has_changed, LiveScene& live) {
   const bool is_active = ImGui::IsItemActive();
+  if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) withheld_.reset();
   const bool goes_on = held_ == key;
   if (goes_on && !is_active) held_.clear();
   if (has_changed && is_active && !is_allowed(parameter, value)) {
