@@ -273,7 +273,7 @@ void UnchangedScene::write_values(const SceneChanges& changes, SceneDocument& do
   }
   for (const auto& [group, values] : of_groups) {
     const bool is_there = std::ranges::find(groups_, group) != groups_.end();
-    const auto is_of = [&](const auto& entry) { return group.starts_with(entry.first + "."); };
+    const auto is_of = [&name = group](const auto& entry) { return name.starts_with(entry.first + "."); };
     if (is_there || std::ranges::any_of(changes.materials, is_of)) append_event(document, "change", group, values);
   }
 }
