@@ -239,6 +239,9 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& folder, st
 }
 
 Scene load_scene(const std::filesystem::path& file, const SceneOverrides& overrides) {
+  std::error_code ignored;  // read_file tells
+  const std::uintmax_t bytes = std::filesystem::is_regular_file(file, ignored) ? file_size(file, ignored) : 0;
+  if (!ignored) check_json_size(bytes, file.string());  // before it is read
   SceneSource source;
   source.texts.push_back({file.string(), file.parent_path(), read_file(file), absolute_path(file)});
   source.overrides = overrides;

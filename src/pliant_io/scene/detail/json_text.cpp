@@ -186,11 +186,14 @@ bool JsonBuilder::parse_error(std::size_t byte, const std::string& token, const 
 
 }  // namespace
 
+void check_json_size(std::uintmax_t bytes, std::string_view file) {
+  if (bytes <= max_json_bytes) return;
+  fail_at(file, "",
+          fmt::format("is larger than {} MB; put meshes and maps into files of their own", max_json_bytes >> 20U));
+}
+
 SceneJson parse_json(std::string_view text, std::string_view file) {
-  if (text.size() > max_json_bytes) {
-    fail_at(file, "",
-            fmt::format("is larger than {} MB; put meshes and maps into files of their own", max_json_bytes >> 20U));
-  }
+  check_json_size(text.size(), file);
   if (const std::size_t nul = text.find('\0'); nul != text.npos) {
     fail_syntax(text, file, nul, "a byte of 0, which no JSON has; save the file as plain text in UTF-8");
   }

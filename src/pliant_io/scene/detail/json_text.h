@@ -1,6 +1,7 @@
 #pragma once
 // Texts of JSON, and CBOR of checkpoints, as values of nlohmann's library.
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -30,6 +31,9 @@ SceneJson parse_json(std::string_view text, std::string_view file);
 
 /// The same for CBOR (RFC 8949), which may hold bytes besides; strings come in one piece each.
 SceneJson parse_cbor(std::string_view bytes, std::string_view file);
+
+/// Throws Error(input) `file: ...` for a text of so many bytes, which is past the limit.
+void check_json_size(std::uintmax_t bytes, std::string_view file);
 
 /// Whether the text is sound JSON.
 bool is_json(std::string_view text);
