@@ -36,12 +36,12 @@ bool draw_appearance_panel(pliant::ViewSettings& appearance, int& samples, plian
   ImGui::SameLine();
   ImGui::Checkbox("shadow", &appearance.shadow);
   explain("on the ground, and with light of bodies on bodies");
-  ImGui::SameLine();
+  row_label("", "");
   bool is_lit = quality != pliant::Quality::low;
   if (ImGui::Checkbox("light", &is_lit)) appearance.quality = is_lit ? pliant::Quality::high : pliant::Quality::low;
   explain("shadows of bodies on bodies, darker where little of the sky is seen; off at first where it would be slow");
   if (!source.frame().content.colliders.empty()) {
-    row_label("", "");
+    ImGui::SameLine();
     ImGui::Checkbox("colliders", &appearance.colliders);
     explain("O: hidden ones act all the same");
   }
