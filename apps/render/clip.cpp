@@ -158,10 +158,7 @@ std::vector<std::uint32_t> pinned_vertices(const pliant::Simulation& simulation)
   std::vector<std::uint32_t> pinned;
   for (const auto& [id, group] : simulation.groups()) {
     if (group.type != "position" || is_held(simulation.body(group.body), held)) continue;
-    for (const auto& batch : group.set.batches) {
-      append(pinned, batch->pinned_vertices());
-      append(pinned, batch->stencil());
-    }
+    append(pinned, vertices_of_pins(group));
   }
   sort_and_trim(pinned);
   return pinned;

@@ -7,6 +7,7 @@
 
 #include "pliant/constraints/position.h"
 #include "pliant/core/error.h"
+#include "pliant/simulation/held.h"
 
 namespace pliant_viewer {
 namespace {
@@ -45,7 +46,7 @@ class EventNumbers {
 pliant::TimelineState timeline_for(const pliant::Scene& from, const pliant::Scene& to, const NotCarried& rules) {
   pliant::TimelineState state = from.timeline.state();
   const EventNumbers before(rules.event_count, rules.left_out_of_from), after(rules.event_count, rules.left_out_of_to);
-  /// Those that begin outside of events, -1, do so in both.
+  // Those that begin outside of events, -1, do so in both.
   const auto number = [&](Index event) {
     const auto own = before.own(event);
     return event < 0 ? std::optional(event) : own ? after.number(*own) : std::nullopt;
@@ -120,45 +121,32 @@ void carry_numbers(const Simulation& from, Simulation& to, const NotCarried& rul
 
 /// Pins are where those of the same vertex and group were, or else of the same vertex.
 void carry_pins(const Simulation& from, Simulation& to, const NotCarried& rules) {
+  const auto for_each_pin = [](const Simulation& simulation, auto&& visit) {
+    for (const auto& [id, group] : simulation.groups()) {
+      if (group.type != pliant::Position::info.name) continue;
+      const std::vector<Index> vertices = vertices_of_pins(group);
+      for (std::size_t i = 0; i < vertices.size(); ++i) visit(id, group.name, static_cast<Index>(i), vertices[i]);
+    }
+  };
   std::map<std::pair<std::string, Index>, Vec3> of_groups;
   std::map<Index, Vec3> of_vertices;
-  for (const auto& [id, vertices] : held_by_groups(from)) {
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-      const Vec3 target = from.target(id, static_cast<Index>(i));
-      of_groups.insert_or_assign({from.groups().at(id).name, vertices[i]}, target);
-      of_vertices.insert_or_assign(vertices[i], target);
+  for_each_pin(from, [&](GroupId id, const std::string& name, Index target, Index vertex) {
+    of_groups.insert_or_assign({name, vertex}, from.target(id, target));
+    of_vertices.insert_or_assign(vertex, from.target(id, target));
+  });
+  for_each_pin(to, [&](GroupId id, const std::string& name, Index target, Index vertex) {
+    if (rules.pins.contains(vertex)) return;
+    const auto of_group = of_groups.find({name, vertex});
+    const auto of_vertex = of_vertices.find(vertex);
+    if (of_group != of_groups.end()) {
+      to.set_target(id, target, of_group->second);
+    } else if (of_vertex != of_vertices.end()) {
+      to.set_target(id, target, of_vertex->second);
     }
-  }
-  for (const auto& [id, vertices] : held_by_groups(to)) {
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-      if (rules.pins.contains(vertices[i])) continue;
-      const auto of_group = of_groups.find({to.groups().at(id).name, vertices[i]});
-      const auto of_vertex = of_vertices.find(vertices[i]);
-      if (of_group != of_groups.end()) {
-        to.set_target(id, static_cast<Index>(i), of_group->second);
-      } else if (of_vertex != of_vertices.end()) {
-        to.set_target(id, static_cast<Index>(i), of_vertex->second);
-      }
-    }
-  }
+  });
 }
 
 }  // namespace
-
-std::vector<std::pair<GroupId, std::vector<Index>>> held_by_groups(const Simulation& simulation) {
-  std::vector<std::pair<GroupId, std::vector<Index>>> list;
-  for (const auto& [id, group] : simulation.groups()) {
-    if (group.type != pliant::Position::info.name) continue;
-    std::vector<Index> vertices;
-    for (const auto& batch : group.set.batches) {
-      for (const std::span<const Index> some : {batch->pinned_vertices(), batch->stencil()}) {
-        vertices.insert(vertices.end(), some.begin(), some.end());
-      }
-    }
-    list.emplace_back(id, std::move(vertices));
-  }
-  return list;
-}
 
 void set_values(std::map<std::string, Vec3> values, Simulation& simulation) {
   const auto set = [&](const std::string& key, const Vec3& value) {

@@ -4,7 +4,6 @@
 #include <map>
 #include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "pliant_io/scene/scene.h"
@@ -30,8 +29,5 @@ void set_values(std::map<std::string, pliant::Vec3> values, pliant::Simulation& 
 /// and stiffnesses are those of `from`, and so are positions, velocities and time.
 /// @throws pliant::Error (input) where they have other bodies.
 void carry_over(const pliant::Scene& from, pliant::Scene& to, const NotCarried& rules);
-
-/// The vertices that groups of positions hold, in the order of each group's targets.
-std::vector<std::pair<pliant::GroupId, std::vector<Index>>> held_by_groups(const pliant::Simulation& simulation);
 
 }  // namespace pliant_viewer

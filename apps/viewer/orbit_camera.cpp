@@ -68,7 +68,7 @@ pliant_render::Viewpoint OrbitCamera::viewpoint(const pliant_render::Bounds& bou
 }
 
 pliant::Camera OrbitCamera::placed() const {
-  // Letters enough for what one can see, and no more.
+  // A tenth of a millimeter is more than can be seen.
   const auto rounded = [](const Vec3f& point) {
     return pliant::Vec3((point.cast<double>() * 1e4).array().round() / 1e4);
   };

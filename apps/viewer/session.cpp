@@ -7,6 +7,7 @@
 #include "pliant/constraints/drag.h"
 #include "pliant/constraints/position.h"
 #include "pliant/core/error.h"
+#include "pliant/simulation/held.h"
 
 namespace pliant_viewer {
 namespace {
@@ -200,14 +201,9 @@ std::vector<Slider> Session::sliders() const {
 std::optional<Session::Pin> Session::find_pin(Index vertex) const {
   for (const auto& [id, group] : scene_.simulation.groups()) {
     if (group.type != pliant::Position::info.name) continue;
-    Index first = 0;
-    for (const auto& batch : group.set.batches) {
-      for (const std::span<const Index> vertices : {batch->pinned_vertices(), batch->stencil()}) {
-        const auto found = std::ranges::find(vertices, vertex);
-        if (found != vertices.end()) return Pin{id, first + static_cast<Index>(found - vertices.begin())};
-        first += static_cast<Index>(vertices.size());
-      }
-    }
+    const std::vector<Index> vertices = vertices_of_pins(group);
+    const auto found = std::ranges::find(vertices, vertex);
+    if (found != vertices.end()) return Pin{id, static_cast<Index>(found - vertices.begin())};
   }
   return {};
 }

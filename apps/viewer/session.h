@@ -129,7 +129,7 @@ class Session {
   void note_release(Index vertex, const pliant::Group& group, const Pin& pin);
   bool is_hidden(pliant::GroupId group) const;
   void remember(Edit edit);
-  void take_old_values_of(const pliant::Simulation& at_start);
+  void take_old_values_of(const std::vector<Slider>& at_start);
   void go(const Edit& edit, const SceneChanges& from, const SceneChanges& to);
   pliant::Scene read_changed(pliant::SceneText text) const;
   pliant::Scene make_with(const SceneChanges& changes, const UnchangedScene& unchanged) const;

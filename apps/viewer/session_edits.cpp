@@ -243,9 +243,9 @@ void Session::redo() {
 
 /// A value that was changed while time went on was changed from what an event had made of it; from the start on it is
 /// changed from the scene's own.
-void Session::take_old_values_of(const pliant::Simulation& at_start) {
+void Session::take_old_values_of(const std::vector<Slider>& at_start) {
   std::map<std::string, pliant::Vec3> values;
-  for (const Slider& slider : list_sliders(at_start)) values[slider.key] = slider.parameter.value;
+  for (const Slider& slider : at_start) values[slider.key] = slider.parameter.value;
   for (std::vector<Edit>* edits : {&done_, &undone_}) {
     for (Edit& edit : *edits) {
       for (auto& [key, old] : edit.old_values) {
@@ -258,14 +258,16 @@ void Session::take_old_values_of(const pliant::Simulation& at_start) {
 void Session::restart(bool keep_changes) {
   pliant::Scene scene = make_();
   UnchangedScene unchanged(scene);
-  if (keep_changes) take_old_values_of(scene.simulation);
+  const std::vector<Slider> at_start = list_sliders(scene.simulation);
   if (keep_changes && !changes_.is_empty()) {
     pliant::Scene changed = make_with(changes_, unchanged);
     changed.name = scene.name;
     changed.view = scene.view;
     scene = std::move(changed);
   }
-  if (!keep_changes) {
+  if (keep_changes) {
+    take_old_values_of(at_start);
+  } else {
     changes_ = saved_changes_ = {};
     done_.clear();
     undone_.clear();
@@ -283,8 +285,7 @@ void Session::restart(bool keep_changes) {
 std::vector<std::filesystem::path> Session::save(const std::filesystem::path& file, const pliant::ViewSettings& view) {
   namespace fs = std::filesystem;
   if (!unchanged_.has_text()) {
-    pliant::fail_input(
-        "a scene that was made by a program has no text that could be saved; write one, see `pliant scenes`");
+    pliant::fail_input("this scene was made by a program, not read from a scene file, so it cannot be saved as one");
   }
   const fs::path folder = file.parent_path();
   const auto text_of_file = [&](const pliant::SceneDocument& document) {
@@ -317,7 +318,7 @@ std::vector<std::filesystem::path> Session::save(const std::filesystem::path& fi
   }
   take(std::move(next));
   saved_changes_ = changes_;
-  if (!unwritten.empty()) note_ = "not in the file: " + unwritten.front() + ", which a scene file has no key for";
+  if (!unwritten.empty()) note_ = "not saved: " + unwritten.front() + "; a scene file has no key for it";
   return files;
 }
 

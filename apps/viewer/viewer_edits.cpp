@@ -46,7 +46,7 @@ void Viewer::redo() {
     live->post([](CommandContext& context) {
       const std::string what = context.session.redone_next();
       context.session.redo();
-      context.message = what.empty() ? "nothing to redo" : "done again: " + what;
+      context.message = what.empty() ? "nothing to redo" : "redone: " + what;
     });
   }
 }
@@ -75,8 +75,7 @@ void Viewer::open(const std::string& what) {
   const LiveScene* live = source_.live();
   if (live != nullptr && live->shown().has_unsaved_changes && refused_ != what) {
     refused_ = what;
-    return say(
-        "this scene has changes that are not saved: Ctrl + S saves them; open the other one once more to lose them");
+    return say("this scene has unsaved changes: Ctrl + S saves them; open the other one again to discard them");
   }
   waits_ = what;
   waits_turns_ = 2;
@@ -102,9 +101,9 @@ void Viewer::draw_edit_buttons(float width) {
     explain(help);
     return is_pressed;
   };
-  if (button("Undo", !shown.undone_next.empty(), "Ctrl + Z: take back the last change, " + shown.undone_next)) undo();
+  if (button("Undo", !shown.undone_next.empty(), "Ctrl + Z: undo " + shown.undone_next)) undo();
   ImGui::SameLine();
-  if (button("Redo", !shown.redone_next.empty(), "Ctrl + Shift + Z: do again, " + shown.redone_next)) redo();
+  if (button("Redo", !shown.redone_next.empty(), "Ctrl + Shift + Z: redo " + shown.redone_next)) redo();
   ImGui::SameLine();
   if (button("Save", true,
              "Ctrl + S: the scene with its changes and this view, and a checkpoint of this moment;\n"

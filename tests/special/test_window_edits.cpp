@@ -141,10 +141,10 @@ TEST_CASE("what is dropped onto the window is opened, and what is wrong with it 
   std::vector<std::string> opened;
   Desk desk(read_sheet, 1, [&](const std::string& what) {
     opened.push_back(what);
-    return what == "good.json" ? "" : what + ": this is no scene";
+    return what == "good.json" ? "" : what + ": not a scene";
   });
   drop(desk, {"/tmp/some folder/notes.txt", "good.json"});  // the first one counts
-  desk.turn_until([&] { return desk.viewer.message() == "/tmp/some folder/notes.txt: this is no scene"; });
+  desk.turn_until([&] { return desk.viewer.message() == "/tmp/some folder/notes.txt: not a scene"; });
   const auto step = desk.shown().step;
   desk.turn_until([&] { return desk.shown().step > step; });
   drop(desk, {"good.json"});
@@ -189,7 +189,7 @@ TEST_CASE("changes that are not saved are lost only when asked for twice") {
   desk.click(desk.place(middle));
   desk.turn_until([&] { return desk.is_pinned(middle); });
   drop(desk, {"a.json"});
-  desk.turn_until([&] { return desk.viewer.message().find("not saved") != std::string::npos; });
+  desk.turn_until([&] { return desk.viewer.message().find("unsaved") != std::string::npos; });
   desk.turns(5);
   CHECK(opened == 0);
   drop(desk, {"a.json"});

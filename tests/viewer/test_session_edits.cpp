@@ -78,7 +78,7 @@ TEST_CASE("to save changes nothing of what goes on") {
   steps(session, 40);
   steps(other, 40);
   // The order of the groups, and with it rounding, may be another.
-  CHECK((positions(session) - positions(other)).cwiseAbs().maxCoeff() < 1e-6);
+  CHECK((positions(session) - positions(other)).cwiseAbs().maxCoeff() < 1e-12);
 }
 
 TEST_CASE("every change can be taken back and done again, one after the other, while time goes on") {
@@ -133,7 +133,7 @@ TEST_CASE("what is taken back leaves the motion of an undisturbed session") {
   steps(session, 60);
   steps(undisturbed, 60);
   // Vertex 72 was let go and is a pin again, where it was; vertex 80 has been under way all the time.
-  CHECK((positions(session) - positions(undisturbed)).cwiseAbs().maxCoeff() < 1e-6);
+  CHECK((positions(session) - positions(undisturbed)).cwiseAbs().maxCoeff() < 1e-12);
 }
 
 TEST_CASE("a slider that goes on is one change; a new change drops what could be done again") {
@@ -217,12 +217,11 @@ TEST_CASE("a session under a pull can be saved and taken back, and still pulls")
   session.pull_to(pull.target + Vec3f(0, 0.1F, 0));
   session.undo();
   steps(session, 60);
-  CHECK((place(session, 30) - pull.target).norm() < 0.2F);
+  CHECK((place(session, 30) - pull.target).norm() < 0.05F);
   session.let_go();
   session.step();
   // What the mouse held is in neither file.
-  CHECK(TemporaryFolder::read(folder.path() / "pull.json").find("drag\"") ==
-        TemporaryFolder::read(folder.path() / "pull.json").rfind("drag\""));
+  CHECK(TemporaryFolder::read(folder.path() / "pull.json").find(R"("type": "drag")") == std::string::npos);
   pliant::read_checkpoint(folder.path() / "pull.pliant").step();
 }
 

@@ -14,6 +14,16 @@ std::vector<char> held_vertices(const Simulation& simulation) {
   return held;
 }
 
+std::vector<Index> vertices_of_pins(const Group& group) {
+  std::vector<Index> vertices;
+  for (const auto& batch : group.set.batches) {
+    for (const std::span<const Index> some : {batch->pinned_vertices(), batch->stencil()}) {
+      vertices.insert(vertices.end(), some.begin(), some.end());
+    }
+  }
+  return vertices;
+}
+
 bool is_held(const Body& body, const std::vector<char>& held) {
   const auto first = held.begin() + body.first_vertex;
   return std::all_of(first, first + body.mesh.vertex_count(), [](char each) { return each != 0; });

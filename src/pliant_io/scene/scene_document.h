@@ -26,7 +26,7 @@ class SceneDocument {
   SceneDocument& operator=(SceneDocument other) noexcept;
 
   // Paths are as those of SceneOverrides::set, "bodies[0].constraints[bend].stiffness"; Scene::places has some. Values
-  // are JSON. What leads nowhere and what is no JSON throws Error(input).
+  // are JSON. A path that leads nowhere and a value that is not JSON throw Error(input).
 
   /// The value there; "" where there is none.
   std::string get(std::string_view path) const;

@@ -1,6 +1,7 @@
 // Events are read in the order in which they act, since each may refer to what the ones before it leave.
 #include <algorithm>
 
+#include "pliant/simulation/held.h"
 #include "pliant/simulation/transaction.h"
 #include "pliant_io/scene/detail/due_order.h"
 #include "pliant_io/scene/detail/option_reader.h"
@@ -317,7 +318,8 @@ Timeline::Edit EventReader::read_release(const Node& node) {
                           printable(name), type_of(entry.options)));
   }
   const Group& group = scene_.simulation.groups().at(find_group(scene_.simulation, name));
-  const std::vector<Index> pinned = pinned_vertices(scene_.simulation, group);
+  std::vector<Index> pinned = vertices_of_pins(group);
+  for (Index& vertex : pinned) vertex -= scene_.simulation.body(group.body).first_vertex;
   const std::string_view key = node_.require_one_of({"vertices", "index"});
   const std::vector<Index> released = key == "vertices"
                                           ? read_released(node_.require(key), scene_.body(entry.body), pinned)

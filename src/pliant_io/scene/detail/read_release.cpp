@@ -15,17 +15,6 @@ bool contains(const std::vector<Index>& sorted, Index number) {
 
 }  // namespace
 
-std::vector<Index> pinned_vertices(const Simulation& simulation, const Group& group) {
-  std::vector<Index> vertices;
-  for (const auto& batch : group.set.batches) {
-    const std::span<const Index> pinned =
-        batch->pinned_vertices().empty() ? batch->stencil() : batch->pinned_vertices();
-    vertices.insert(vertices.end(), pinned.begin(), pinned.end());
-  }
-  for (Index& vertex : vertices) vertex -= simulation.body(group.body).first_vertex;
-  return vertices;
-}
-
 std::vector<Index> read_released(const Node& node, const SceneBody& body, const std::vector<Index>& pinned) {
   Selection selection = read_selection(node, body);
   if (selection.everything) return pinned;

@@ -8,8 +8,7 @@
 
 namespace pliant {
 
-/// The vertices that a group of positions holds, with the indices of its body, in the order of its targets.
-std::vector<Index> pinned_vertices(const Simulation& simulation, const Group& group);
+// `pinned`: the vertices that a group of positions holds, with the indices of its body, in the order of its targets.
 
 /// Which of these a selection holds; of a list, all of them must be there.
 std::vector<Index> read_released(const Node& node, const SceneBody& body, const std::vector<Index>& pinned);
