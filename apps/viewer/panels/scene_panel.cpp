@@ -32,8 +32,9 @@ std::optional<std::string> ScenePanel::draw(const Vec2f& picture, const PanelSty
   const ImGuiStyle& spaces = ImGui::GetStyle();
   const float button = ImGui::CalcTextSize("Close").x + 2 * spaces.FramePadding.x + 12 * style.unit;
   ImGui::SetNextItemWidth(-2 * (button + spaces.ItemSpacing.x));
-  const bool is_typed = ImGui::InputTextWithHint("##file", "name of a file or a folder", typed_.data(), typed_.size(),
-                                                 ImGuiInputTextFlags_EnterReturnsTrue);
+  const bool is_typed =
+      ImGui::InputTextWithHint("##file", "name of a file or a folder", typed_.data(), typed_.size(),
+                               ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
   ImGui::SameLine();
   const bool is_pressed = ImGui::Button("Open", {button, 0});
   ImGui::SameLine();
