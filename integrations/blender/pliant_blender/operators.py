@@ -1,0 +1,178 @@
+"""The buttons."""
+
+import time
+
+import bpy
+
+from . import bake as baking
+from . import baked_files
+
+_at_work = None  # the bake that is going on, or None
+
+
+def at_work():
+    """The bake that is going on, or None."""
+    return _at_work
+
+
+class _Baking:
+    """What Bake and Resume have in common: in the window with progress and Escape, in a script until it is done."""
+
+    resumes = False
+
+    @classmethod
+    def poll(cls, context):
+        return _at_work is None and context.mode in {"OBJECT", "EDIT_MESH"}
+
+    def execute(self, context):
+        bake = baking.Bake(context, self.resumes)
+        try:
+            while not bake.is_done:
+                bake.advance()
+                time.sleep(0.001)
+        except baking.BakeError as error:
+            return self._failed(context, error)
+        except KeyboardInterrupt:
+            bake.abandon()
+            raise
+        return self._succeeded(context, bake)
+
+    def invoke(self, context, _event):
+        global _at_work
+        if bpy.app.background:
+            return self.execute(context)
+        _at_work = self._bake = baking.Bake(context, self.resumes)
+        self._timer = context.window_manager.event_timer_add(0.1, window=context.window)
+        context.window_manager.modal_handler_add(self)
+        context.window_manager.progress_begin(0, 100)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context, event):
+        if event.type == "ESC" and event.value == "PRESS":
+            self._bake.stop()
+        elif event.type != "TIMER":
+            return {"PASS_THROUGH"}
+        try:
+            if not self._bake.is_done:
+                self._bake.advance()
+        except baking.BakeError as error:
+            return self._failed(context, error)
+        finally:
+            if self._bake.is_done:
+                self._end(context)
+        if self._bake.is_done:
+            return self._succeeded(context, self._bake)
+        context.window_manager.progress_update(int(100 * self._bake.share))
+        context.workspace.status_text_set(f"Pliant: {self._bake.text}     Esc: stop, and keep what is there")
+        _redraw(context)
+        return {"RUNNING_MODAL"} if event.type == "ESC" else {"PASS_THROUGH"}
+
+    def cancel(self, context):
+        self._bake.abandon()
+        self._end(context)
+
+    def _end(self, context):
+        global _at_work
+        _at_work = None
+        context.window_manager.event_timer_remove(self._timer)
+        context.window_manager.progress_end()
+        context.workspace.status_text_set(None)
+        _redraw(context)
+
+    def _failed(self, context, error):
+        context.scene.pliant.messages = str(error)
+        self.report({"ERROR"}, str(error))
+        return {"CANCELLED"}
+
+    def _succeeded(self, context, bake):
+        if not bake.is_baked:
+            self.report({"INFO"}, "Pliant: stopped before a frame was simulated")
+            return {"CANCELLED"}
+        settings = context.scene.pliant
+        for line in settings.messages.splitlines():
+            self.report({"WARNING"}, line)
+        self.report({"INFO"}, f"Pliant: baked frames {settings.baked_from} to {settings.baked_to}")
+        return {"FINISHED"}
+
+
+def _redraw(context):
+    for window in context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type in {"PROPERTIES", "VIEW_3D"}:
+                area.tag_redraw()
+
+
+class PliantBake(_Baking, bpy.types.Operator):
+    """Simulate all cloth and soft bodies of the scene, from its first frame to its last one"""
+
+    bl_idname = "pliant.bake"
+    bl_label = "Bake"
+    bl_options = {"REGISTER", "UNDO"}
+
+
+class PliantResume(_Baking, bpy.types.Operator):
+    """Go on where the bake was stopped, or up to a later last frame, with the settings that it began with"""
+
+    bl_idname = "pliant.resume"
+    bl_label = "Resume"
+    bl_options = {"REGISTER", "UNDO"}
+    resumes = True
+
+    @classmethod
+    def poll(cls, context):
+        settings = context.scene.pliant
+        return super().poll(context) and settings.baked_from <= settings.baked_to < context.scene.frame_end
+
+
+class PliantStop(bpy.types.Operator):
+    """End the bake, and keep the frames that it has"""
+
+    bl_idname = "pliant.stop"
+    bl_label = "Stop"
+
+    @classmethod
+    def poll(cls, _context):
+        return _at_work is not None
+
+    def execute(self, _context):
+        _at_work.stop()
+        return {"FINISHED"}
+
+
+class PliantFree(bpy.types.Operator):
+    """Remove the bake and its files"""
+
+    bl_idname = "pliant.free"
+    bl_label = "Free"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, _context):
+        return _at_work is None
+
+    def execute(self, context):
+        folder, _ = baked_files.folder_of(context.scene)
+        bake = baked_files.read_bake(folder)
+        names = [entry["name"] for entry in bake["objects"]] if bake else []
+        for obj in context.scene.objects:
+            if obj.name in names or obj.pliant.role in {"CLOTH", "SOLID"}:
+                baked_files.silence(obj)
+        baked_files.remove(folder)
+        settings = context.scene.pliant
+        settings.baked_from, settings.baked_to, settings.planned_to, settings.messages = 0, -1, -1, ""
+        return {"FINISHED"}
+
+
+CLASSES = (PliantBake, PliantResume, PliantStop, PliantFree)
+
+
+def register():
+    for each in CLASSES:
+        bpy.utils.register_class(each)
+
+
+def unregister():
+    if _at_work is not None:
+        _at_work.abandon()
+    for each in reversed(CLASSES):
+        bpy.utils.unregister_class(each)

@@ -1,0 +1,186 @@
+"""Where it is set: the physics tab of the properties, and the sidebar of the 3D view."""
+
+import textwrap
+
+import bpy
+
+from . import baked_files, operators, program
+
+def _material_of(settings):
+    """The numbers of the material that an object is made of; none where the program is not found."""
+    kind, name = ("sheet", settings.sheet) if settings.role == "CLOTH" else ("solid", settings.solid)
+    try:
+        return next((each for each in program.materials(kind) if each["name"] == name), {})
+    except program.ProgramError:
+        return {}
+
+
+def _own_value(layout, settings, switch, value, usual):
+    """A number that takes the place of the usual one, with its switch before it; else the usual one, a text."""
+    row = layout.row(heading=settings.bl_rna.properties[value].name, align=True)
+    row.prop(settings, switch, text="")
+    if getattr(settings, switch):
+        row.prop(settings, value, text="")
+    else:
+        row.label(text=usual)
+
+
+def _number(material, key, factor, unit):
+    return f"{material[key] * factor:.3g} {unit}".rstrip() if key in material else ""
+
+
+def draw_object(layout, obj):
+    """All that is set for an object."""
+    settings = obj.pliant
+    layout.use_property_split = True
+    layout.use_property_decorate = False
+    layout.prop(settings, "role")
+    if settings.role == "NONE":
+        return
+    if settings.role == "COLLIDER":
+        _own_value(layout, settings, "use_friction", "friction", "of what meets it")
+        return
+    column = layout.column()
+    material = _material_of(settings)
+    if settings.role == "CLOTH":
+        column.prop(settings, "sheet")
+        _own_value(column, settings, "use_weight", "weight", _number(material, "area_density", 1, "kg/m²"))
+        _own_value(column, settings, "use_bending", "bending", _number(material, "bending", 1e6, "µN·m"))
+    else:
+        column.prop(settings, "solid")
+        column.prop(settings, "spacing")
+        _own_value(column, settings, "use_weight", "density", _number(material, "density", 1, "kg/m³"))
+        _own_value(column, settings, "use_young", "young", _number(material, "young_modulus", 1e-3, "kPa"))
+    _own_value(column, settings, "use_friction", "friction", _number(material, "friction", 1, ""))
+    column.prop(settings, "use_self")
+    column = layout.column()
+    column.prop_search(settings, "pins", obj, "vertex_groups")
+    sub = column.column()
+    sub.active = bool(settings.pins)
+    sub.prop(settings, "pin_stiffness")
+    _draw_modifiers(layout, obj)
+
+
+def _draw_modifiers(layout, obj):
+    """Says which modifiers are simulated and which follow, where there are any."""
+    names = obj.modifiers.keys()
+    if baked_files.MODIFIER not in names:
+        return
+    place = names.index(baked_files.MODIFIER)
+    shown = [each for each in names if each == baked_files.MODIFIER or obj.modifiers[each].show_viewport]
+    before = [each for each in names[:place] if each in shown]
+    after = [each for each in names[place + 1 :] if each in shown]
+    if before:
+        layout.label(text="Simulated with: " + ", ".join(before), icon="MODIFIER")
+    if after:
+        layout.label(text="Added to the bake: " + ", ".join(after), icon="MODIFIER")
+
+
+def draw_bake(layout, context):
+    """The settings of the simulation as a whole, and its buttons."""
+    settings = context.scene.pliant
+    layout.use_property_split = True
+    layout.use_property_decorate = False
+    bake = operators.at_work()
+    column = layout.column()
+    column.enabled = bake is None
+    column.prop(settings, "steps")
+    column.prop(settings, "iterations")
+    column.prop(settings, "distance")
+    column.prop(settings, "folder")
+    if bake is not None:
+        if hasattr(layout, "progress"):  # since Blender 4.0
+            layout.progress(factor=bake.share, text=bake.text)
+        else:
+            layout.label(text=bake.text, icon="TIME")
+        layout.operator("pliant.stop", icon="CANCEL")
+        return
+    layout.operator("pliant.bake", icon="PHYSICS")
+    row = layout.row(align=True)
+    row.operator("pliant.resume", icon="PLAY")
+    row.operator("pliant.free", icon="TRASH")
+    if settings.baked_to >= settings.baked_from:
+        text = f"Frames {settings.baked_from} to {settings.baked_to} are baked"
+        if settings.planned_to > settings.baked_to:
+            text += f", of {settings.planned_to}"
+        layout.label(text=text, icon="CHECKMARK")
+    _draw_messages(layout, context)
+
+
+def _draw_messages(layout, context):
+    lines = context.scene.pliant.messages.splitlines()
+    try:
+        program.path()
+    except program.ProgramError as error:
+        lines = [str(error)]
+    if not lines:
+        return
+    scale = context.preferences.system.ui_scale
+    width = max(24, int((context.region.width / scale - 60) / 6.2))
+    box = layout.box().column(align=True)
+    for line in lines:
+        icon = "ERROR"
+        for part in textwrap.wrap(line, width, break_long_words=True):
+            box.label(text=part, icon=icon)
+            icon = "BLANK1"
+
+
+class _ObjectPanel:
+    bl_label = "Pliant"
+
+    @classmethod
+    def poll(cls, context):
+        return context.object is not None and context.object.type == "MESH"
+
+    def draw(self, context):
+        draw_object(self.layout, context.object)
+
+
+class _BakePanel:
+    bl_label = "Bake"
+
+    @classmethod
+    def poll(cls, context):
+        return context.scene is not None
+
+    def draw(self, context):
+        draw_bake(self.layout, context)
+
+
+class PLIANT_PT_physics(_ObjectPanel, bpy.types.Panel):
+    bl_space_type = "PROPERTIES"
+    bl_region_type = "WINDOW"
+    bl_context = "physics"
+
+
+class PLIANT_PT_physics_bake(_BakePanel, bpy.types.Panel):
+    bl_space_type = "PROPERTIES"
+    bl_region_type = "WINDOW"
+    bl_context = "physics"
+    bl_parent_id = "PLIANT_PT_physics"
+
+
+class PLIANT_PT_sidebar(_ObjectPanel, bpy.types.Panel):
+    bl_label = "Object"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Pliant"
+
+
+class PLIANT_PT_sidebar_bake(_BakePanel, bpy.types.Panel):
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Pliant"
+
+
+CLASSES = (PLIANT_PT_physics, PLIANT_PT_physics_bake, PLIANT_PT_sidebar, PLIANT_PT_sidebar_bake)
+
+
+def register():
+    for each in CLASSES:
+        bpy.utils.register_class(each)
+
+
+def unregister():
+    for each in reversed(CLASSES):
+        bpy.utils.unregister_class(each)
