@@ -1,4 +1,4 @@
-# Headers, library, program with its man page and completions, scenes and their schema, documents, and the package files
+# Headers, library, program with its man page and completions, the add-on for Blender, scenes and their schema, documents, and the package files
 # for find_package(pliant).
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
@@ -22,6 +22,7 @@ if(PLIANT_BUILD_CLI)
     DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions" RENAME pliant)
   install(FILES "${manual_dir}/_pliant" DESTINATION "${CMAKE_INSTALL_DATADIR}/zsh/site-functions")
   install(FILES "${manual_dir}/pliant.fish" DESTINATION "${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d")
+  install(FILES "${PLIANT_BLENDER_ADDON}" DESTINATION "${CMAKE_INSTALL_DATADIR}/pliant")
 endif()
 install(DIRECTORY ${header_folders}
   DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" FILES_MATCHING PATTERN "*.h" PATTERN "detail" EXCLUDE)

@@ -11,7 +11,7 @@ work="$(mktemp -d)"
 trap 'rm -rf "$work"' EXIT
 cmake --install "build/$preset" --prefix "$work/prefix" >"$work/install.log"
 for file in bin/pliant share/man/man1/pliant.1 share/bash-completion/completions/pliant \
-  share/zsh/site-functions/_pliant share/fish/vendor_completions.d/pliant.fish share/pliant/scene.schema.json \
+  share/zsh/site-functions/_pliant share/fish/vendor_completions.d/pliant.fish share/pliant/scene.schema.json share/pliant/pliant_blender.zip \
   share/pliant/scenes/curtain.json share/doc/pliant/README.md share/doc/pliant/LICENSE share/doc/pliant/docs/scenes.md; do
   if [[ ! -s "$work/prefix/$file" ]]; then
     echo "check_install.sh: $file was not installed, or is empty; see cmake/install.cmake" >&2

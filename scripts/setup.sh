@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that Pliant is built from, those that are missing only.
 #   scripts/setup.sh         what building and testing need
-#   scripts/setup.sh --dev   and what clang builds, formatting, static analysis, benchmarks and the glTF validator need;
-#                            that one comes from npm and goes to node_modules/
+#   scripts/setup.sh --dev   and what clang builds, formatting, static analysis, benchmarks, the tests of the add-on for
+#                            Blender and the glTF validator need; that one comes from npm and goes to node_modules/
 set -euo pipefail
 
 packages=(
@@ -14,7 +14,7 @@ packages=(
   pybind11-dev assimp-utils xvfb xauth xdotool
 )
 dev_packages=(ccache man-db groff mandoc zsh fish clang clang-format clang-tidy git libclang-rt-14-dev libtinyobjloader-dev
-  librsvg2-bin mypy)
+  librsvg2-bin mypy blender)
 # Whoever has them from elsewhere could not install Debian's beside them.
 command -v node >/dev/null || dev_packages+=(nodejs)
 command -v npm >/dev/null || dev_packages+=(npm)

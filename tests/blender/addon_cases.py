@@ -342,6 +342,32 @@ class Touching(AddonCase):
         self.bake()
         self.assertAlmostEqual(world_positions(sheet, 24)[:, 2].mean(), 0.03, delta=1e-3)
 
+    def test_what_is_hidden_by_its_eye_takes_part_and_what_is_disabled_does_not(self):
+        floor = add_grid("Floor", cells=1, size=20)
+        floor.pliant.role = "COLLIDER"
+        floor.hide_set(True)
+        sheet = add_grid(location=(0, 0, 0.05), size=0.4)
+        sheet.pliant.role = "CLOTH"
+        self.bake()
+        self.assertTrue(floor.hide_get())
+        self.assertGreater(world_positions(sheet, 12)[:, 2].min(), 0)
+        for switch in (lambda: setattr(floor, "hide_viewport", True), self.disable_collection_of(floor)):
+            switch()
+            self.bake()
+            self.assertLess(world_positions(sheet, 12)[:, 2].max(), -0.5)
+            floor.hide_viewport = False
+
+    @staticmethod
+    def disable_collection_of(obj):
+        def switch():
+            collection = bpy.data.collections.new("Off")
+            bpy.context.scene.collection.children.link(collection)
+            bpy.context.collection.objects.unlink(obj)
+            collection.objects.link(obj)
+            collection.hide_viewport = True
+
+        return switch
+
     def test_two_simulated_objects_meet(self):
         lower = add_grid("Lower", location=(0, 0, 0.3), size=1)
         lower.pliant.role = "CLOTH"
@@ -538,6 +564,33 @@ class StopAndGoOn(AddonCase):
         self.assertEqual(self.scene.pliant.baked_to, 40)
         self.assertEqual(self.bytes_of(self.sheet), whole)
 
+    def test_a_bake_whose_program_was_killed_goes_on_to_the_same_bytes(self):
+        """As after a crash of the machine: nothing of it is known but its files."""
+        self.bake()
+        whole = self.bytes_of(self.sheet)
+        bpy.ops.pliant.free()
+        bake = baking.Bake(bpy.context, resumes=False)
+        checkpoint = os.path.join(self.bake_folder(), "run", "checkpoint.pliant")
+        while not os.path.exists(checkpoint):
+            bake.advance()
+        bake._run._process.kill()
+        with self.assertRaises(baking.BakeError):
+            while not bake.is_done:
+                bake.advance()
+        self.assertEqual(self.scene.pliant.baked_to, -1)
+        self.assertTrue(bpy.ops.pliant.resume.poll())
+        self.assertEqual(bpy.ops.pliant.resume(), {"FINISHED"})
+        self.assertEqual(self.bytes_of(self.sheet), whole)
+
+    def test_another_scene_is_looked_at_when_it_ends(self):
+        bake = baking.Bake(bpy.context, resumes=False)
+        while bake.is_reading:
+            bake.advance()
+        bpy.context.window.scene = bpy.data.scenes.new("Other")
+        while not bake.is_done:
+            bake.advance()
+        self.assertEqual((self.scene.pliant.baked_to, bpy.context.scene.pliant.baked_to), (40, -1))
+
     def test_stopping_while_the_animation_is_read_changes_nothing(self):
         bake = baking.Bake(bpy.context, resumes=False)
         next(bake._parts)
@@ -616,6 +669,29 @@ class StopAndGoOn(AddonCase):
 
 
 class Package(unittest.TestCase):
+    def test_the_file_that_is_installed_has_all_of_it(self):
+        """In a Blender of its own, with nothing else to find it by."""
+        packed = os.environ["PLIANT_BLENDER_ADDON"]
+        with tempfile.TemporaryDirectory() as folder:
+            lines = (
+                "import bpy",
+                f"bpy.ops.preferences.addon_install(filepath={packed!r})",
+                "bpy.ops.preferences.addon_enable(module='pliant_blender')",
+                "import pliant_blender, bpy",
+                f"assert pliant_blender.__file__.startswith({folder!r}), pliant_blender.__file__",
+                f"bpy.context.preferences.addons['pliant_blender'].preferences.program = {PLIANT!r}",
+                "bpy.data.objects['Cube'].pliant.role = 'CLOTH'",
+                "bpy.context.scene.frame_end = 3",
+                "assert bpy.ops.pliant.bake() == {'FINISHED'}",
+            )
+            command = [bpy.app.binary_path, "--background", "--factory-startup", "--python-exit-code", "1"]
+            environment = os.environ | {"BLENDER_USER_SCRIPTS": folder}
+            done = subprocess.run(
+                [*command, "--python-expr", "\n".join(lines)],
+                env=environment, capture_output=True, text=True, check=False,
+            )  # fmt: skip
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
     def test_it_can_be_switched_off_and_on(self):
         for _ in range(2):
             addon_utils.disable("pliant_blender", default_set=True)

@@ -19,6 +19,7 @@ class Bake:
     """A bake at work. `advance` until `is_done`."""
 
     def __init__(self, context, resumes):
+        self._scene_name = context.scene.name  # another one may be looked at by the time that it ends
         self.is_done = False
         self.text = ""
         self.share = 0.0
@@ -26,6 +27,22 @@ class Bake:
         self._run = None
         self._folder, self._is_kept = baked_files.folder_of(context.scene)
         self._parts = self._all_parts(context, resumes)
+
+    @property
+    def settings(self):
+        """Those of the scene that is baked."""
+        return self._scene().pliant
+
+    @property
+    def is_reading(self):
+        """Whether the scene is being read, so that it must stay as it is."""
+        return self._run is None
+
+    def _scene(self):
+        scene = bpy.data.scenes.get(self._scene_name)
+        if scene is None:
+            raise BakeError(f'The scene "{self._scene_name}" is gone')
+        return scene
 
     def advance(self):
         """Works for a moment. Raises BakeError where it cannot go on; then it is done as well."""
@@ -75,7 +92,7 @@ class Bake:
         self.text = "Writing the cache"
         for _ in baked_files.write_caches(self._folder, bake):
             yield False
-        self._play(context.scene, bake)
+        self._play(self._scene(), bake)
 
     def _what_to_resume(self, scene):
         bake = baked_files.read_bake(self._folder)
@@ -110,7 +127,7 @@ class Bake:
             raise BakeError(messages[-1] if messages else "The program ended without a word")
         if not self._is_kept:
             messages.append("The file is not saved, so the bake goes when Blender ends; save it and bake again")
-        bpy.context.scene.pliant.messages = "\n".join(messages)
+        self.settings.messages = "\n".join(messages)
 
     def _frames_done(self):
         recorded = baked_files.recorded_frames(self._folder)

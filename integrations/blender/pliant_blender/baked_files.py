@@ -97,6 +97,11 @@ def extend(folder, bake, last_frame):
     write_json(os.path.join(folder, BAKE), bake)
 
 
+def can_go_on(scene):
+    """Whether the program has left what it goes on from."""
+    return os.path.isfile(os.path.join(folder_of(scene)[0], RUN, "checkpoint.pliant"))
+
+
 def recorded_frames(folder):
     """The positions that the program has recorded so far [m], frames x vertices x 3; None before the first frame."""
     try:

@@ -64,13 +64,11 @@ class ExportedObject:
         return bool(np.any(np.abs(self.moving - self.moving[0]) > STILL))
 
 
-def objects_of(context):
-    """The objects that take part: those with a type, unless they are disabled in viewports."""
-    return [
-        obj
-        for obj in context.view_layer.objects
-        if obj.type == "MESH" and obj.pliant.role != "NONE" and not obj.hide_viewport
-    ]
+def takes_part(obj):
+    """Whether an object is simulated or met: with a type, and not disabled in viewports, it or its collection."""
+    if obj.type != "MESH" or obj.pliant.role == "NONE" or obj.hide_viewport:
+        return False
+    return obj.visible_get() or (obj.hide_get() and not all(each.hide_viewport for each in obj.users_collection))
 
 
 def unit_of(scene):
@@ -81,25 +79,29 @@ def unit_of(scene):
 
 @contextlib.contextmanager
 def _without_bakes(objects):
-    """Shows simulated objects as they are before their bake acts, without what stands behind it."""
-    hidden = []
+    """Shows what takes part, also what is hidden by its eye; what is simulated as it is before its bake acts, without
+    what stands behind that."""
+    switched_off = []
+    hidden = [obj.name for obj in objects if obj.hide_get()]
     try:
         for obj in objects:
-            if obj.mode == "EDIT":
-                obj.update_from_editmode()
+            obj.hide_set(False)
             if obj.pliant.role not in SIMULATED:
                 continue
             baked_files.prepare_modifier(obj, True)
             names = obj.modifiers.keys()
             for name in names[names.index(baked_files.MODIFIER) :]:
-                hidden.append((obj.name, name, obj.modifiers[name].show_viewport))
+                switched_off.append((obj.name, name, obj.modifiers[name].show_viewport))
                 obj.modifiers[name].show_viewport = False
         yield
     finally:
-        for obj_name, name, was_shown in hidden:
+        for obj_name, name, was_shown in switched_off:
             obj = bpy.data.objects.get(obj_name)
             if obj is not None and name in obj.modifiers:
                 obj.modifiers[name].show_viewport = was_shown
+        for name in hidden:
+            if name in bpy.data.objects:
+                bpy.data.objects[name].hide_set(True)
 
 
 @contextlib.contextmanager
@@ -379,7 +381,7 @@ def export(context, folder):
     """Writes everything into a folder. A generator that yields the share that is done, so that the window goes on;
     whatever it hides or moves is as before at its end. Raises ExportError."""
     scene = context.scene
-    objects = objects_of(context)
+    objects = [obj for obj in context.view_layer.objects if takes_part(obj)]
     if not any(obj.pliant.role in SIMULATED for obj in objects):
         raise ExportError("Nothing is simulated; set the type of an object to Cloth or Soft Body")
     if scene.frame_end <= scene.frame_start:

@@ -22,7 +22,10 @@ class _Baking:
 
     @classmethod
     def poll(cls, context):
-        return _at_work is None and context.mode in {"OBJECT", "EDIT_MESH"}
+        if context.mode.startswith("EDIT"):
+            cls.poll_message_set("Leave Edit Mode first")
+            return False
+        return _at_work is None
 
     def execute(self, context):
         bake = baking.Bake(context, self.resumes)
@@ -31,11 +34,11 @@ class _Baking:
                 bake.advance()
                 time.sleep(0.001)
         except baking.BakeError as error:
-            return self._failed(context, error)
+            return self._failed(bake, error)
         except KeyboardInterrupt:
             bake.abandon()
             raise
-        return self._succeeded(context, bake)
+        return self._succeeded(bake)
 
     def invoke(self, context, _event):
         global _at_work
@@ -51,21 +54,21 @@ class _Baking:
         if event.type == "ESC" and event.value == "PRESS":
             self._bake.stop()
         elif event.type != "TIMER":
-            return {"PASS_THROUGH"}
+            return {"RUNNING_MODAL"} if self._bake.is_reading else {"PASS_THROUGH"}
         try:
             if not self._bake.is_done:
                 self._bake.advance()
         except baking.BakeError as error:
-            return self._failed(context, error)
+            return self._failed(self._bake, error)
         finally:
             if self._bake.is_done:
                 self._end(context)
         if self._bake.is_done:
-            return self._succeeded(context, self._bake)
+            return self._succeeded(self._bake)
         context.window_manager.progress_update(int(100 * self._bake.share))
         context.workspace.status_text_set(f"Pliant: {self._bake.text}     Esc: stop, and keep what is there")
         _redraw(context)
-        return {"RUNNING_MODAL"} if event.type == "ESC" else {"PASS_THROUGH"}
+        return {"RUNNING_MODAL"} if event.type == "ESC" else {"PASS_THROUGH"}  # a timer is for others too
 
     def cancel(self, context):
         self._bake.abandon()
@@ -79,16 +82,16 @@ class _Baking:
         context.workspace.status_text_set(None)
         _redraw(context)
 
-    def _failed(self, context, error):
-        context.scene.pliant.messages = str(error)
+    def _failed(self, bake, error):
+        bake.settings.messages = str(error)
         self.report({"ERROR"}, str(error))
         return {"CANCELLED"}
 
-    def _succeeded(self, context, bake):
+    def _succeeded(self, bake):
         if not bake.is_baked:
             self.report({"INFO"}, "Pliant: stopped before a frame was simulated")
             return {"CANCELLED"}
-        settings = context.scene.pliant
+        settings = bake.settings
         for line in settings.messages.splitlines():
             self.report({"WARNING"}, line)
         self.report({"INFO"}, f"Pliant: baked frames {settings.baked_from} to {settings.baked_to}")
@@ -120,8 +123,8 @@ class PliantResume(_Baking, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        settings = context.scene.pliant
-        return super().poll(context) and settings.baked_from <= settings.baked_to < context.scene.frame_end
+        scene = context.scene
+        return super().poll(context) and scene.pliant.baked_to < scene.frame_end and baked_files.can_go_on(scene)
 
 
 class PliantStop(bpy.types.Operator):

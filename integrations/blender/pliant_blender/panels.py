@@ -4,7 +4,8 @@ import textwrap
 
 import bpy
 
-from . import baked_files, operators, program
+from . import baked_files, export, operators, program
+
 
 def _material_of(settings):
     """The numbers of the material that an object is made of; none where the program is not found."""
@@ -29,7 +30,7 @@ def _number(material, key, factor, unit):
     return f"{material[key] * factor:.3g} {unit}".rstrip() if key in material else ""
 
 
-def draw_object(layout, obj):
+def draw_object(layout, context, obj):
     """All that is set for an object."""
     settings = obj.pliant
     layout.use_property_split = True
@@ -37,8 +38,10 @@ def draw_object(layout, obj):
     layout.prop(settings, "role")
     if settings.role == "NONE":
         return
+    if not export.takes_part(obj):
+        layout.label(text="Disabled in viewports: takes no part", icon="ERROR")
     if settings.role == "COLLIDER":
-        _own_value(layout, settings, "use_friction", "friction", "of what meets it")
+        _own_value(layout, settings, "use_friction", "friction", "of the cloth")
         return
     column = layout.column()
     material = _material_of(settings)
@@ -58,10 +61,10 @@ def draw_object(layout, obj):
     sub = column.column()
     sub.active = bool(settings.pins)
     sub.prop(settings, "pin_stiffness")
-    _draw_modifiers(layout, obj)
+    _draw_modifiers(layout, context, obj)
 
 
-def _draw_modifiers(layout, obj):
+def _draw_modifiers(layout, context, obj):
     """Says which modifiers are simulated and which follow, where there are any."""
     names = obj.modifiers.keys()
     if baked_files.MODIFIER not in names:
@@ -71,9 +74,17 @@ def _draw_modifiers(layout, obj):
     before = [each for each in names[:place] if each in shown]
     after = [each for each in names[place + 1 :] if each in shown]
     if before:
-        layout.label(text="Simulated with: " + ", ".join(before), icon="MODIFIER")
+        _draw_text(layout.column(align=True), context, "Simulated with " + ", ".join(before), "MODIFIER")
     if after:
-        layout.label(text="Added to the bake: " + ", ".join(after), icon="MODIFIER")
+        _draw_text(layout.column(align=True), context, "Added to the bake: " + ", ".join(after), "MODIFIER")
+
+
+def _draw_text(layout, context, text, icon):
+    """In as many lines as it needs."""
+    width = max(24, int((context.region.width / context.preferences.system.ui_scale - 60) / 6.2))
+    for line in textwrap.wrap(text, width, break_long_words=True):
+        layout.label(text=line, icon=icon)
+        icon = "BLANK1"
 
 
 def draw_bake(layout, context):
@@ -82,29 +93,29 @@ def draw_bake(layout, context):
     layout.use_property_split = True
     layout.use_property_decorate = False
     bake = operators.at_work()
-    column = layout.column()
-    column.enabled = bake is None
-    column.prop(settings, "steps")
-    column.prop(settings, "iterations")
-    column.prop(settings, "distance")
-    column.prop(settings, "folder")
     if bake is not None:
         if hasattr(layout, "progress"):  # since Blender 4.0
             layout.progress(factor=bake.share, text=bake.text)
         else:
             layout.label(text=bake.text, icon="TIME")
         layout.operator("pliant.stop", icon="CANCEL")
-        return
-    layout.operator("pliant.bake", icon="PHYSICS")
-    row = layout.row(align=True)
-    row.operator("pliant.resume", icon="PLAY")
-    row.operator("pliant.free", icon="TRASH")
-    if settings.baked_to >= settings.baked_from:
-        text = f"Frames {settings.baked_from} to {settings.baked_to} are baked"
-        if settings.planned_to > settings.baked_to:
-            text += f", of {settings.planned_to}"
-        layout.label(text=text, icon="CHECKMARK")
-    _draw_messages(layout, context)
+    else:
+        layout.operator("pliant.bake", icon="PHYSICS")
+        row = layout.row(align=True)
+        row.operator("pliant.resume", icon="PLAY")
+        row.operator("pliant.free", icon="TRASH")
+        if settings.baked_to >= settings.baked_from:
+            text = f"Frames {settings.baked_from} to {settings.baked_to} are baked"
+            if settings.planned_to > settings.baked_to:
+                text += f", of {settings.planned_to}"
+            layout.label(text=text, icon="CHECKMARK")
+        _draw_messages(layout, context)
+    column = layout.column()
+    column.enabled = bake is None
+    column.prop(settings, "steps")
+    column.prop(settings, "iterations")
+    column.prop(settings, "distance")
+    column.prop(settings, "folder")
 
 
 def _draw_messages(layout, context):
@@ -115,14 +126,9 @@ def _draw_messages(layout, context):
         lines = [str(error)]
     if not lines:
         return
-    scale = context.preferences.system.ui_scale
-    width = max(24, int((context.region.width / scale - 60) / 6.2))
     box = layout.box().column(align=True)
     for line in lines:
-        icon = "ERROR"
-        for part in textwrap.wrap(line, width, break_long_words=True):
-            box.label(text=part, icon=icon)
-            icon = "BLANK1"
+        _draw_text(box, context, line, "ERROR")
 
 
 class _ObjectPanel:
@@ -133,7 +139,7 @@ class _ObjectPanel:
         return context.object is not None and context.object.type == "MESH"
 
     def draw(self, context):
-        draw_object(self.layout, context.object)
+        draw_object(self.layout, context, context.object)
 
 
 class _BakePanel:

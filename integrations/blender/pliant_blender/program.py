@@ -1,5 +1,6 @@
 """The program `pliant`: where it is, what it is made to do, and what it says."""
 
+import atexit
 import json
 import os
 import shutil
@@ -124,12 +125,17 @@ class Run:
         return [line.removeprefix("warning: ") for line in lines if line.strip()]
 
 
+@atexit.register
+def _stop_all():
+    for process in _running:
+        process.terminate()
+    _running.clear()
+
+
 def register():
     bpy.utils.register_class(PliantPreferences)
 
 
 def unregister():
-    for process in _running:
-        process.terminate()
-    _running.clear()
+    _stop_all()
     bpy.utils.unregister_class(PliantPreferences)
