@@ -12,5 +12,6 @@ if blender is None:
 cases = os.path.join(os.path.dirname(os.path.abspath(__file__)), "addon_cases.py")
 # Its own Python would load modules of the caller's; of the exit code it tells the script's only where it is asked to.
 environment = {key: value for key, value in os.environ.items() if not key.startswith("PYTHON")}
-command = [blender, "--background", "--factory-startup", "--python-exit-code", "1", "--python", cases, "--", *sys.argv[1:]]
+options = ["--background", "--factory-startup", "--python-exit-code", "1"]
+command = [blender, *options, "--python", cases, "--", *sys.argv[1:]]
 sys.exit(subprocess.run(command, env=environment, check=False).returncode)

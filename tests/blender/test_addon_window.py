@@ -15,8 +15,9 @@ environment = {key: value for key, value in os.environ.items() if not key.starts
 verdict = os.path.abspath("verdict.txt")
 if os.path.exists(verdict):
     os.remove(verdict)
-command = ["xvfb-run", "-a", "-s", "-screen 0 1280x800x24 -noreset", "blender", "--factory-startup", "--no-window-focus",
-           "--window-geometry", "0", "0", "1280", "800", "--python", cases, "--", verdict]  # fmt: skip
+display = ["xvfb-run", "-a", "-s", "-screen 0 1280x800x24 -noreset"]
+options = ["--factory-startup", "--no-window-focus", "--window-geometry", "0", "0", "1280", "800"]
+command = [*display, "blender", *options, "--python", cases, "--", verdict]
 try:
     subprocess.run(command, env=environment, check=False, timeout=400)
 except subprocess.TimeoutExpired:

@@ -1,5 +1,5 @@
-"""Drives the add-on in the window of Blender, a step at a tick of a timer. Run by test_addon_window.py, with the name of
-the file for the verdict behind --."""
+"""Drives the add-on in the window of Blender, a step at a tick of a timer. Run by test_addon_window.py, with the name
+of the file for the verdict behind --."""
 import os
 import shutil
 import subprocess

@@ -120,7 +120,8 @@ class Bake:
             self._run = program.Run("run", scene, "--out", folder, *every)
         while self._run.is_running():
             done = self._frames_done()
-            self.text, self.share = f"Frame {bake['first_frame'] + done} of {bake['first_frame'] + frames}", done / frames
+            self.text = f"Frame {bake['first_frame'] + done} of {bake['first_frame'] + frames}"
+            self.share = done / frames
             yield True
         messages = self._run.messages()
         if self._run.exit_code() not in WITH_FRAMES:

@@ -34,7 +34,7 @@ class ExportedObject:
         self.triangles = None
         self.hard = self.soft = None  # indices of pinned vertices
         self.matrices = []  # frame by frame
-        self.moving = np.zeros((1, 0, 3))  # what follows the animation, frame by frame [m]; in its file, if there is any
+        self.moving = np.zeros((1, 0, 3))  # what follows the animation, frame by frame [m]; in its file, if any does
 
     @property
     def is_simulated(self):

@@ -64,7 +64,12 @@ class PliantObject(bpy.types.PropertyGroup):
     )
     use_weight: BoolProperty(name="Own Weight", description="Take this weight in place of the material's")
     weight: FloatProperty(
-        name="Weight", description="Mass of a square meter of cloth, in kg", default=0.2, min=1e-4, soft_max=5, precision=3
+        name="Weight",
+        description="Mass of a square meter of cloth, in kg",
+        default=0.2,
+        min=1e-4,
+        soft_max=5,
+        precision=3,
     )
     density: FloatProperty(
         name="Density", description="Mass of a cubic meter, in kg", default=1000, min=0.1, soft_max=10000
@@ -81,7 +86,11 @@ class PliantObject(bpy.types.PropertyGroup):
     )
     use_young: BoolProperty(name="Own Stiffness", description="Take this stiffness in place of the material's")
     young: FloatProperty(
-        name="Stiffness", description="Young's modulus in kPa: silicone 50, foam 100", default=50, min=0.01, soft_max=10000
+        name="Stiffness",
+        description="Young's modulus in kPa: silicone 50, foam 100",
+        default=50,
+        min=0.01,
+        soft_max=10000,
     )
     spacing: FloatProperty(
         name="Spacing",
@@ -131,7 +140,7 @@ class PliantScene(bpy.types.PropertyGroup):
     )
     distance: FloatProperty(
         name="Distance",
-        description="How far from each other surfaces come to rest; 0: a quarter of the short edges of what is simulated",
+        description="How far from each other surfaces come to rest; 0: a quarter of the short edges of cloth and soft bodies",
         subtype="DISTANCE",
         default=0,
         min=0,
