@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike
 from ._error import Error as Error
 from ._own import OwnConstraint as OwnConstraint
 from ._own import OwnForce as OwnForce
+from ._picture import Picture as Picture
 from ._pliant import Mesh as Mesh
 from ._simulation import CONTACT_TYPE as CONTACT_TYPE
 from ._simulation import BodyId as BodyId

@@ -14,7 +14,7 @@ packages=(
   pybind11-dev assimp-utils xvfb xauth xdotool
 )
 dev_packages=(ccache man-db groff mandoc zsh fish clang clang-format clang-tidy git libclang-rt-14-dev libtinyobjloader-dev
-  librsvg2-bin mypy blender)
+  librsvg2-bin mypy blender python3-matplotlib)
 # Whoever has them from elsewhere could not install Debian's beside them.
 command -v node >/dev/null || dev_packages+=(nodejs)
 command -v npm >/dev/null || dev_packages+=(npm)

@@ -13,6 +13,7 @@
 #include "interrupts.h"
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
+#include "pliant_io/checkpoint/checkpoint.h"
 #include "pliant_io/files/atomic_file.h"
 #include "render/clip.h"
 #include "render/film_writer.h"
@@ -71,8 +72,21 @@ std::int64_t steps_a_frame(const pliant::Scene& scene, std::int64_t fps) {
   return std::max<std::int64_t>(1, std::llround(std::min(steps, 1e15)));
 }
 
+/// By itself a checkpoint is one moment.
+pliant::Scene open_checkpoint(const RenderArguments& arguments) {
+  const std::optional<std::int64_t> steps = arguments.overrides.steps;
+  check_checkpoint(arguments, "change the scene file, and run it");
+  if (!steps && !is_picture(arguments)) {
+    pliant::fail_input("a checkpoint is one moment; give --out a .png, or --steps up to which it goes on");
+  }
+  pliant::Scene scene =
+      pliant::read_checkpoint(arguments.scene, {.steps = steps, .threads = arguments.overrides.threads});
+  if (!steps) scene.steps = scene.simulation.state().step;
+  return scene;
+}
+
 Clip clip_of_scene(const RenderArguments& arguments) {
-  pliant::Scene scene = open_scene(arguments);
+  pliant::Scene scene = is_checkpoint(arguments) ? open_checkpoint(arguments) : open_scene(arguments);
   print_warnings(scene);
   if (!arguments.quiet) {
     fmt::print("{}", assumptions_text(arguments, scene));
@@ -263,7 +277,7 @@ void add_render_command(CLI::App& program, int& exit_code) {
   CLI::App* command =
       program.add_subcommand("render", "Make a picture or a film of a scene or a run, without a display");
   const auto arguments = std::make_shared<RenderArguments>();
-  add_scene_arguments(*command, *arguments, scene_or_run_help);
+  add_scene_arguments(*command, *arguments, std::string(scene_or_run_help) + ", or a checkpoint (.pliant)");
   command->add_option("--out", arguments->out, "Film (.mp4, .webm, .gif) or picture (.png)")
       ->type_name("FILE")
       ->required();
@@ -284,6 +298,7 @@ void add_render_command(CLI::App& program, int& exit_code) {
       "  pliant render curtain_wind --out curtain.mp4\n"
       "  pliant render torus --out torus.png --frames 9 --sheet\n"
       "  pliant render out/flag --out flag.webm --color stretch --size 1920x1080\n"
+      "  pliant render out/flag/checkpoint.pliant --out now.png\n"
       "  pliant render pillow --out pillow.webm --turntable");
   command->callback([arguments, &exit_code] { exit_code = render(*arguments); });
 }

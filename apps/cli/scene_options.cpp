@@ -83,6 +83,20 @@ bool is_mesh(const SceneArguments& arguments) {
          !fs::is_directory(arguments.scene, ignored);
 }
 
+bool is_checkpoint(const SceneArguments& arguments) {
+  return fs::path(arguments.scene).extension() == ".pliant";
+}
+
+void check_checkpoint(const SceneArguments& arguments, const std::string& remedy) {
+  const pliant::SceneOverrides& overrides = arguments.overrides;
+  if (!is_checkpoint(arguments)) return;
+  if (overrides.set.empty() && !overrides.time_step && !overrides.iterations && !overrides.tolerance &&
+      !overrides.backend) {
+    return;
+  }
+  pliant::fail_input("--set and the like: a checkpoint goes on as it was; " + remedy);
+}
+
 void check_import(const SceneArguments& arguments) {
   const pliant::ImportOptions plain;
   const bool is_placed =

@@ -34,6 +34,12 @@ void check_import(const SceneArguments& arguments);
 /// Whether the scene is a mesh file, to be simulated by itself.
 bool is_mesh(const SceneArguments& arguments);
 
+/// Whether the scene is a checkpoint, to go on from.
+bool is_checkpoint(const SceneArguments& arguments);
+
+/// Refuses --set and the settings for a checkpoint, which goes on as it was; `remedy` says where they can be changed.
+void check_checkpoint(const SceneArguments& arguments, const std::string& remedy);
+
 /// A file where there is one of that name, a mesh among them (make_mesh_scene), else a built-in scene; a folder hides
 /// none.
 pliant::Scene open_scene(const SceneArguments& arguments);

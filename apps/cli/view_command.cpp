@@ -35,18 +35,10 @@ struct ViewArguments : AppearanceArguments {
   bool is_paused = false;  ///< begin paused
 };
 
-bool is_checkpoint(const ViewArguments& arguments) {
-  return fs::path(arguments.scene).extension() == ".pliant";
-}
-
 void check(const ViewArguments& arguments) {
   check_import(arguments);
-  const pliant::SceneOverrides& overrides = arguments.overrides;
-  if (is_checkpoint(arguments) && (!overrides.set.empty() || overrides.time_step || overrides.iterations)) {
-    pliant::fail_input(
-        "--set and the like: a checkpoint goes on as it was; change it in the window, or its scene file");
-  }
-  if (overrides.steps) pliant::fail_input("--steps: a window goes on until it is closed; leave it out");
+  check_checkpoint(arguments, "change it in the window, or its scene file");
+  if (arguments.overrides.steps) pliant::fail_input("--steps: a window goes on until it is closed; leave it out");
 }
 
 /// A driver that draws with the processor and the simulation each leave one to the other, unless their user has said

@@ -9,6 +9,7 @@ from typing import List as _List
 from . import _pliant
 from ._error import Error
 from ._own import OwnConstraint, OwnForce
+from ._picture import Picture
 from ._pliant import Mesh
 from ._simulation import (CLASSES, CONTACT_TYPE, BodyId, ColliderId, Evaluation, ForceId, GroupId, Scene, Simulation,
                           StepReport, load_checkpoint, open_scene)

@@ -13,6 +13,7 @@ import numpy as np
 from . import _pliant
 from ._error import Error
 from ._own import OwnConstraint, OwnForce
+from ._picture import Picture, picture_of
 from ._pliant import Mesh
 from ._types import TYPES, ColliderOptions, ConstraintOptions, ForceOptions, Options, make_classes
 
@@ -22,6 +23,8 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
 
 CLASSES = make_classes()
+
+SCENE_NAMES = {name: described["scene_name"] for name, described in TYPES.items()}
 
 CONTACT_TYPE = np.dtype([("vertex", "i4"), ("collider", "i4"), ("point", "f8", 3), ("normal", "f8", 3),
                          ("distance", "f8"), ("force", "f8", 3), ("friction_power", "f8")])
@@ -249,6 +252,10 @@ class Simulation:
         """Where a collider is [m], and its rotation as a quaternion (w, x, y, z)."""
         return self._made.pose(collider._collider)
 
+    def collider_surface(self, collider: ColliderId, size: float = 10.0) -> Mesh:
+        """The surface of a collider where it is now, for pictures: of one without end what is within ``size`` [m]."""
+        return self._made.collider_surface(collider._collider, size)
+
     def set_target(self, collider: ColliderId, position: Sequence[float],
                    rotation: Optional[Sequence[float]] = None) -> None:
         """Where the next step takes a collider [m], with a rotation (w, x, y, z)."""
@@ -374,6 +381,17 @@ class Simulation:
             total = total + sparse.coo_matrix((blocks.ravel(), (rows.ravel(), columns.ravel())), (size, size)).tocsr()
         return total
 
+    def picture(self, *, size: Tuple[int, int] = (640, 400), color: str = "none", program: str = "pliant") -> Picture:
+        """What it looks like now, which notebooks show; they show a simulation itself likewise.
+
+        By the program ``pliant``, with ``color`` "none", "stretch" or "speed"; where that is not found, or is "", a
+        plain drawing. ``size`` is in pixels.
+        """
+        return picture_of(self, SCENE_NAMES, None, size, color, program)
+
+    def _repr_mimebundle_(self, **_: Any) -> Dict[str, Any]:
+        return {"text/plain": repr(self), **self.picture()._repr_mimebundle_()}
+
     def __repr__(self) -> str:
         return (f"<pliant.Simulation: {self._made.body_count()} bodies, {len(self.positions)} vertices, "
                 f"{len(self._made.groups())} groups, {self.time:.6g} s>")
@@ -440,6 +458,16 @@ class Scene:
             self._made.save(place)
             with open(place, "rb") as file:
                 return file.read()
+
+    def picture(self, *, size: Tuple[int, int] = (640, 400), color: str = "none", program: str = "pliant") -> Picture:
+        """What it looks like now, with the view of the scene; see Simulation.picture.
+
+        ``color`` may be "energy", "gap" and "contact_force" as well.
+        """
+        return picture_of(self.simulation, SCENE_NAMES, self, size, color, program)
+
+    def _repr_mimebundle_(self, **_: Any) -> Dict[str, Any]:
+        return {"text/plain": repr(self), **self.picture()._repr_mimebundle_()}
 
     def __repr__(self) -> str:
         return f"<pliant.Scene {self.name!r}: step {self.simulation.steps_taken} of {self.steps}>"

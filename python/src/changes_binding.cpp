@@ -1,4 +1,6 @@
 // Changes between steps.
+#include <cmath>
+
 #include <pybind11/stl.h>
 
 #include "bindings.h"
@@ -37,6 +39,20 @@ py::tuple pose(const Handle& handle, Index number) {
   const pliant::Pose& found = handle.now().pose(ColliderId{number});
   const pliant::Quaternion& q = found.rotation;
   return py::make_tuple(to_python(found.position), py::make_tuple(q.w(), q.x(), q.y(), q.z()));
+}
+
+/// In the coordinates of the simulation; what has no end up to `size` [m].
+pliant::Mesh collider_surface(const Handle& handle, Index number, double size) {
+  if (!(size > 0) || !std::isfinite(size)) {
+    pliant::fail_input("size: " + std::to_string(size) + " is out of range; give one above 0 [m]");
+  }
+  const pliant::Pose& pose = handle.now().pose(ColliderId{number});
+  pliant::Mesh surface = handle.now().collider(ColliderId{number}).shape->surface(size);
+  for (Eigen::Index i = 0; i < surface.vertices.rows(); ++i) {
+    const pliant::Vec3 point = surface.vertices.row(i).transpose();
+    surface.vertices.row(i) = (pose.position + pose.rotation * point).transpose();
+  }
+  return surface;
 }
 
 void set_collider_target(Handle& handle, Index number, const std::array<double, 3>& position,
@@ -111,6 +127,7 @@ void bind_changes(Class& simulation) {
       .def("release", [](Handle& handle, Index number,
                          const std::vector<Index>& vertices) { handle.idle().release(GroupId{number}, vertices); })
       .def("pose", &pose)
+      .def("collider_surface", &collider_surface)
       .def("set_collider_target", &set_collider_target)
       .def("set_state", [](Handle& handle, py::handle positions, py::handle velocities) {
         handle.idle().set_state(read_rows(positions, "set_state: positions"),

@@ -183,6 +183,23 @@ class Render(unittest.TestCase):
         pictures = {(self.folder / f"{steps}.png").read_bytes() for steps in (0, 30, 100)}
         self.assertEqual(len(pictures), 3)
 
+    def test_a_checkpoint_is_its_moment_and_goes_on_where_it_is_told(self):
+        size = ("--size", "96x64")
+        self.pliant("run", "chain", "--steps", 10, "--out", "run", "--quiet")
+        self.render("run/checkpoint.pliant", "--out", "now.png", *size)
+        self.render("chain", "--steps", 10, "--frames", 1, "--out", "whole.png", *size)
+        self.pliant("run", "chain", "--steps", 20, "--out", "later", "--quiet")
+        self.render("later/checkpoint.pliant", "--out", "later.png", *size)
+        now, later = ((self.folder / name).read_bytes() for name in ("now.png", "later.png"))
+        self.assertNotEqual(now, later)
+        done = self.render("run/checkpoint.pliant", "--steps", 40, "--frames", 3, "--sheet", "--out", "on.png", *size)
+        self.assertIn("3 frames", done.stdout)
+        for words, remedy in ((("--out", "a.mp4"), "give --out a .png, or --steps"),
+                              (("--out", "a.png", "--set", "gravity=null"), "change the scene file, and run it"),
+                              (("--out", "a.png", "--backend", "eigen"), "change the scene file, and run it"),
+                              (("--out", "a.png", "--steps", 5), "10 have been taken")):
+            self.assertIn(remedy, self.render("run/checkpoint.pliant", *words, expect=2).stderr)
+
     def test_a_run_whose_scene_is_gone_is_shown_all_the_same(self):
         self.pliant("run", "chain", "--steps", 4, "--out", "run", "--quiet")
         (self.folder / "run" / "checkpoint.pliant").write_text("damaged")
