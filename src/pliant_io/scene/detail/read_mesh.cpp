@@ -8,6 +8,9 @@
 #include <span>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "pliant/core/printable.h"
 #include "pliant/mesh/join.h"
 #include "pliant/mesh/loose.h"
 #include "pliant/mesh/shapes/limits.h"
@@ -135,6 +138,11 @@ Mesh read_parts(const Node& node, const Keys& more_keys, std::vector<std::string
 }
 
 Mesh read_mesh(const Node& node, const Keys& more_keys, std::vector<std::string>& warnings) {
+  if (node.is_text()) {
+    const std::string name = printable(node.text());
+    const std::string_view key = mesh_format(node.text()) ? "file" : "shape";
+    node.fail(fmt::format("found '{0}' alone; write {{\"{1}\": \"{0}\"}}", name, key));
+  }
   node.require_object();
   const std::string_view kind = node.require_one_of({"shape", "file", "vertices", "parts"});
   if (kind == "shape") return read_shape(node, more_keys, static_cast<Shapes*>(nullptr));
