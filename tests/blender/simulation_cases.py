@@ -155,6 +155,29 @@ class Cloth(AddonCase):
         self.bake()
         self.assertLess(np.abs(in_centimeters / 100 - world_positions(sheet, 12)).max(), 1e-3)
 
+    def test_texture_coordinates_give_the_grain(self):
+        """Each corner has its own, of a mesh whose faces have seams between them."""
+        bpy.ops.mesh.primitive_cube_add(location=(0, 0, 1))
+        cube = bpy.context.object
+        cube.pliant.role = "CLOTH"
+        self.bake()
+        with open(os.path.join(self.bake_folder(), f"{cube.name}.obj"), encoding="utf-8") as file:
+            lines = [line.split() for line in file]
+        places = [tuple(map(float, words[1:])) for words in lines if words[0] == "vt"]
+        written = {
+            tuple((int(v) - 1, places[int(vt) - 1]) for v, vt in (word.split("/") for word in words[1:]))
+            for words in lines
+            if words[0] == "f"
+        }
+        cube.data.calc_loop_triangles()
+        uvs = cube.data.uv_layers.active.data
+        expected = {
+            tuple((vertex, tuple(uvs[loop].uv)) for vertex, loop in zip(each.vertices, each.loops))
+            for each in cube.data.loop_triangles
+        }
+        self.assertEqual(written, expected)
+        self.assertEqual(len(places), 14)
+
     def test_own_numbers_of_a_material(self):
         sheet = add_grid()
         sheet.pliant.role = "CLOTH"

@@ -149,10 +149,13 @@ def _write_mesh(path, positions, triangles, uvs):
         if uvs is None:
             file.writelines(f"f {a} {b} {c}\n" for a, b, c in (triangles + 1).tolist())
             return
-        file.writelines(f"vt {u!r} {v!r}\n" for u, v in uvs.tolist())
-        corners = np.arange(1, 3 * len(triangles) + 1).reshape(-1, 3)
-        for (a, b, c), (at, bt, ct) in zip((triangles + 1).tolist(), corners.tolist()):
-            file.write(f"f {a}/{at} {b}/{bt} {c}/{ct}\n")
+        places, corners = np.unique(uvs.view(np.complex128), return_inverse=True)  # each pair once
+        file.writelines(f"vt {each.real!r} {each.imag!r}\n" for each in places.tolist())
+        corners = corners.reshape(-1, 3) + 1
+        file.writelines(
+            f"f {a}/{at} {b}/{bt} {c}/{ct}\n"
+            for (a, b, c), (at, bt, ct) in zip((triangles + 1).tolist(), corners.tolist())
+        )
 
 
 def _triangles(mesh, is_mirrored):
