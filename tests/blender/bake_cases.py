@@ -42,7 +42,7 @@ class Messages(AddonCase):
         sheet.pliant.role = "CLOTH"
         sheet.pliant.pins = "Shoulders"
         self.assertEqual(
-            self.message_of_failure(), '"Sheet": there is no vertex group "Shoulders"; choose another one for the pins'
+            self.message_of_failure(), '"Sheet" has no vertex group "Shoulders"; choose another one for the pins'
         )
 
     def test_an_edge_with_three_faces(self):
@@ -67,7 +67,8 @@ class Messages(AddonCase):
             self.message_of_failure(),
             "/nowhere/pliant: no program there; correct its path in the add-on's preferences",
         )
-        self.assertFalse(os.path.exists(self.bake_folder()))
+        self.assertIsNone(self.bake_folder())
+        self.assertEqual(os.listdir(self.folder), ["work.blend"])
 
     def test_another_program(self):
         other = os.path.join(self.folder, "other")
@@ -78,7 +79,9 @@ class Messages(AddonCase):
         sheet.pliant.role = "CLOTH"
         preferences().program = other
         self.assertEqual(sheet.pliant.sheet, "cotton")  # with a list of one
-        self.assertEqual(self.message_of_failure(), "other: what is that?")
+        self.assertEqual(self.message_of_failure(), f"{other} is not Pliant: other: what is that?")
+        preferences().program = shutil.which("true")
+        self.assertRegex(self.message_of_failure(), "/true is not Pliant; give its path in the add-on's preferences$")
 
     def test_a_folder_that_cannot_be_written(self):
         add_grid().pliant.role = "CLOTH"
@@ -118,14 +121,14 @@ class StopAndGoOn(AddonCase):
                 break
         while not bake.is_done:
             bake.advance()
-        stopped_at = self.scene.pliant.baked_to
+        stopped_at = self.baked_to()
         self.assertGreater(stopped_at, 3)
         self.assertLess(stopped_at, 40)
         # What is there can be seen, and is what the whole bake has.
         self.assertEqual(len(self.bytes_of(self.sheet)), 32 + stopped_at * 169 * 12)
         self.assertEqual(self.bytes_of(self.sheet)[32:], whole[32 : 32 + stopped_at * 169 * 12])
         self.assertEqual(bpy.ops.pliant.resume(), {"FINISHED"})
-        self.assertEqual(self.scene.pliant.baked_to, 40)
+        self.assertEqual(self.baked_to(), 40)
         self.assertEqual(self.bytes_of(self.sheet), whole)
 
     def test_a_bake_whose_program_was_killed_goes_on_to_the_same_bytes(self):
@@ -134,14 +137,13 @@ class StopAndGoOn(AddonCase):
         whole = self.bytes_of(self.sheet)
         bpy.ops.pliant.free()
         bake = baking.Bake(bpy.context, resumes=False)
-        checkpoint = os.path.join(self.bake_folder(), "run", "checkpoint.pliant")
+        checkpoint = os.path.join(baked_files.new_folder(self.scene), "run", "checkpoint.pliant")
         while not os.path.exists(checkpoint):
             bake.advance()
         bake._run._process.kill()
         with self.assertRaises(baking.BakeError):
             while not bake.is_done:
                 bake.advance()
-        self.assertEqual(self.scene.pliant.baked_to, -1)
         self.assertTrue(bpy.ops.pliant.resume.poll())
         self.assertEqual(bpy.ops.pliant.resume(), {"FINISHED"})
         self.assertEqual(self.bytes_of(self.sheet), whole)
@@ -153,7 +155,7 @@ class StopAndGoOn(AddonCase):
         bpy.context.window.scene = bpy.data.scenes.new("Other")
         while not bake.is_done:
             bake.advance()
-        self.assertEqual((self.scene.pliant.baked_to, bpy.context.scene.pliant.baked_to), (40, -1))
+        self.assertEqual((self.baked_to(), baked_files.baked_range(bpy.context.scene)), (40, None))
 
     def test_stopping_while_the_animation_is_read_changes_nothing(self):
         bake = baking.Bake(bpy.context, resumes=False)
@@ -163,7 +165,7 @@ class StopAndGoOn(AddonCase):
         bake.stop()
         self.assertTrue(bake.is_done)
         self.assertEqual(self.scene.frame_current, 1)
-        self.assertEqual(self.scene.pliant.baked_to, -1)
+        self.assertEqual(self.baked_to(), -1)
 
     def test_a_later_end(self):
         self.scene.frame_end = 44
@@ -180,7 +182,51 @@ class StopAndGoOn(AddonCase):
         animate_in_circles(bpy.data.objects["Box"], 44)
         self.bake()
         self.scene.frame_end = 44
-        self.assertRegex(self.message_of_failure(bpy.ops.pliant.resume), "were read up to frame 40; choose Bake")
+        before = self.bytes_of(self.sheet)
+        self.assertRegex(self.message_of_failure(bpy.ops.pliant.resume), "are animated after frame 40, .*; use Bake to")
+        self.assertEqual((self.bytes_of(self.sheet), self.baked_to()), (before, 40))
+
+    def test_a_later_end_in_which_something_moves_is_refused(self):
+        """Though it has stood still before; the object's own transform may move, since the cloth does not go by it."""
+        animate_late = {
+            "wind": lambda: self.key_late(self.wind(), "field.strength", 0.0, 5.0),
+            "gravity": lambda: self.key_late(self.scene, "gravity", (0, 0, -9.81), (0, 0, 2)),
+            "collider": lambda: self.key_late(bpy.data.objects["Box"], "location", (0, 0, 0), (0, 0, 1)),
+        }
+        for name, animate in animate_late.items():
+            with self.subTest(name):
+                animate()
+                self.scene.frame_end = 40
+                self.bake()
+                self.scene.frame_end = 44
+                self.assertRegex(self.message_of_failure(bpy.ops.pliant.resume), "are animated after frame 40")
+                bpy.data.objects["Box"].animation_data_clear()
+                self.scene.animation_data_clear()
+                for obj in [obj for obj in bpy.data.objects if obj.field and obj.field.type == "WIND"]:
+                    bpy.data.objects.remove(obj)
+        self.scene.gravity = (0, 0, -9.81)
+        self.scene.frame_end = 44
+        self.key_late(self.sheet, "location", (0, 0, 0.4), (1, 2, 3))
+        self.bake()
+        whole = self.bytes_of(self.sheet)
+        self.scene.frame_end = 40
+        self.bake()
+        self.scene.frame_end = 44
+        self.assertEqual(bpy.ops.pliant.resume(), {"FINISHED"})
+        self.assertEqual(self.bytes_of(self.sheet), whole)
+
+    @staticmethod
+    def wind():
+        bpy.ops.object.effector_add(type="WIND")
+        return bpy.context.object
+
+    @staticmethod
+    def key_late(owner, path, before, after):
+        """A key at frame 40 and another at 44."""
+        block, name = (owner.field, path.split(".")[1]) if "." in path else (owner, path)
+        for frame, value in ((40, before), (44, after)):
+            setattr(block, name, value)
+            owner.keyframe_insert(path, frame=frame)
 
     def test_free_removes_its_own_files_alone(self):
         self.bake()
@@ -191,22 +237,144 @@ class StopAndGoOn(AddonCase):
         self.assertEqual(bpy.ops.pliant.free(), {"FINISHED"})
         self.assertEqual(os.listdir(folder), ["notes.txt"])
         self.assertFalse(self.sheet.modifiers["Pliant"].show_viewport)
-        self.assertEqual(self.scene.pliant.baked_to, -1)
+        self.assertEqual(self.baked_to(), -1)
         np.testing.assert_allclose(world_positions(self.sheet, 40)[:, 2], 0.4, atol=1e-6)
         os.remove(mine)
+        os.rmdir(folder)
         self.bake()
         bpy.ops.pliant.free()
-        self.assertFalse(os.path.exists(folder))
+        self.assertEqual([name for name in os.listdir(self.folder) if "pliant" in name], [])
+
+    def files(self):
+        """All that is there, with what is in it."""
+        found = {}
+        for place, _, names in os.walk(self.folder):
+            for name in names:
+                with open(os.path.join(place, name), "rb") as file:
+                    found[os.path.join(place, name)] = file.read()
+        return found
+
+    def assert_same_files(self, before):
+        now = self.files()
+        self.assertEqual(sorted(now), sorted(before))
+        self.assertEqual([name for name in now if now[name] != before[name]], [])
 
     def test_a_bake_that_fails_leaves_the_one_before(self):
+        """When the scene is read, when the program refuses it, and when it is cancelled."""
         self.bake()
-        before = self.bytes_of(self.sheet)
+        before = self.files()
         wire = add_mesh("Wire", [(0, 0, 0), (1, 0, 0)], [], [(0, 1)])
         wire.pliant.role = "CLOTH"
         self.message_of_failure()
-        self.assertEqual(self.bytes_of(self.sheet), before)
+        self.assert_same_files(before)
+        wire.pliant.role = "NONE"
+        opened = add_grid("Open")
+        opened.pliant.role = "SOLID"
+        self.message_of_failure()
+        self.assert_same_files(before)
+        opened.pliant.role = "NONE"
+        bake = baking.Bake(bpy.context, resumes=False)
+        next(bake._parts)
+        bake.stop()
+        self.assert_same_files(before)
         self.assertTrue(self.sheet.modifiers["Pliant"].show_viewport)
         self.assertLess(world_positions(self.sheet, 40)[:, 2].min(), 0.2)
+        self.scene.frame_end = 42
+        self.assertEqual(bpy.ops.pliant.resume(), {"FINISHED"})
+        self.assertEqual(self.baked_to(), 42)
+        self.bake()
+        self.assertEqual([place for place, _ in baked_files.bakes_in(os.path.dirname(self.bake_folder()))],
+                         [self.bake_folder()])  # fmt: skip
+
+    def test_files_of_the_user_stay(self):
+        """Though they have names that a bake has."""
+        self.scene.pliant.folder = "//"
+        names = ["scene.json", "Sheet.obj", "bake.json"]
+        for name in names:
+            with open(os.path.join(self.folder, name), "w", encoding="utf-8") as file:
+                file.write("{}")
+        self.bake()
+        bpy.ops.pliant.free()
+        self.assertEqual(sorted(os.listdir(self.folder)), sorted(["work.blend", *names]))
+        for name in names:
+            with open(os.path.join(self.folder, name), encoding="utf-8") as file:
+                self.assertEqual(file.read(), "{}")
+
+    def test_scenes_have_bakes_of_their_own(self):
+        """In one folder that was chosen, also where their names are alike in files, and as copies."""
+        self.scene.pliant.folder = os.path.join(self.folder, "bakes")
+        self.scene.name = "A/1"
+        self.bake()
+        bpy.ops.scene.new(type="FULL_COPY")
+        copy = bpy.context.scene
+        copy.name = "A:1"
+        self.assertIsNone(baked_files.baked_range(copy))  # though it plays the same files
+        self.assertFalse(bpy.ops.pliant.free.poll())
+        copy.frame_end = 20
+        self.bake()
+        self.assertEqual((baked_files.baked_range(copy).last, self.baked_to()), (20, 40))
+        self.assertEqual(bpy.ops.pliant.free(), {"FINISHED"})
+        self.assertEqual((baked_files.baked_range(copy), self.baked_to()), (None, 40))
+        bpy.context.window.scene = self.scene
+        self.assertLess(world_positions(self.sheet, 40)[:, 2].min(), 0.2)
+        self.scene.name = "renamed"
+        self.assertEqual(self.baked_to(), 40)
+        bpy.ops.wm.save_as_mainfile(filepath=os.path.join(self.folder, "second.blend"))
+        self.assertEqual(self.baked_to(), -1)  # the bake belongs to the first file, and is played here
+        self.assertLess(world_positions(self.sheet, 40)[:, 2].min(), 0.2)
+
+    def test_objects_that_were_renamed_meanwhile(self):
+        twin = add_grid("Twin", location=(0, 3, 2), cells=12)
+        twin.pliant.role = "CLOTH"
+        bake = baking.Bake(bpy.context, resumes=False)
+        while bake.is_reading:
+            bake.advance()
+        self.scene.name = "other"
+        self.sheet.name, twin.name = "x", "Sheet"
+        self.sheet.name = "Twin"
+        add_grid("Gone", cells=2)
+        while not bake.is_done:
+            bake.advance()
+        self.assertEqual(bake.baked.last, 40)
+        self.assertLess(world_positions(twin, 40)[:, 2].max(), 1)
+        self.assertGreater(world_positions(self.sheet, 40)[:, 2].max(), 0.2)
+
+    def test_an_object_that_is_gone_meanwhile(self):
+        bake = baking.Bake(bpy.context, resumes=False)
+        while bake.is_reading:
+            bake.advance()
+        bpy.data.objects.remove(self.sheet)
+        while not bake.is_done:
+            bake.advance()
+        self.assertRegex(self.scene.pliant.messages, r'^"Sheet" is gone; its cache is /.*Sheet.pc2$')
+
+    def test_a_modifier_of_that_name_and_one_that_was_renamed(self):
+        self.sheet.modifiers.remove(self.sheet.modifiers["Pliant"])
+        self.sheet.modifiers.new("Pliant", "SMOOTH")
+        self.bake()
+        self.assertEqual([each.type for each in self.sheet.modifiers], ["SMOOTH", "MESH_CACHE"])
+        self.sheet.modifiers[1].name = "mine"
+        whole = self.bytes_of(self.sheet)
+        self.bake()
+        self.assertEqual([each.type for each in self.sheet.modifiers], ["SMOOTH", "MESH_CACHE"])
+        self.assertEqual(self.bytes_of(self.sheet), whole)
+
+    def test_it_matters_not_at_which_frame_one_stands(self):
+        bpy.ops.object.effector_add(type="WIND")
+        wind = bpy.context.object
+        wind.field.strength = 2
+        for frame, noise, bending in ((1, 0.2, 5), (30, 0.9, 500)):
+            wind.field.noise = noise
+            wind.keyframe_insert("field.noise", frame=frame)
+            self.sheet.pliant.use_bending = True
+            self.sheet.pliant.bending = bending
+            self.sheet.keyframe_insert("pliant.bending", frame=frame)
+        self.bake()
+        whole = self.bytes_of(self.sheet)
+        self.scene.frame_set(30, subframe=0.5)
+        self.bake()
+        self.assertEqual(self.bytes_of(self.sheet), whole)
+        self.assertEqual((self.scene.frame_current, self.scene.frame_subframe), (30, 0.5))
 
     def test_it_is_played_from_a_saved_file_that_was_moved(self):
         self.bake()

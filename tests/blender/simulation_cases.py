@@ -252,22 +252,21 @@ class Touching(AddonCase):
         self.bake()
         self.assertTrue(floor.hide_get())
         self.assertGreater(world_positions(sheet, 12)[:, 2].min(), 0)
-        for switch in (lambda: setattr(floor, "hide_viewport", True), self.disable_collection_of(floor)):
-            switch()
+        # The same of its collection.
+        collection = bpy.data.collections.new("Stage")
+        bpy.context.scene.collection.children.link(collection)
+        bpy.context.collection.objects.unlink(floor)
+        collection.objects.link(floor)
+        layer = bpy.context.view_layer.layer_collection.children["Stage"]
+        layer.hide_viewport = True
+        self.bake()
+        self.assertTrue(layer.hide_viewport)
+        self.assertGreater(world_positions(sheet, 12)[:, 2].min(), 0)
+        for owner, switch in ((floor, "hide_viewport"), (collection, "hide_viewport"), (layer, "exclude")):
+            setattr(owner, switch, True)
             self.bake()
             self.assertLess(world_positions(sheet, 12)[:, 2].max(), -0.5)
-            floor.hide_viewport = False
-
-    @staticmethod
-    def disable_collection_of(obj):
-        def switch():
-            collection = bpy.data.collections.new("Off")
-            bpy.context.scene.collection.children.link(collection)
-            bpy.context.collection.objects.unlink(obj)
-            collection.objects.link(obj)
-            collection.hide_viewport = True
-
-        return switch
+            setattr(owner, switch, False)
 
     def test_two_simulated_objects_meet(self):
         lower = add_grid("Lower", location=(0, 0, 0.3), size=1)
@@ -284,7 +283,7 @@ class Touching(AddonCase):
     def test_an_open_surface_cannot_be_filled(self):
         sheet = add_grid()
         sheet.pliant.role = "SOLID"
-        self.assertRegex(self.message_of_failure(), r"Sheet|bodies\[0\].*open")
+        self.assertRegex(self.message_of_failure(), r"^scene.json: bodies\[0\].solid: Sheet: the surface is open: ")
 
 
 class Weather(AddonCase):
@@ -339,6 +338,17 @@ class Modifiers(AddonCase):
         sheet.pliant.role = "CLOTH"
         sheet.pliant.role = "COLLIDER"
         self.assertEqual(len(sheet.modifiers), 0)
+
+    def test_what_renders_would_show_otherwise_is_told(self):
+        sheet = add_grid(cells=4)
+        finer = sheet.modifiers.new("Finer", "SUBSURF")
+        sheet.modifiers.new("Bent", "CAST")
+        sheet.pliant.role = "CLOTH"
+        self.bake()
+        self.assertRegex(self.scene.pliant.messages, '^"Sheet": the modifier "Finer" above Pliant differs between ')
+        finer.render_levels = finer.levels
+        self.bake()
+        self.assertEqual(self.scene.pliant.messages, "")
 
     def test_vertices_that_come_while_it_is_animated(self):
         sheet = add_grid()

@@ -118,7 +118,12 @@ class AddonCase(unittest.TestCase):
         return text
 
     def bake_folder(self):
-        return baked_files.folder_of(self.scene)[0]
+        return baked_files.bake_folder(self.scene)
+
+    def baked_to(self):
+        """The last frame that is baked, -1 without any."""
+        baked = baked_files.baked_range(self.scene)
+        return -1 if baked is None else baked.last
 
     def bytes_of(self, obj):
         with open(os.path.join(self.bake_folder(), f"{obj.name}.pc2"), "rb") as file:

@@ -13,7 +13,7 @@ import bpy
 
 sys.path.insert(0, os.path.join(os.environ["PLIANT_SOURCE_DIR"], "integrations", "blender"))
 addon_utils.enable("pliant_blender", default_set=True)
-from pliant_blender import operators  # noqa: E402
+from pliant_blender import baked_files, operators  # noqa: E402
 
 VERDICT = sys.argv[sys.argv.index("--") + 1]
 FOLDER = tempfile.mkdtemp(prefix="pliant_blender_")
@@ -68,6 +68,7 @@ def story():
         return bake.text.startswith("Frame ") and bake.share > 0.005
 
     yield from until(frame_told)
+    assert len(texts) > 1, texts
     ticks = [time.monotonic()]
     while len(ticks) < 10:
         yield
@@ -77,7 +78,7 @@ def story():
     print("Escape ends it, and keeps what is there")
     press("Escape")
     yield from until(lambda: operators.at_work() is None)
-    stopped_at = settings.baked_to
+    stopped_at = baked_files.baked_range(scene).last
     assert 1 < stopped_at < 1500, stopped_at
     assert scene.frame_current == 1, scene.frame_current
     scene.frame_set(stopped_at)
@@ -88,7 +89,7 @@ def story():
     scene.frame_end = stopped_at + 20
     assert call(bpy.ops.pliant.resume) == {"RUNNING_MODAL"}
     yield from until(lambda: operators.at_work() is None)
-    assert settings.baked_to == scene.frame_end, (settings.baked_to, settings.messages)
+    assert baked_files.baked_range(scene).last == scene.frame_end, settings.messages
 
     print("the button Stop")
     assert call(bpy.ops.pliant.bake) == {"RUNNING_MODAL"}
@@ -97,7 +98,7 @@ def story():
     yield from until(lambda: operators.at_work() is None)
 
     print("an undone bake leaves a Blender that bakes on")
-    assert call(bpy.ops.pliant.free) == {"FINISHED"}
+    assert bpy.ops.pliant.free() == {"FINISHED"}
     with bpy.context.temp_override(window=window()):
         bpy.ops.ed.undo_push(message="before the bake")
     scene.frame_end = 20
@@ -108,7 +109,7 @@ def story():
     yield
     assert call(bpy.ops.pliant.bake) == {"RUNNING_MODAL"}
     yield from until(lambda: operators.at_work() is None)
-    assert bpy.context.scene.pliant.baked_to == bpy.context.scene.frame_end
+    assert baked_files.baked_range(bpy.context.scene).last == bpy.context.scene.frame_end
 
     print("a bake that cannot be made says why")
     bpy.data.objects["Grid"].pliant.pins = "nothing"

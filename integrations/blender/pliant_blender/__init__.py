@@ -5,6 +5,8 @@
     operators.py   the buttons
     bake.py        from the button to the cache, in small pieces, so that the window goes on
     export.py      the scene of Blender as a scene file
+    exported_object.py, weather.py, participants.py
+                   its objects, its gravity and winds, and who takes part
     baked_files.py the files of a bake, and the modifier that plays them
     program.py     the program: where it is, what it says
 

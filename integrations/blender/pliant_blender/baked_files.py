@@ -1,8 +1,14 @@
-"""The files of a bake, and the modifier that plays them."""
+"""The files of a bake, and the modifier that plays them.
+
+A scene has a folder, and each bake a folder in that, `bake-1`, `bake-2` and so on, so that a bake that cannot be made
+leaves the one before as it was. The newest one with frames counts.
+"""
 
 import json
 import os
+import re
 import struct
+from typing import NamedTuple
 
 import bpy
 import numpy as np
@@ -14,27 +20,112 @@ TRANSFORMS = "transforms.npy"
 RUN = "run"  # the folder that the program writes
 
 RUN_FILES = ("frames.npy", "mesh.obj", "run.json", "measurements.csv", "checkpoint.pliant")
+NUMBERED = re.compile(r"bake-(\d+)")
 
 # What makes a surface finer or thicker acts upon what is baked; everything else before it is part of what is baked.
 REFINING = {"SUBSURF", "MULTIRES", "SOLIDIFY"}
 
 
-def folder_of(scene):
-    """Where the bake of a scene is, and whether it stays there when Blender ends."""
-    name = bpy.path.clean_name(scene.name)
-    chosen = scene.pliant.folder
-    if chosen and (bpy.data.is_saved or not chosen.startswith("//")):
-        return bpy.path.abspath(chosen), True
-    if bpy.data.is_saved:
-        stem = os.path.splitext(bpy.data.filepath)[0]
-        return os.path.join(stem + "_pliant", name), True
-    return os.path.join(bpy.app.tempdir, "pliant", name), False
+# ---- folders
+
+
+def is_kept(scene):
+    """Whether a new bake is still there when Blender has ended."""
+    return bpy.data.is_saved or bool(scene.pliant.folder and not scene.pliant.folder.startswith("//"))
+
+
+def file_stem():
+    """The name of the .blend file without its ending."""
+    return os.path.splitext(os.path.basename(bpy.data.filepath))[0] if bpy.data.is_saved else "unsaved"
+
+
+def _numbers(folder):
+    """Of the bakes in a folder, from the newest to the oldest."""
+    try:
+        names = os.listdir(folder)
+    except OSError:
+        return []
+    return sorted((int(match[1]) for match in map(NUMBERED.fullmatch, names) if match), reverse=True)
+
+
+def bakes_in(folder):
+    """The bakes in a folder, from the newest to the oldest: the folder of each, and what export.py has left."""
+    places = (os.path.join(folder, f"bake-{number}") for number in _numbers(folder))
+    return [(place, bake) for place in places if (bake := read_bake(place)) is not None]
+
+
+def is_own(scene, folder):
+    """Whether a folder has bakes of this scene of this file, also under a name that the scene had before."""
+    bakes = bakes_in(folder)
+    if not bakes or bakes[0][1]["file"] != file_stem():
+        return False
+    owner = bakes[0][1]["scene"]
+    return owner == scene.name or owner not in bpy.data.scenes
+
+
+def _usual_folder(scene):
+    """Below the folder that was chosen, or that of the file: NAME_pliant/SCENE, numbered where another scene has it."""
+    base = scene.pliant.folder or "//"
+    if not is_kept(scene):
+        base = bpy.app.tempdir
+    usual = os.path.join(bpy.path.abspath(base), f"{file_stem()}_pliant", bpy.path.clean_name(scene.name))
+    folder, number = usual, 2
+    while bakes_in(folder) and not is_own(scene, folder):
+        folder, number = f"{usual}_{number}", number + 1
+    return folder
+
+
+def scene_folder(scene):
+    """Where the bakes of a scene are; where there are none, where they will be."""
+    known = bpy.path.abspath(scene.pliant.baked_folder) if scene.pliant.baked_folder else ""
+    return known if known and is_own(scene, known) else _usual_folder(scene)
+
+
+def new_folder(scene):
+    """For the next bake of a scene."""
+    folder = _usual_folder(scene)
+    return os.path.join(folder, f"bake-{max(_numbers(folder), default=0) + 1}")
+
+
+def bake_folder(scene):
+    """The newest bake that has frames, or None."""
+    folder = scene_folder(scene)
+    if not is_own(scene, folder):
+        return None
+    return next((place for place, _ in bakes_in(folder) if recorded_frames(place) is not None), None)
+
+
+class Range(NamedTuple):
+    """Of frames of Blender."""
+
+    first: int
+    last: int  # that is baked
+    planned: int  # that was asked for
+
+
+def baked_range(scene):
+    """What is baked of a scene, or None."""
+    folder = bake_folder(scene)
+    if folder is None:
+        return None
+    bake, frames = read_bake(folder), recorded_frames(folder)
+    return Range(bake["first_frame"], bake["first_frame"] + len(frames) - 1, bake["planned"])
+
+
+# ---- the modifier
 
 
 def find_modifier(obj):
-    """The modifier that plays an object's bake, or None."""
-    found = obj.modifiers.get(MODIFIER)
-    return found if found is not None and found.type == "MESH_CACHE" else None
+    """The modifier that plays an object's bake, or None; also one whose name was changed."""
+    known = obj.modifiers.get(obj.pliant.modifier) if obj.pliant.modifier else None
+    if known is not None and known.type == "MESH_CACHE":
+        return known
+    return next((each for each in obj.modifiers if each.type == "MESH_CACHE" and plays_bake(each)), None)
+
+
+def plays_bake(modifier):
+    """Whether the file that it plays is in a folder of a bake."""
+    return NUMBERED.fullmatch(os.path.basename(os.path.dirname(modifier.filepath))) is not None
 
 
 def prepare_modifier(obj, is_simulated):
@@ -48,6 +139,7 @@ def prepare_modifier(obj, is_simulated):
         index = len(obj.modifiers) - 1
         while index > 0 and obj.modifiers[index - 1].type in REFINING:
             index -= 1
+        obj.pliant.modifier = found.name
         with bpy.context.temp_override(object=obj):
             bpy.ops.object.modifier_move_to_index(modifier=found.name, index=index)
     elif found is not None and not is_simulated and not found.filepath:
@@ -63,12 +155,19 @@ def play(obj, cache, first_frame):
     modifier.show_viewport = modifier.show_render = True
 
 
-def silence(obj):
-    """The modifier stays where it is in the stack and plays nothing."""
-    modifier = find_modifier(obj)
-    if modifier is not None:
-        modifier.show_viewport = modifier.show_render = False
-        modifier.filepath = ""
+def silence(folder):
+    """Modifiers that play files of a folder stay in their stacks and play nothing."""
+    for obj in bpy.data.objects:
+        for modifier in obj.modifiers:
+            if modifier.type != "MESH_CACHE" or not modifier.filepath:
+                continue
+            path = os.path.normpath(bpy.path.abspath(modifier.filepath, library=obj.library))
+            if path.startswith(os.path.normpath(folder) + os.sep):
+                modifier.show_viewport = modifier.show_render = False
+                modifier.filepath = ""
+
+
+# ---- files
 
 
 def write_json(path, value):
@@ -82,24 +181,19 @@ def read_bake(folder):
     """What export.py has left of a bake, or None."""
     try:
         with open(os.path.join(folder, BAKE), encoding="utf-8") as file:
-            return json.load(file)
+            bake = json.load(file)
     except (OSError, ValueError):
         return None
+    return bake if isinstance(bake, dict) and bake.get("written_by") == "pliant_blender" else None
 
 
-def extend(folder, bake, last_frame):
-    """Makes room for more frames, in which nothing but what is simulated moves."""
+def append_transforms(folder, bake, matrices, last_frame):
+    """Makes room for more frames; matrices of each object, frame by frame."""
     path = os.path.join(folder, TRANSFORMS)
-    transforms = np.load(path)
-    more = last_frame - bake["last_frame"]
-    np.save(path, np.concatenate([transforms, np.repeat(transforms[:, -1:], more, axis=1)], axis=1))
+    extended = np.concatenate([np.load(path), np.asarray(matrices)], axis=1)
+    np.save(path, extended)
     bake["last_frame"] = last_frame
     write_json(os.path.join(folder, BAKE), bake)
-
-
-def can_go_on(scene):
-    """Whether the program has left what it goes on from."""
-    return os.path.isfile(os.path.join(folder_of(scene)[0], RUN, "checkpoint.pliant"))
 
 
 def recorded_frames(folder):
@@ -135,26 +229,45 @@ def write_caches(folder, bake):
         os.replace(path + ".new", path)
 
 
-def remove_files(folder, names):
-    """Removes those of the files that are there."""
+def _remove_if_empty(folder):
+    try:
+        os.rmdir(folder)
+    except OSError:  # there is something else in it, or it is gone
+        pass
+
+
+def remove_bake(folder):
+    """Removes what a bake has written, and nothing else."""
+    bake = read_bake(folder)
+    if bake is None:
+        return
+    names = [*bake["files"], SCENE, BAKE, TRANSFORMS, *(os.path.join(RUN, name) for name in RUN_FILES)]
     for path in (os.path.join(folder, name) for name in names):
         if os.path.isfile(path):
             os.remove(path)
+    _remove_if_empty(os.path.join(folder, RUN))
+    _remove_if_empty(folder)
 
 
-def remove_run(folder):
-    """Removes what the program has written."""
-    remove_files(folder, [os.path.join(RUN, name) for name in RUN_FILES])
+def remove_others(folder):
+    """Removes the bakes beside one, which takes their place; those that are still played stay until all is freed."""
+    parent = os.path.dirname(folder)
+    played = {
+        os.path.normpath(os.path.dirname(bpy.path.abspath(modifier.filepath, library=obj.library)))
+        for obj in bpy.data.objects
+        for modifier in obj.modifiers
+        if modifier.type == "MESH_CACHE" and modifier.filepath
+    }
+    for other, _ in bakes_in(parent):
+        if other != folder and os.path.normpath(other) not in played:
+            remove_bake(other)
 
 
-def remove(folder):
-    """Removes what a bake has written, and nothing else."""
-    bake = read_bake(folder)
-    if bake is not None:
-        remove_run(folder)
-        remove_files(folder, [*bake["files"], SCENE, BAKE, TRANSFORMS])
-    for each in (os.path.join(folder, RUN), folder):
-        try:
-            os.rmdir(each)
-        except OSError:  # there is something else in it, or it is gone
-            pass
+def remove_all(scene):
+    """Removes all bakes of a scene, and the folders that they leave empty."""
+    folder = scene_folder(scene)
+    silence(folder)
+    for place, _ in bakes_in(folder):
+        remove_bake(place)
+    _remove_if_empty(folder)
+    _remove_if_empty(os.path.dirname(folder))

@@ -25,7 +25,7 @@ class _Baking:
         if context.mode.startswith("EDIT"):
             cls.poll_message_set("Leave Edit Mode first")
             return False
-        return _at_work is None
+        return _at_work is None and not bpy.app.is_job_running("RENDER")
 
     def execute(self, context):
         bake = baking.Bake(context, self.resumes)
@@ -51,7 +51,8 @@ class _Baking:
         return {"RUNNING_MODAL"}
 
     def modal(self, context, event):
-        if event.type == "ESC" and event.value == "PRESS":
+        is_escape = event.type == "ESC" and event.value == "PRESS" and not _is_playing(context)
+        if is_escape:
             self._bake.stop()
         elif event.type != "TIMER":
             return {"RUNNING_MODAL"} if self._bake.is_reading else {"PASS_THROUGH"}
@@ -66,9 +67,10 @@ class _Baking:
         if self._bake.is_done:
             return self._succeeded(self._bake)
         context.window_manager.progress_update(int(100 * self._bake.share))
-        context.workspace.status_text_set(f"Pliant: {self._bake.text}     Esc: stop, and keep what is there")
+        hint = "Esc: cancel" if self._bake.is_reading else "Esc: stop, and keep what is there"
+        context.workspace.status_text_set(f"Pliant: {self._bake.text}     {hint}")
         _redraw(context)
-        return {"RUNNING_MODAL"} if event.type == "ESC" else {"PASS_THROUGH"}  # a timer is for others too
+        return {"RUNNING_MODAL"} if is_escape else {"PASS_THROUGH"}  # a timer is for others too
 
     def cancel(self, context):
         self._bake.abandon()
@@ -83,19 +85,25 @@ class _Baking:
         _redraw(context)
 
     def _failed(self, bake, error):
-        bake.settings.messages = str(error)
+        scene = bake.scene()
+        if scene is not None:
+            scene.pliant.messages = str(error)
         self.report({"ERROR"}, str(error))
         return {"CANCELLED"}
 
     def _succeeded(self, bake):
-        if not bake.is_baked:
+        if bake.baked is None:
             self.report({"INFO"}, "Pliant: stopped before a frame was simulated")
             return {"CANCELLED"}
-        settings = bake.settings
-        for line in settings.messages.splitlines():
+        for line in bake.scene().pliant.messages.splitlines():
             self.report({"WARNING"}, line)
-        self.report({"INFO"}, f"Pliant: baked frames {settings.baked_from} to {settings.baked_to}")
+        self.report({"INFO"}, f"Pliant: baked frames {bake.baked.first} to {bake.baked.last}")
         return {"FINISHED"}
+
+
+def _is_playing(context):
+    """Escape ends the playing of an animation then."""
+    return any(window.screen.is_animation_playing for window in context.window_manager.windows)
 
 
 def _redraw(context):
@@ -106,7 +114,7 @@ def _redraw(context):
 
 
 class PliantBake(_Baking, bpy.types.Operator):
-    """Simulate all cloth and soft bodies of the scene, from its first frame to its last one"""
+    """Simulate all cloth and soft bodies of the scene, from its start frame to its end frame"""
 
     bl_idname = "pliant.bake"
     bl_label = "Bake"
@@ -114,7 +122,7 @@ class PliantBake(_Baking, bpy.types.Operator):
 
 
 class PliantResume(_Baking, bpy.types.Operator):
-    """Go on where the bake was stopped, or up to a later last frame, with the settings that it began with"""
+    """Continue a bake that was stopped, or simulate up to a later end frame, with the settings that it began with"""
 
     bl_idname = "pliant.resume"
     bl_label = "Resume"
@@ -123,8 +131,10 @@ class PliantResume(_Baking, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context):
-        scene = context.scene
-        return super().poll(context) and scene.pliant.baked_to < scene.frame_end and baked_files.can_go_on(scene)
+        if not super().poll(context):
+            return False
+        baked = baked_files.baked_range(context.scene)
+        return baked is not None and baked.last < context.scene.frame_end
 
 
 class PliantStop(bpy.types.Operator):
@@ -150,19 +160,17 @@ class PliantFree(bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     @classmethod
-    def poll(cls, _context):
-        return _at_work is None
+    def poll(cls, context):
+        folder = baked_files.scene_folder(context.scene)
+        return _at_work is None and baked_files.is_own(context.scene, folder)
+
+    def invoke(self, context, event):
+        return context.window_manager.invoke_confirm(self, event)
 
     def execute(self, context):
-        folder, _ = baked_files.folder_of(context.scene)
-        bake = baked_files.read_bake(folder)
-        names = [entry["name"] for entry in bake["objects"]] if bake else []
-        for obj in context.scene.objects:
-            if obj.name in names or obj.pliant.role in {"CLOTH", "SOLID"}:
-                baked_files.silence(obj)
-        baked_files.remove(folder)
+        baked_files.remove_all(context.scene)
         settings = context.scene.pliant
-        settings.baked_from, settings.baked_to, settings.planned_to, settings.messages = 0, -1, -1, ""
+        settings.baked_folder = settings.messages = ""
         return {"FINISHED"}
 
 
@@ -175,7 +183,9 @@ def register():
 
 
 def unregister():
+    global _at_work
     if _at_work is not None:
         _at_work.abandon()
+        _at_work = None
     for each in reversed(CLASSES):
         bpy.utils.unregister_class(each)

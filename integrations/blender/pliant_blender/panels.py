@@ -4,7 +4,7 @@ import textwrap
 
 import bpy
 
-from . import baked_files, export, operators, program
+from . import baked_files, operators, participants, program
 
 
 def _material_of(settings):
@@ -38,8 +38,8 @@ def draw_object(layout, context, obj):
     layout.prop(settings, "role")
     if settings.role == "NONE":
         return
-    if not export.takes_part(obj):
-        layout.label(text="Disabled in viewports: takes no part", icon="ERROR")
+    if not participants.takes_part(obj, context.view_layer):
+        layout.label(text="Ignored: disabled in viewports", icon="ERROR")
     if settings.role == "COLLIDER":
         _own_value(layout, settings, "use_friction", "friction", "of the cloth")
         return
@@ -66,13 +66,12 @@ def draw_object(layout, context, obj):
 
 def _draw_modifiers(layout, context, obj):
     """Says which modifiers are simulated and which follow, where there are any."""
-    names = obj.modifiers.keys()
-    if baked_files.MODIFIER not in names:
+    found = baked_files.find_modifier(obj)
+    if found is None:
         return
-    place = names.index(baked_files.MODIFIER)
-    shown = [each for each in names if each == baked_files.MODIFIER or obj.modifiers[each].show_viewport]
-    before = [each for each in names[:place] if each in shown]
-    after = [each for each in names[place + 1 :] if each in shown]
+    place = obj.modifiers.find(found.name)
+    before = [each.name for each in obj.modifiers[:place] if each.show_viewport]
+    after = [each.name for each in obj.modifiers[place + 1 :] if each.show_viewport]
     if before:
         _draw_text(layout.column(align=True), context, "Simulated with " + ", ".join(before), "MODIFIER")
     if after:
@@ -98,16 +97,19 @@ def draw_bake(layout, context):
             layout.progress(factor=bake.share, text=bake.text)
         else:
             layout.label(text=bake.text, icon="TIME")
-        layout.operator("pliant.stop", icon="CANCEL")
+        row = layout.row()
+        row.enabled = not bake.is_reading
+        row.operator("pliant.stop", icon="CANCEL")
     else:
         layout.operator("pliant.bake", icon="PHYSICS")
         row = layout.row(align=True)
         row.operator("pliant.resume", icon="PLAY")
         row.operator("pliant.free", icon="TRASH")
-        if settings.baked_to >= settings.baked_from:
-            text = f"Frames {settings.baked_from} to {settings.baked_to} are baked"
-            if settings.planned_to > settings.baked_to:
-                text += f", of {settings.planned_to}"
+        baked = baked_files.baked_range(context.scene)
+        if baked is not None:
+            text = f"Frames {baked.first} to {baked.last} are baked"
+            if baked.planned > baked.last:
+                text += f", of {baked.planned}"
             layout.label(text=text, icon="CHECKMARK")
         _draw_messages(layout, context)
     column = layout.column()

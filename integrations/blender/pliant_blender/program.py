@@ -1,6 +1,7 @@
 """The program `pliant`: where it is, what it is made to do, and what it says."""
 
 import atexit
+import ctypes
 import json
 import os
 import shutil
@@ -13,6 +14,9 @@ import bpy
 
 class ProgramError(Exception):
     """What the program, or looking for it, said; one line."""
+
+
+PATIENCE = 5  # [s] with a program that is to say who it is
 
 
 class PliantPreferences(bpy.types.AddonPreferences):
@@ -48,13 +52,15 @@ def path():
     return found
 
 
-def _ask(*arguments):
-    command = [path(), *arguments]
+def _ask(*command):
+    """What a program answers, or the ProgramError that it does not."""
     try:
-        answer = subprocess.run(command, capture_output=True, text=True, timeout=20, check=True)
-    except (OSError, subprocess.SubprocessError) as error:
-        raise ProgramError(f"{command[0]} is not Pliant, or does not run: {error}") from None
-    return answer.stdout
+        return subprocess.run(command, capture_output=True, text=True, timeout=PATIENCE, check=True).stdout
+    except subprocess.CalledProcessError as error:
+        said = error.stderr.strip().splitlines()
+        return ProgramError(f"{command[0]} is not Pliant" + (f": {said[-1]}" if said else ""))
+    except (OSError, subprocess.SubprocessError, UnicodeError) as error:
+        return ProgramError(f"{command[0]} is not Pliant, or does not run: {error}")
 
 
 _answers = {}
@@ -65,13 +71,21 @@ def _ask_once(*arguments):
     where = path()
     key = (where, os.stat(where).st_mtime_ns, arguments)
     if key not in _answers:
-        _answers[key] = _ask(*arguments)
+        _answers[key] = _ask(where, *arguments)
+    if isinstance(_answers[key], ProgramError):
+        raise _answers[key]
     return _answers[key]
 
 
 def version():
     """Its name and version."""
     return _ask_once("--version").strip()
+
+
+def check():
+    """Raises ProgramError where there is no program, or it is another one."""
+    if not version().startswith("pliant "):
+        raise ProgramError(f"{path()} is not Pliant; give its path in the add-on's preferences")
 
 
 def materials(kind):
@@ -83,6 +97,14 @@ def materials(kind):
 
 
 _running = set()
+_c_library = ctypes.CDLL(None)
+_SET_DEATH_SIGNAL = 1  # PR_SET_PDEATHSIG of Linux
+
+
+def _end_with_blender():
+    """In the child: it is told to end when Blender crashes."""
+    _c_library.prctl(_SET_DEATH_SIGNAL, signal.SIGTERM)
+
 
 
 class Run:
@@ -93,7 +115,11 @@ class Run:
         self._said = tempfile.TemporaryFile()
         try:
             self._process = subprocess.Popen(
-                [path(), *arguments], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=self._said
+                [path(), *arguments],
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.DEVNULL,
+                stderr=self._said,
+                preexec_fn=_end_with_blender,
             )
         except OSError as error:
             raise ProgramError(f"{path()} does not run: {error}") from None

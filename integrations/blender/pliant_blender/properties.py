@@ -6,8 +6,7 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 
 from . import baked_files, program
-
-SIMULATED = ("CLOTH", "SOLID")
+from .participants import SIMULATED
 
 
 def _number_of(name):
@@ -34,7 +33,8 @@ def _choices(kind, fallback):
 
 
 def _role_changed(self, _context):
-    baked_files.prepare_modifier(self.id_data, self.role in SIMULATED)
+    if self.id_data.type == "MESH":
+        baked_files.prepare_modifier(self.id_data, self.role in SIMULATED)
 
 
 class PliantObject(bpy.types.PropertyGroup):
@@ -62,7 +62,7 @@ class PliantObject(bpy.types.PropertyGroup):
         items=_choices("solid", "silicone"),
         default=_number_of("silicone"),
     )
-    use_weight: BoolProperty(name="Own Weight", description="Take this weight in place of the material's")
+    use_weight: BoolProperty(name="Override Weight", description="Use this instead of the material's weight")
     weight: FloatProperty(
         name="Weight",
         description="Mass of a square meter of cloth, in kg",
@@ -74,7 +74,7 @@ class PliantObject(bpy.types.PropertyGroup):
     density: FloatProperty(
         name="Density", description="Mass of a cubic meter, in kg", default=1000, min=0.1, soft_max=10000
     )
-    use_bending: BoolProperty(name="Own Bending", description="Take this bending stiffness in place of the material's")
+    use_bending: BoolProperty(name="Override Bending", description="Use this instead of the material's bending stiffness")
     bending: FloatProperty(
         name="Bending",
         description="Bending stiffness in µN·m: silk 2, cotton 12, denim 17, felt 8000. "
@@ -84,7 +84,7 @@ class PliantObject(bpy.types.PropertyGroup):
         soft_max=10000,
         precision=1,
     )
-    use_young: BoolProperty(name="Own Stiffness", description="Take this stiffness in place of the material's")
+    use_young: BoolProperty(name="Override Stiffness", description="Use this instead of the material's stiffness")
     young: FloatProperty(
         name="Stiffness",
         description="Young's modulus in kPa: silicone 50, foam 100",
@@ -93,7 +93,7 @@ class PliantObject(bpy.types.PropertyGroup):
         soft_max=10000,
     )
     spacing: FloatProperty(
-        name="Spacing",
+        name="Lattice Size",
         description="Side of the cubes of the lattice that fills the body. Two or three should fit across what is to "
         "bend; half of it makes eight times as many",
         subtype="DISTANCE",
@@ -101,7 +101,7 @@ class PliantObject(bpy.types.PropertyGroup):
         min=1e-4,
         soft_max=1,
     )
-    use_friction: BoolProperty(name="Own Friction", description="Take this friction in place of the material's")
+    use_friction: BoolProperty(name="Override Friction", description="Use this instead of the material's friction")
     friction: FloatProperty(
         name="Friction", description="Coulomb's coefficient; 0 is ice", default=0.5, min=0, soft_max=2, precision=2
     )
@@ -111,12 +111,14 @@ class PliantObject(bpy.types.PropertyGroup):
         description="Vertex group that is held where the animation has it: weight 1 exactly, less by springs",
     )
     pin_stiffness: FloatProperty(
-        name="Springs",
-        description="Stiffness of the springs that hold vertices with a weight below 1, in N/m, times the weight",
+        name="Stiffness",
+        description="Of the springs that hold vertices with a weight below 1, in N/m, times the weight",
         default=100,
         min=1e-3,
         soft_max=1e5,
     )
+    modifier: StringProperty(options={"HIDDEN"})  # the name of the one that plays the bake
+    mark: StringProperty(options={"HIDDEN"})  # by which a bake finds its objects
 
 
 class PliantScene(bpy.types.PropertyGroup):
@@ -132,9 +134,9 @@ class PliantScene(bpy.types.PropertyGroup):
     )
     iterations: IntProperty(
         name="Iterations",
-        description="Of each step; more make stiff cloth less stretchy, at their cost",
+        description="Of each step; more make stiff cloth less stretchy, at their cost. 0: as many as it needs",
         default=20,
-        min=1,
+        min=0,
         max=10000,
         soft_max=200,
     )
@@ -152,9 +154,8 @@ class PliantScene(bpy.types.PropertyGroup):
         description="Where the bake is kept; empty: beside the .blend file, in a folder with its name",
         subtype="DIR_PATH",
     )
-    baked_from: IntProperty(options={"HIDDEN"})
-    baked_to: IntProperty(default=-1, options={"HIDDEN"})  # the last frame; less than the first one: nothing is baked
-    planned_to: IntProperty(default=-1, options={"HIDDEN"})
+    baked_folder: StringProperty(options={"HIDDEN"})  # where the last bake went; see baked_files.scene_folder
+    mark: StringProperty(options={"HIDDEN"})  # by which a bake finds its scene
     messages: StringProperty(options={"HIDDEN"})  # of the last bake, line by line
 
 
