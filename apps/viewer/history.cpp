@@ -9,8 +9,6 @@
 namespace pliant_viewer {
 namespace {
 
-constexpr double sparing_share = 0.02;  // of the time of steps
-
 using Names = std::vector<std::string>;
 
 /// Adds those of `present` that `names` has fewer of. `is_wanted` is asked for each by its place.
@@ -42,32 +40,43 @@ std::optional<MeasuredStep> StepMeasurer::measure_start(pliant::Scene& scene) {
   columns_.reset();
   known_groups_.clear();
   known_colliders_.clear();
-  credit_ = 0;
-  std::optional<MeasuredStep> start = measure(scene, {}, true);
-  if (start) start->begins = true;
-  return start;
+  try {
+    MeasuredStep start = row_of(scene, pliant::measure(scene.simulation, {}));
+    start.begins = true;
+    return start;
+  } catch (const pliant::Error&) {  // what is wrong with a scene its steps tell
+    return {};
+  }
 }
 
 std::optional<MeasuredStep> StepMeasurer::measure_step(pliant::Scene& scene, const pliant::StepReport& report,
-                                                       Measuring measuring) {
-  credit_ = std::min(0.0, credit_ + sparing_share * report.seconds_total);
-  const bool is_whole = measuring == Measuring::all || credit_ >= 0;
-  const pliant::Stopwatch watch;
-  std::optional<MeasuredStep> step = measure(scene, report, is_whole);
-  if (is_whole && measuring == Measuring::sparing) credit_ -= watch.seconds();
-  return step;
-}
-
-std::optional<MeasuredStep> StepMeasurer::measure(pliant::Scene& scene, const pliant::StepReport& report,
-                                                  bool is_whole) {
+                                                       const Measuring& measuring) {
+  for_energies_.earn(report.seconds_total);
+  for_past_limits_.earn(report.seconds_total);
   try {
-    const pliant::Measurements row =
-        is_whole ? pliant::measure(scene.simulation, report) : measure_motion(scene.simulation, report);
-    add_columns(scene, row);
-    return MeasuredStep{names_, columns_->values(row)};
-  } catch (const pliant::Error&) {  // what is wrong with the scene its steps tell
+    return row_of(scene, measure(scene.simulation, report, measuring));
+  } catch (const pliant::Error&) {
     return {};
   }
+}
+
+pliant::Measurements StepMeasurer::measure(pliant::Simulation& simulation, const pliant::StepReport& report,
+                                           const Measuring& measuring) {
+  const bool has_limits = measuring.past_limits || for_past_limits_.has_some();
+  if (!has_limits && !measuring.energies && !for_energies_.has_some()) return measure_motion(simulation, report);
+  pliant::Stopwatch watch;
+  pliant::Measurements row = measure_energies(simulation, report);
+  if (!measuring.energies) for_energies_.spend(watch.lap());
+  if (!has_limits) return row;
+  watch.lap();
+  row.past_limits = stretch_past_limits(simulation);
+  if (!measuring.past_limits) for_past_limits_.spend(watch.lap());
+  return row;
+}
+
+MeasuredStep StepMeasurer::row_of(const pliant::Scene& scene, const pliant::Measurements& row) {
+  add_columns(scene, row);
+  return {names_, columns_->values(row)};
 }
 
 void StepMeasurer::add_columns(const pliant::Scene& scene, const pliant::Measurements& row) {

@@ -1,5 +1,6 @@
 #pragma once
 // What a scene that is simulated measures after its steps, for plots over time.
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -19,9 +20,27 @@ struct MeasuredStep {
   bool begins = false;  ///< the state at a start, behind which other curves begin
 };
 
-/// How much is measured after a step. sparing: energies, residual and whatever else takes a local step only as often as
-/// it takes a fiftieth of the time; these are NaN in between.
-enum class Measuring { sparing, all };
+/// What is measured after every step, though it takes a local step or more. What is not asked for is measured as often
+/// as it takes a small share of the time, and is NaN in between.
+struct Measuring {
+  bool energies = false;     ///< elastic energies, potentials, their total, the residual and the objective
+  bool past_limits = false;  ///< how far stretches are past their limits; brings energies along
+
+  bool operator==(const Measuring&) const = default;
+};
+
+/// How often something may be done that is to take no more than a share of the time of steps.
+class TimeBudget {
+ public:
+  explicit TimeBudget(double share) : share_(share) {}
+  void earn(double seconds) { credit_ = std::min(0.0, credit_ + share_ * seconds); }
+  void spend(double seconds) { credit_ -= seconds; }
+  bool has_some() const { return credit_ >= 0; }
+
+ private:
+  double share_;
+  double credit_ = 0;  // at most 0 [s]
+};
 
 /// Measures a scene in the thread that simulates it.
 class StepMeasurer {
@@ -31,10 +50,13 @@ class StepMeasurer {
   std::optional<MeasuredStep> measure_start(pliant::Scene& scene);
   /// After a step. A group, a collider or contact of surfaces that has come meanwhile has columns from then on; a group
   /// once it has energy.
-  std::optional<MeasuredStep> measure_step(pliant::Scene& scene, const pliant::StepReport& report, Measuring measuring);
+  std::optional<MeasuredStep> measure_step(pliant::Scene& scene, const pliant::StepReport& report,
+                                           const Measuring& measuring);
 
  private:
-  std::optional<MeasuredStep> measure(pliant::Scene& scene, const pliant::StepReport& report, bool is_whole);
+  pliant::Measurements measure(pliant::Simulation& simulation, const pliant::StepReport& report,
+                               const Measuring& measuring);
+  MeasuredStep row_of(const pliant::Scene& scene, const pliant::Measurements& row);
   void add_columns(const pliant::Scene& scene, const pliant::Measurements& row);
 
   std::vector<std::string> groups_;
@@ -42,7 +64,7 @@ class StepMeasurer {
   std::optional<pliant::MeasurementColumns> columns_;
   std::shared_ptr<const std::vector<std::string>> names_;
   std::vector<std::string> known_groups_, known_colliders_;  // that have columns, as they came last
-  double credit_ = 0;                                        // time that may be spent on local steps, at most 0 [s]
+  TimeBudget for_energies_{0.02}, for_past_limits_{0.01};
 };
 
 /// Rows of measurements.csv in the order of their steps, of a bounded number: when there are too many, those of the

@@ -49,7 +49,7 @@ struct CommandContext {
   bool is_playing = false;
   std::int64_t single_steps = 0;  ///< still to take while paused
   pliant::ColorBy color = pliant::ColorBy::none;
-  Measuring measuring = Measuring::sparing;
+  Measuring measuring = {};
   std::uint64_t restarts = 0;
   std::string message = {};  ///< for the user; empty: none
 

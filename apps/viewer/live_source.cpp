@@ -27,7 +27,7 @@ void LiveSource::show(pliant::ColorBy color) {
   scene_.post([color](CommandContext& context) { context.color = color; });
 }
 
-void LiveSource::measure(Measuring measuring) {
+void LiveSource::measure(const Measuring& measuring) {
   if (measuring == measuring_) return;
   measuring_ = measuring;
   scene_.post([measuring](CommandContext& context) { context.measuring = measuring; }, LiveScene::Kind::steers);

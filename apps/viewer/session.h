@@ -45,7 +45,7 @@ class Session {
   /// For plots; what is simulated does not depend on it.
   std::optional<MeasuredStep> measure_start(StepMeasurer& measurer) { return measurer.measure_start(scene_); }
   std::optional<MeasuredStep> measure_step(StepMeasurer& measurer, const pliant::StepReport& report,
-                                           Measuring measuring) {
+                                           const Measuring& measuring) {
     return measurer.measure_step(scene_, report, measuring);
   }
 

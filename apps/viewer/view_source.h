@@ -50,8 +50,8 @@ class ViewSource {
   virtual const pliant_plot::MeasuredRun* measured() const { return nullptr; }
   /// Changes with what was measured.
   virtual std::uint64_t measured_version() const { return 0; }
-  /// Asks for energies and the like after every step from now on, or for as few of them as cost next to nothing.
-  virtual void measure(Measuring) {}
+  /// Asks for what is to be measured after every step from now on.
+  virtual void measure(const Measuring&) {}
 
   /// Draws this source's part of the panel.
   virtual void draw_panel() = 0;

@@ -85,8 +85,7 @@ void Viewer::draw_plots() {
   std::optional<double> now;
   if (source_.live() == nullptr) now = source_.frame().time;
   save_plots(plots_panel_.draw(*run, now, screen_.size, ui_.style()), *run);
-  const bool needs_all = plots_panel_.is_open && plots_panel_.takes_local_steps(*run);
-  source_.measure(needs_all ? Measuring::all : Measuring::sparing);
+  source_.measure(plots_panel_.is_open ? plots_panel_.needs(*run) : Measuring{});
 }
 
 void Viewer::save_plots(PlotsPanel::Wish wish, const pliant_plot::MeasuredRun& run) {

@@ -54,12 +54,16 @@ std::optional<Rect> PlotsPanel::place_of(const std::string& what) const {
   return found->second;
 }
 
-bool PlotsPanel::takes_local_steps(const MeasuredRun& run) const {
-  return std::ranges::any_of(pliant_plot::usual_figures(run.table.names), [&](const Figure& figure) {
-    return chosen_.contains(figure.title) && std::ranges::any_of(figure.columns, [](const std::string& column) {
-             return pliant::takes_local_step(column);
-           });
-  });
+Measuring PlotsPanel::needs(const MeasuredRun& run) const {
+  Measuring needs;
+  for (const Figure& figure : pliant_plot::usual_figures(run.table.names)) {
+    if (!chosen_.contains(figure.title)) continue;
+    for (const std::string& column : figure.columns) {
+      needs.energies |= pliant::takes_local_step(column);
+      needs.past_limits |= column == "past_limits";
+    }
+  }
+  return needs;
 }
 
 pliant_plot::PlotChoice PlotsPanel::choice(const TimeRange& range) const {

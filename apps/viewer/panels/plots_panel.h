@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "plot/run_plots.h"
+#include "viewer/history.h"
 #include "viewer/panels/plot_drawing.h"
 #include "viewer/picking.h"
 
@@ -22,8 +23,8 @@ class PlotsPanel {
             const PanelStyle& style);
   /// The plots that are chosen, in the range of time that is shown, of few points each.
   std::vector<pliant_report::Plot> plots(const pliant_plot::MeasuredRun& run) const;
-  /// Whether it shows anything that takes a local step to measure.
-  bool takes_local_steps(const pliant_plot::MeasuredRun& run) const;
+  /// What of that which is shown has to be asked for.
+  Measuring needs(const pliant_plot::MeasuredRun& run) const;
 
   /// The times that are shown [s].
   TimeRange shown(const pliant_plot::MeasuredRun& run) const;

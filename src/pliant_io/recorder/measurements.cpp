@@ -196,11 +196,10 @@ bool takes_local_step(std::string_view column) {
   return column == "elastic" || column.starts_with("elastic_") || std::ranges::find(others, column) != others.end();
 }
 
-Measurements measure(Simulation& simulation, const StepReport& report) {
+Measurements measure_energies(Simulation& simulation, const StepReport& report) {
   const Evaluation evaluation = simulation.evaluate();
   const State& state = simulation.state();
   Measurements row = motion_of(simulation, report);
-  row.past_limits = stretch_past_limits(simulation);
   row.residual = evaluation.residual;
   row.objective = evaluation.objective();
   row.total = row.kinetic;
@@ -215,6 +214,14 @@ Measurements measure(Simulation& simulation, const StepReport& report) {
     (is_gravitational ? row.gravitational : row.other_potential) += potential;
     row.total += potential;
   }
+  check_finite(row);
+  row.past_limits = std::numeric_limits<Real>::quiet_NaN();
+  return row;
+}
+
+Measurements measure(Simulation& simulation, const StepReport& report) {
+  Measurements row = measure_energies(simulation, report);
+  row.past_limits = stretch_past_limits(simulation);
   check_finite(row);
   return row;
 }

@@ -35,6 +35,9 @@ struct Measurements {
 /// Measures the state; costs one local step.
 Measurements measure(Simulation& simulation, const StepReport& report);
 
+/// The same without `past_limits`, which takes most of the time and is NaN.
+Measurements measure_energies(Simulation& simulation, const StepReport& report);
+
 /// What of it is at hand without a local step; elastic and potential energies, their total, `past_limits`, `residual`
 /// and `objective` are NaN.
 Measurements measure_motion(const Simulation& simulation, const StepReport& report);
