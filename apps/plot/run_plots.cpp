@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <iterator>
 #include <set>
 #include <string_view>
 
@@ -64,18 +65,27 @@ std::vector<Figure> all_figures(const std::vector<std::string>& names) {
   return figures;
 }
 
-std::optional<std::vector<double>> values_of(const MeasurementTable& table, const std::string& column) {
-  if (column == "elastic") return table.elastic();
-  if (const std::vector<double>* found = table.find(column)) return *found;
-  return {};
+/// Null where there is none; sums stand in `sums`.
+const std::vector<double>* values_of(const MeasurementTable& table, const std::string& column,
+                                     std::vector<double>& sums) {
+  if (column != "elastic") return table.find(column);
+  sums = table.elastic();
+  return &sums;
+}
+
+bool is_event(double value) {
+  return std::isfinite(value) && value != 0;
 }
 
 /// A column of a run, between two times.
 std::optional<Series> line_of(const MeasuredRun& run, const std::string& column, const PlotChoice& choice) {
   const std::vector<double>* times = run.table.find("time");
-  const std::optional<std::vector<double>> values = values_of(run.table, column);
-  if (times == nullptr || !values) return {};
+  std::vector<double> sums;
+  const std::vector<double>* values = values_of(run.table, column, sums);
+  if (times == nullptr || values == nullptr) return {};
   Series line;
+  line.x.reserve(times->size());
+  line.y.reserve(times->size());
   for (std::size_t i = column_info(column).is_of_step ? 1 : 0; i < times->size(); ++i) {
     const double time = (*times)[i];
     if (time < choice.from || time > choice.to) continue;
@@ -118,7 +128,7 @@ void thin(Series& line) {
 namespace {
 
 bool has_events(const Series& line) {
-  return std::ranges::any_of(line.y, [](double value) { return std::isfinite(value) && value != 0; });
+  return std::ranges::any_of(line.y, is_event);
 }
 
 /// Whether values span powers of ten, so that a logarithmic axis shows more.
@@ -158,7 +168,8 @@ class RunPlotter {
       const std::string several = figure.axis.empty() ? in_axis(figure.title) : figure.axis;
       const std::string label = lines.size() == 1 ? info.label : several;
       const std::string number = parts > 1 ? fmt::format(" ({} of {})", part + 1, parts) : "";
-      plots.push_back(finish(figure.title + number, label, info, {begin, end}));
+      plots.push_back(
+          finish(figure.title + number, label, info, {std::make_move_iterator(begin), std::make_move_iterator(end)}));
     }
     return plots;
   }
@@ -284,8 +295,12 @@ std::vector<Figure> usual_figures(const std::vector<std::string>& names) {
 std::vector<Plot> figure_plots(const MeasuredRun& run, const Figure& figure, const PlotChoice& choice) {
   Figure eventful = figure;
   std::erase_if(eventful.columns, [&](const std::string& column) {
-    const std::optional<Series> line = line_of(run, column, {});
-    return !line || !has_events(*line);
+    for (std::size_t i = 0; i < run.table.names.size(); ++i) {
+      const std::string& name = run.table.names[i];
+      const bool counts = column == "elastic" ? name.starts_with("elastic_") : name == column;
+      if (counts && std::ranges::any_of(run.table.columns[i], is_event)) return false;
+    }
+    return true;
   });
   PlotChoice joined = choice;
   joined.joins_over_nan = true;

@@ -203,7 +203,7 @@ void PlotsPanel::draw_plots(const MeasuredRun& run, std::optional<double> now, c
     if (first != times->begin()) all_rows.from = *std::prev(first);
     if (last != times->end()) all_rows.to = *last;
   }
-  const std::vector<Plot> plots = chosen_plots(run, all_rows);
+  std::vector<Plot> plots = chosen_plots(run, all_rows);
   if (plots.empty()) {
     wrapped_text(chosen_.empty() ? "No curves are chosen." : "Nothing was measured yet: take a step.");
     return;
@@ -217,21 +217,23 @@ void PlotsPanel::draw_plots(const MeasuredRun& run, std::optional<double> now, c
   float height = room.y / rows;
   std::vector<PreparedPlot> prepared;
   float left = 0;
-  for (const Plot& plot : plots) {
-    prepared.emplace_back(plot, room.y / rows - 60 * unit, style);
+  prepared.reserve(plots.size());
+  for (Plot& plot : plots) {
+    prepared.emplace_back(std::move(plot), room.y / rows - 60 * unit, style);
     left = std::max(left, prepared.back().label_width);
     height = std::max(height, least_height(prepared.back(), width, style));
   }
   const PlotMarks marks{read_at_, now};
   read_at_.reset();
-  for (std::size_t i = 0; i < plots.size(); ++i) {
+  for (std::size_t i = 0; i < prepared.size(); ++i) {
+    const std::string& title = prepared[i].plot.title;
     const auto place = static_cast<float>(i);
     const float row = std::floor(place / columns), column = place - row * columns;
     const float x = from.x + column * (width + space), y = from.y + row * height;
     const Rect area = draw_plot(prepared[i], {x, y, x + width, y + height - 4 * unit}, left, range, marks, style);
-    places_[plots[i].title] = area;
+    places_[title] = area;
     ImGui::SetCursorScreenPos({area[0], area[1]});
-    ImGui::InvisibleButton(plots[i].title.c_str(), {area[2] - area[0], area[3] - area[1]});
+    ImGui::InvisibleButton(title.c_str(), {area[2] - area[0], area[3] - area[1]});
     take_mouse(area, known);
   }
   ImGui::SetCursorScreenPos({from.x, from.y + rows * height});
