@@ -125,7 +125,7 @@ float draw_legend_of(const PreparedPlot& prepared, const Rect& place, double tim
     write_at(list, x, flow.y(), is_known ? ink : faint, is_known ? value_text(line.y[*point]) : "-");
     flow.end();
   }
-  return flow.below() + 4 * unit;
+  return flow.below() + 9 * unit;  // room for half a number at the upper end of the axis
 }
 
 class AreaDrawing {
