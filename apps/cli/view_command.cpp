@@ -18,6 +18,7 @@
 #include "pliant_io/checkpoint/checkpoint.h"
 #include "pliant_io/scene/builtin_scenes.h"
 #include "render/scalar_fields.h"
+#include "sweep/measurement_table.h"
 #include "viewer/live_source.h"
 #include "viewer/playback.h"
 #include "viewer/viewer.h"
@@ -89,9 +90,13 @@ Shown show_run(const ViewArguments& arguments) {
   if (arguments.color) pliant_render::check_known_of_runs(*arguments.color);
   pliant::Animation animation = pliant::read_run(arguments.scene);
   pliant_render::RunAnnotations annotations = annotations_of(run, animation);
-  return {arguments, std::make_unique<pliant_viewer::Playback>(
-                         pliant_render::RunFrames(std::move(animation), std::move(annotations)), appearance,
-                         !arguments.is_paused)};
+  auto playback = std::make_unique<pliant_viewer::Playback>(
+      pliant_render::RunFrames(std::move(animation), std::move(annotations)), appearance, !arguments.is_paused);
+  const fs::path measurements = fs::path(arguments.scene) / "measurements.csv";
+  if (std::error_code ignored; fs::exists(measurements, ignored)) {
+    playback->set_measured({playback->name(), pliant_sweep::read_measurements(measurements)});
+  }
+  return {arguments, std::move(playback)};
 }
 
 Shown show_scene(const ViewArguments& arguments, std::shared_ptr<pliant::Scene> scene, pliant_viewer::Window& window) {

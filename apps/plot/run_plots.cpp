@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <iterator>
 #include <set>
 #include <string_view>
 
@@ -38,15 +39,8 @@ std::string as_title(std::string label) {
   return label;
 }
 
-/// A plot before its lines are known.
-struct Figure {
-  std::string title;
-  std::vector<std::string> columns;
-  std::string axis = {};  ///< of several lines; empty: the title
-};
-
 /// Those of a run; a column stands in one of them.
-std::vector<Figure> usual_figures(const std::vector<std::string>& names) {
+std::vector<Figure> all_figures(const std::vector<std::string>& names) {
   std::vector<Figure> figures = {
       {"Energy", {"kinetic", "elastic", "gravitational", "other_potential", "total"}},
       {"Elastic energy by group", {}},
@@ -71,28 +65,39 @@ std::vector<Figure> usual_figures(const std::vector<std::string>& names) {
   return figures;
 }
 
-std::optional<std::vector<double>> values_of(const MeasurementTable& table, const std::string& column) {
-  if (column == "elastic") return table.elastic();
-  if (const std::vector<double>* found = table.find(column)) return *found;
-  return {};
+/// Null where there is none; sums stand in `sums`.
+const std::vector<double>* values_of(const MeasurementTable& table, const std::string& column,
+                                     std::vector<double>& sums) {
+  if (column != "elastic") return table.find(column);
+  sums = table.elastic();
+  return &sums;
+}
+
+bool is_event(double value) {
+  return std::isfinite(value) && value != 0;
 }
 
 /// A column of a run, between two times.
 std::optional<Series> line_of(const MeasuredRun& run, const std::string& column, const PlotChoice& choice) {
   const std::vector<double>* times = run.table.find("time");
-  const std::optional<std::vector<double>> values = values_of(run.table, column);
-  if (times == nullptr || !values) return {};
+  std::vector<double> sums;
+  const std::vector<double>* values = values_of(run.table, column, sums);
+  if (times == nullptr || values == nullptr) return {};
   Series line;
+  line.x.reserve(times->size());
+  line.y.reserve(times->size());
   for (std::size_t i = column_info(column).is_of_step ? 1 : 0; i < times->size(); ++i) {
     const double time = (*times)[i];
     if (time < choice.from || time > choice.to) continue;
+    if (choice.joins_over_nan && std::isnan((*values)[i])) continue;
     line.x.push_back(time);
     line.y.push_back((*values)[i]);
   }
   return line;
 }
 
-/// The least and the largest of each short span, in their order. Where a span has no number the line has a gap.
+}  // namespace
+
 void thin(Series& line) {
   const std::size_t count = line.x.size();
   if (count <= 2 * spans) return;
@@ -120,8 +125,10 @@ void thin(Series& line) {
   line.y = std::move(thinned.y);
 }
 
+namespace {
+
 bool has_events(const Series& line) {
-  return std::ranges::any_of(line.y, [](double value) { return std::isfinite(value) && value != 0; });
+  return std::ranges::any_of(line.y, is_event);
 }
 
 /// Whether values span powers of ten, so that a logarithmic axis shows more.
@@ -139,7 +146,7 @@ bool spans_decades(const std::vector<Series>& lines) {
 
 class RunPlotter {
  public:
-  RunPlotter(const std::vector<MeasuredRun>& runs, const PlotChoice& choice) : runs_(runs), choice_(choice) {}
+  RunPlotter(std::span<const MeasuredRun> runs, const PlotChoice& choice) : runs_(runs), choice_(choice) {}
 
   /// Of the one run, lines that are more than zero throughout, or were asked for; in parts where there are many.
   std::vector<Plot> lines_of_run(const Figure& figure, bool is_asked_for) const {
@@ -161,7 +168,8 @@ class RunPlotter {
       const std::string several = figure.axis.empty() ? in_axis(figure.title) : figure.axis;
       const std::string label = lines.size() == 1 ? info.label : several;
       const std::string number = parts > 1 ? fmt::format(" ({} of {})", part + 1, parts) : "";
-      plots.push_back(finish(figure.title + number, label, info, {begin, end}));
+      plots.push_back(
+          finish(figure.title + number, label, info, {std::make_move_iterator(begin), std::make_move_iterator(end)}));
     }
     return plots;
   }
@@ -207,7 +215,7 @@ class RunPlotter {
     return plot;
   }
 
-  const std::vector<MeasuredRun>& runs_;
+  std::span<const MeasuredRun> runs_;
   const PlotChoice& choice_;
 };
 
@@ -273,6 +281,37 @@ std::vector<Figure> figures_by_unit(const std::vector<std::string>& columns) {
 
 }  // namespace
 
+std::vector<Figure> usual_figures(const std::vector<std::string>& names) {
+  std::vector<Figure> figures = all_figures(names);
+  const auto is_missing = [&](const std::string& column) {
+    if (column != "elastic") return std::ranges::find(names, column) == names.end();
+    return std::ranges::none_of(names, [](const std::string& name) { return name.starts_with("elastic_"); });
+  };
+  for (Figure& figure : figures) std::erase_if(figure.columns, is_missing);
+  std::erase_if(figures, [](const Figure& figure) { return figure.columns.empty(); });
+  return figures;
+}
+
+std::vector<Plot> figure_plots(const MeasuredRun& run, const Figure& figure, const PlotChoice& choice) {
+  Figure eventful = figure;
+  std::erase_if(eventful.columns, [&](const std::string& column) {
+    for (std::size_t i = 0; i < run.table.names.size(); ++i) {
+      const std::string& name = run.table.names[i];
+      const bool counts = column == "elastic" ? name.starts_with("elastic_") : name == column;
+      if (counts && std::ranges::any_of(run.table.columns[i], is_event)) return false;
+    }
+    return true;
+  });
+  PlotChoice joined = choice;
+  joined.joins_over_nan = true;
+  std::vector<Plot> plots =
+      RunPlotter({&run, 1}, joined).lines_of_run(eventful.columns.empty() ? figure : eventful, true);
+  std::erase_if(plots, [](const Plot& plot) {
+    return std::ranges::all_of(plot.series, [](const Series& line) { return line.x.empty(); });
+  });
+  return plots;
+}
+
 std::vector<Plot> run_plots(const std::vector<MeasuredRun>& runs, const PlotChoice& choice) {
   const std::vector<std::string> names = all_names(runs);
   check_columns(choice.columns, names);
@@ -280,7 +319,7 @@ std::vector<Plot> run_plots(const std::vector<MeasuredRun>& runs, const PlotChoi
   const bool is_asked_for = !choice.columns.empty();
   const RunPlotter plotter(runs, choice);
   std::vector<Plot> plots;
-  for (const Figure& figure : is_asked_for ? figures_by_unit(choice.columns) : usual_figures(names)) {
+  for (const Figure& figure : is_asked_for ? figures_by_unit(choice.columns) : all_figures(names)) {
     if (runs.size() == 1) {
       for (Plot& plot : plotter.lines_of_run(figure, is_asked_for)) plots.push_back(std::move(plot));
       continue;

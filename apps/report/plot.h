@@ -53,6 +53,10 @@ struct Plot {
 /// paper they are the light ones.
 std::string to_svg(const Plot& plot, bool is_alone);
 
+/// The palette's color of a series, 0xRRGGBB, on light ground or on dark; after eight they come again.
+enum class Ground { light, dark };
+unsigned int palette_color(int color, Ground ground);
+
 /// The style sheet of all plots, of classes that begin with "plot": shapes, and colors for light, dark and print.
 std::string plot_style();
 

@@ -1,4 +1,5 @@
 #include <array>
+#include <charconv>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -63,6 +64,14 @@ std::string colors(const Scheme& scheme) {
 }
 
 }  // namespace
+
+unsigned int palette_color(int color, Ground ground) {
+  const std::string_view hex =
+      (ground == Ground::dark ? dark : light).series[static_cast<std::size_t>(color % color_count)].substr(1);
+  unsigned int number = 0;
+  std::from_chars(hex.data(), hex.data() + hex.size(), number, 16);
+  return number;
+}
 
 std::string plot_style() {
   return fmt::format(

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <charconv>
 
+#include <fmt/format.h>
+
+#include "pliant_io/files/csv.h"
 #include "pliant_io/files/read_file.h"
 
 namespace pliant_sweep {
@@ -90,6 +93,22 @@ MeasurementTable parse_measurements(std::string_view text) {
 
 MeasurementTable read_measurements(const std::filesystem::path& file) {
   return parse_measurements(pliant::read_file(file));
+}
+
+std::string to_csv(const MeasurementTable& table) {
+  fmt::memory_buffer text;
+  const auto out = std::back_inserter(text);
+  for (std::size_t i = 0; i < table.names.size(); ++i) {
+    fmt::format_to(out, "{}{}", i == 0 ? "" : ",", pliant::csv_field(table.names[i]));
+  }
+  text.push_back('\n');
+  for (std::size_t row = 0; row < table.row_count(); ++row) {
+    for (std::size_t i = 0; i < table.columns.size(); ++i) {
+      fmt::format_to(out, "{}{}", i == 0 ? "" : ",", table.columns[i][row]);
+    }
+    text.push_back('\n');
+  }
+  return fmt::to_string(text);
 }
 
 }  // namespace pliant_sweep

@@ -27,4 +27,7 @@ MeasurementTable read_measurements(const std::filesystem::path& file);
 /// The same of a text.
 MeasurementTable parse_measurements(std::string_view text);
 
+/// The text of a table, as measurements.csv has it.
+std::string to_csv(const MeasurementTable& table);
+
 }  // namespace pliant_sweep

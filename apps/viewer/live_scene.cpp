@@ -7,9 +7,10 @@
 namespace pliant_viewer {
 namespace {
 
-constexpr Seconds patience{0.5};     // with a step while a change is waiting
-constexpr Seconds longest_wait{1};   // a huge time step would overflow the clock
-constexpr Seconds freshness{0.008};  // age at which a snapshot is replaced
+constexpr Seconds patience{0.5};               // with a step while a change is waiting
+constexpr Seconds longest_wait{1};             // a huge time step would overflow the clock
+constexpr Seconds freshness{0.008};            // age at which a snapshot is replaced
+constexpr std::size_t most_measured = 16'384;  // steps that a window which takes no snapshots leaves waiting
 
 bool is_same(const pliant_render::RenderMesh& a, const pliant_render::RenderMesh& b) {
   return a.vertex_count == b.vertex_count && a.triangles == b.triangles && a.ropes == b.ropes && a.edges == b.edges &&
@@ -30,6 +31,7 @@ LiveScene::LiveScene(MakeScene make, Index threads, bool is_playing, std::functi
   session_.set_stop([this] { return shall_give_up(); });
   set_thread_count();
   update_render_mesh();
+  measure_start();
   publish();
   thread_ = std::thread([this] { work(); });
 }
@@ -166,15 +168,26 @@ void LiveScene::run_commands() {
   pacer_.start(Clock::now());
   set_thread_count();
   update_render_mesh();
+  measure_start();
+}
+
+void LiveScene::measure_start() {
+  is_at_start_ = true;
+  if (auto start = session_.measure_start(measurer_)) measured_.push_back(std::move(*start));
 }
 
 void LiveScene::step() {
+  if (is_at_start_) measure_start();  // with what commands have changed
   step_began_ = Clock::now().time_since_epoch().count();
   try {
     const double before = session_.simulation().state().time;
     const pliant::StepReport report = session_.step();
     pacer_.took_step();
     context_.single_steps = std::max<std::int64_t>(context_.single_steps - 1, 0);
+    is_at_start_ = false;
+    if (auto measured = session_.measure_step(measurer_, report, context_.measuring)) {
+      measured_.push_back(std::move(*measured));
+    }
     statistics_.add({Clock::now(), session_.simulation().state().time - before, report.seconds_local,
                      report.seconds_global, report.seconds_factor, report.contact.seconds, report.seconds_total});
   } catch (const std::exception& error) {
@@ -218,6 +231,7 @@ void LiveScene::publish() {
   back_.materials = materials_;
   back_.wrenches.clear();
   for (const auto& [id, collider] : simulation.colliders()) back_.wrenches[id] = simulation.wrench(id);
+  back_.measured = std::exchange(measured_, {});
   back_.statistics = statistics_.means(Clock::now());
   back_.step = simulation.state().step;
   back_.single_steps = context_.single_steps;
@@ -234,6 +248,11 @@ void LiveScene::publish() {
   back_.commands = commands_published_ = commands_done_;
   {
     const std::lock_guard lock(mutex_);
+    if (has_news_) {
+      std::ranges::move(back_.measured, std::back_inserter(middle_.measured));
+      std::swap(back_.measured, middle_.measured);
+    }
+    if (back_.measured.size() > most_measured) leave_out_every_second(back_.measured);
     std::swap(back_, middle_);
     has_news_ = true;
   }

@@ -10,6 +10,7 @@
 
 #include "render/clip.h"
 #include "viewer/frame_statistics.h"
+#include "viewer/history.h"
 #include "viewer/session.h"
 
 namespace pliant_viewer {
@@ -24,6 +25,7 @@ struct Snapshot {
   std::shared_ptr<const std::vector<Slider>> sliders;
   std::shared_ptr<const std::vector<BodyMaterial>> materials;
   std::map<pliant::ColliderId, pliant::Wrench> wrenches;  ///< what colliders felt in the last step
+  std::vector<MeasuredStep> measured;                     ///< since the snapshot that newest() returned before
   FrameStatistics::Means statistics;
   std::int64_t step = 0;
   std::int64_t single_steps = 0;  ///< still to take while paused
@@ -47,6 +49,7 @@ struct CommandContext {
   bool is_playing = false;
   std::int64_t single_steps = 0;  ///< still to take while paused
   pliant::ColorBy color = pliant::ColorBy::none;
+  Measuring measuring = {};
   std::uint64_t restarts = 0;
   std::string message = {};  ///< for the user; empty: none
 
@@ -95,6 +98,7 @@ class LiveScene {
   void run_commands();
   void wait_for_work();
   void step();
+  void measure_start();
   void update_render_mesh();
   Seconds time_to_step();
   void publish();
@@ -113,6 +117,9 @@ class LiveScene {
 
   // Used by the simulation's thread alone.
   FrameStatistics statistics_;
+  StepMeasurer measurer_;
+  std::vector<MeasuredStep> measured_;  // not in a snapshot yet
+  bool is_at_start_ = true;             // no step since the scene was made or began anew
   std::shared_ptr<const pliant_render::RenderMesh> render_mesh_;
   pliant_render::ColliderSurfaces surfaces_;
   std::string note_;

@@ -3,13 +3,18 @@
 namespace pliant_viewer {
 
 LiveSource::LiveSource(MakeScene make, Index threads, bool is_playing, std::function<void()> wake)
-    : scene_(std::move(make), threads, is_playing, std::move(wake)),
-      snapshot_(&scene_.newest()),
-      is_playing_(is_playing) {}
+    : scene_(std::move(make), threads, is_playing, std::move(wake)), history_(scene_.name()), is_playing_(is_playing) {
+  take_snapshot();
+}
+
+void LiveSource::take_snapshot() {
+  snapshot_ = &scene_.newest();
+  for (const MeasuredStep& step : snapshot_->measured) history_.add(step);
+}
 
 bool LiveSource::refresh(Clock::time_point) {
   if (!scene_.has_news()) return false;
-  snapshot_ = &scene_.newest();
+  take_snapshot();
   if (snapshot_->commands >= play_command_) is_playing_ = snapshot_->is_playing;
   return true;
 }
@@ -20,6 +25,12 @@ Seconds LiveSource::time_to_news(Clock::time_point) const {
 
 void LiveSource::show(pliant::ColorBy color) {
   scene_.post([color](CommandContext& context) { context.color = color; });
+}
+
+void LiveSource::measure(const Measuring& measuring) {
+  if (measuring == measuring_) return;
+  measuring_ = measuring;
+  scene_.post([measuring](CommandContext& context) { context.measuring = measuring; }, LiveScene::Kind::steers);
 }
 
 void LiveSource::play(bool on) {

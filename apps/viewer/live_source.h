@@ -26,6 +26,9 @@ class LiveSource final : public ViewSource {
   void step(int direction) override;
   bool is_stepping() const override;
   void restart(bool keep_values) override;
+  const pliant_plot::MeasuredRun* measured() const override { return &history_.run(); }
+  std::uint64_t measured_version() const override { return history_.version(); }
+  void measure(const Measuring& measuring) override;
   void draw_panel() override;
   LiveScene* live() override { return &scene_; }
 
@@ -35,9 +38,12 @@ class LiveSource final : public ViewSource {
 
  private:
   void draw_pace();
+  void take_snapshot();
 
   LiveScene scene_;
-  const Snapshot* snapshot_;
+  const Snapshot* snapshot_ = nullptr;
+  History history_;
+  Measuring measuring_;
   bool is_playing_;                 // as requested; the snapshot follows a little later
   std::uint64_t play_command_ = 0;  // that requested it
   double speed_ = 1;

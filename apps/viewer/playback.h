@@ -27,7 +27,11 @@ class Playback final : public ViewSource {
   void play(bool on) override;
   void step(int direction) override;
   void restart(bool keep_values) override;
+  const pliant_plot::MeasuredRun* measured() const override { return measured_ ? &*measured_ : nullptr; }
   void draw_panel() override;
+
+  /// What the run has measured, for plots.
+  void set_measured(pliant_plot::MeasuredRun measured) { measured_ = std::move(measured); }
 
   std::size_t count() const { return frames_.count(); }
   std::size_t place() const { return place_; }
@@ -40,6 +44,7 @@ class Playback final : public ViewSource {
   /// The current time of the run [s].
   double run_time(Clock::time_point now) const;
 
+  std::optional<pliant_plot::MeasuredRun> measured_;
   pliant_render::RunFrames frames_;
   pliant::ViewSettings appearance_;
   std::shared_ptr<const pliant_render::RenderMesh> render_mesh_;

@@ -11,6 +11,7 @@
 
 #include "pliant_io/scene/scene.h"
 #include "viewer/body_materials.h"
+#include "viewer/history.h"
 #include "viewer/picking.h"
 #include "viewer/scene_changes.h"
 #include "viewer/sliders.h"
@@ -41,6 +42,12 @@ class Session {
   /// Takes a step. Events that are due but can no longer act, because the user removed what they act on, are skipped.
   /// @throws pliant::Error as Scene::step does.
   pliant::StepReport step();
+  /// For plots; what is simulated does not depend on it.
+  std::optional<MeasuredStep> measure_start(StepMeasurer& measurer) { return measurer.measure_start(scene_); }
+  std::optional<MeasuredStep> measure_step(StepMeasurer& measurer, const pliant::StepReport& report,
+                                           const Measuring& measuring) {
+    return measurer.measure_step(scene_, report, measuring);
+  }
 
   /// Makes the scene again, without a pull. `keep_changes`: values, materials, pins, and what was moved before the
   /// first step, are as they were changed, where the scene still has such a parameter, body or vertex; otherwise they

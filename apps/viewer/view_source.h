@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "render/clip.h"
+#include "viewer/history.h"
 #include "viewer/pacer.h"
 
 namespace pliant_viewer {
@@ -44,6 +45,13 @@ class ViewSource {
   virtual bool is_stepping() const { return false; }
   /// Starts over; `keep_values`: with the values set on the panel.
   virtual void restart(bool keep_values) = 0;
+
+  /// What was measured so far, for plots over time; null where nothing is known.
+  virtual const pliant_plot::MeasuredRun* measured() const { return nullptr; }
+  /// Changes with what was measured.
+  virtual std::uint64_t measured_version() const { return 0; }
+  /// Asks for what is to be measured after every step from now on.
+  virtual void measure(const Measuring&) {}
 
   /// Draws this source's part of the panel.
   virtual void draw_panel() = 0;

@@ -13,6 +13,7 @@
 #include "viewer/auto_range.h"
 #include "viewer/frame_statistics.h"
 #include "viewer/mouse_interaction.h"
+#include "viewer/panels/plots_panel.h"
 #include "viewer/panels/scene_panel.h"
 #include "viewer/quality_chooser.h"
 #include "viewer/ui.h"
@@ -50,6 +51,7 @@ class Viewer {
   std::uint64_t frame_count() const { return frame_count_; }
   bool is_help_open() const { return is_help_open_; }
   const ScenePanel& scene_panel() const { return scene_panel_; }
+  const PlotsPanel& plots_panel() const { return plots_panel_; }
   const std::string& message() const { return message_; }
   /// Takes back the last change of the scene, and does it again, as soon as its thread comes to it.
   void undo();
@@ -88,6 +90,8 @@ class Viewer {
   void draw_panels();
   void draw_main_panel();
   void draw_message();
+  void draw_plots();
+  void save_plots(PlotsPanel::Wish wish, const pliant_plot::MeasuredRun& run);
   void write_picture(int width, int height);
   void draw_edit_buttons(float width);
   void take_dropped_files();
@@ -136,6 +140,7 @@ class Viewer {
   bool wants_picture_ = false;
   std::function<std::string(const std::string&)> open_;
   ScenePanel scene_panel_;
+  PlotsPanel plots_panel_;
   std::string waits_;     // to be opened once the picture has said so; empty: nothing
   int waits_turns_ = 0;   // pictures until then
   bool is_over_ = false;  // something else was opened

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "viewer/plot_files.h"
 #include "viewer/viewer.h"
 
 namespace pliant_viewer {
@@ -21,12 +22,6 @@ fs::path free_name(const fs::path& folder, const std::string& scene) {
     file = folder / fmt::format("{}-{}.json", base, number);
   }
   return file;
-}
-
-std::string names_of(const std::vector<fs::path>& files) {
-  std::string names = files.front().lexically_normal().string();
-  for (std::size_t i = 1; i < files.size(); ++i) names += " and " + files[i].filename().string();
-  return names;
 }
 
 }  // namespace
@@ -59,7 +54,7 @@ void Viewer::save_scene(bool as_new) {
   live->post(
       [saved = saved_scene_, view, as_new, folder = picture_folder_, name = live->name()](CommandContext& context) {
         const fs::path file = as_new || saved->empty() ? free_name(folder, name) : *saved;
-        context.message = "saved " + names_of(context.session.save(file, view));
+        context.message = "saved " + saved_names(context.session.save(file, view));
         *saved = file;
       });
 }

@@ -104,6 +104,9 @@ void Viewer::take_key(const KeyEvent& event) {
     case GLFW_KEY_O:
       appearance_.colliders = !appearance_.colliders;
       return;
+    case GLFW_KEY_G:
+      plots_panel_.is_open = !plots_panel_.is_open;
+      return;
     case GLFW_KEY_P:
       return save_picture();
     case GLFW_KEY_TAB:

@@ -5,6 +5,7 @@
 #include "viewer/panels/appearance_panel.h"
 #include "viewer/panels/help_panel.h"
 #include "viewer/panels/time_bar.h"
+#include "viewer/plot_files.h"
 #include "viewer/viewer.h"
 
 namespace pliant_viewer {
@@ -21,6 +22,7 @@ void Viewer::draw_panels() {
   if (auto* playback = dynamic_cast<Playback*>(&source_)) {
     draw_time_bar(*playback, screen_.size, ui_.style());
   }
+  draw_plots();
   if (const auto chosen = scene_panel_.draw(screen_.size, ui_.style())) open(*chosen);
   if (is_help_open_) is_help_open_ = draw_help(source_.live() != nullptr, screen_.size, ui_.style());
   draw_message();
@@ -66,10 +68,36 @@ void Viewer::draw_main_panel() {
   if (ImGui::Button("Help", {third, 0})) is_help_open_ = !is_help_open_;
   explain("H: all keys");
   ImGui::SameLine();
-  ImGui::AlignTextToFramePadding();
+  if (ImGui::Button("Plots", {third, 0})) plots_panel_.is_open = !plots_panel_.is_open;
+  explain("G: energies, speed, residual, contacts and the time of a step, over time");
   ImGui::TextDisabled("%.0f pictures a second", frames_.means(Clock::now()).rate);
   explain("drawn by " + window_.driver());
   ImGui::End();
+}
+
+void Viewer::draw_plots() {
+  const pliant_plot::MeasuredRun* run = source_.measured();
+  if (run == nullptr) {
+    if (plots_panel_.is_open) say("this run has no measurements.csv, of which plots are made");
+    plots_panel_.is_open = false;
+    return;
+  }
+  std::optional<double> now;
+  if (source_.live() == nullptr) now = source_.frame().time;
+  save_plots(plots_panel_.draw(*run, now, screen_.size, ui_.style()), *run);
+  source_.measure(plots_panel_.is_open ? plots_panel_.needs(*run) : Measuring{});
+}
+
+void Viewer::save_plots(PlotsPanel::Wish wish, const pliant_plot::MeasuredRun& run) {
+  try {
+    if (wish == PlotsPanel::Wish::numbers) say("saved " + saved_names({save_measured(run, picture_folder_)}));
+    if (wish == PlotsPanel::Wish::drawings) {
+      const auto files = pliant_viewer::save_plots(plots_panel_.plots(run), run.name, picture_folder_);
+      say(files.empty() ? "there is no plot to save" : "saved " + saved_names(files));
+    }
+  } catch (const std::exception& error) {
+    say(error.what());
+  }
 }
 
 /// Shows the latest message or error at the upper edge.

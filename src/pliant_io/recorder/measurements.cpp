@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <set>
 #include <string>
 
@@ -152,16 +153,14 @@ Real stretch_past_limits(const Simulation& simulation) {
   return largest;
 }
 
-Measurements measure(Simulation& simulation, const StepReport& report) {
-  const Evaluation evaluation = simulation.evaluate();
+namespace {
+
+Measurements motion_of(const Simulation& simulation, const StepReport& report) {
   const State& state = simulation.state();
   Measurements row;
   row.step = state.step;
   row.time = state.time;
   row.report = report;
-  row.past_limits = stretch_past_limits(simulation);
-  row.residual = evaluation.residual;
-  row.objective = evaluation.objective();
   for (Index i = 0; i < state.vertex_count(); ++i) {
     const Real mass = state.masses[static_cast<std::size_t>(i)];
     const Vec3 v = pliant::row(state.velocities, i);
@@ -170,6 +169,39 @@ Measurements measure(Simulation& simulation, const StepReport& report) {
     row.momentum += mass * v;
     row.angular_momentum += mass * pliant::row(state.positions, i).cross(v);
   }
+  for (const auto& [id, collider] : simulation.colliders()) {
+    row.colliders.push_back(collider.name);
+    row.wrenches.push_back(simulation.wrench(id));
+  }
+  return row;
+}
+
+}  // namespace
+
+Measurements measure_motion(const Simulation& simulation, const StepReport& report) {
+  constexpr Real unknown = std::numeric_limits<Real>::quiet_NaN();
+  Measurements row = motion_of(simulation, report);
+  for (const auto& [id, group] : simulation.groups()) {
+    row.groups.push_back(group.name);
+    row.elastic.push_back(unknown);
+  }
+  row.gravitational = row.other_potential = row.total = unknown;
+  row.past_limits = row.residual = row.objective = unknown;
+  return row;
+}
+
+bool takes_local_step(std::string_view column) {
+  constexpr std::array<std::string_view, 6> others = {"gravitational", "other_potential", "total",
+                                                      "past_limits",   "residual",        "objective"};
+  return column == "elastic" || column.starts_with("elastic_") || std::ranges::find(others, column) != others.end();
+}
+
+Measurements measure_energies(Simulation& simulation, const StepReport& report) {
+  const Evaluation evaluation = simulation.evaluate();
+  const State& state = simulation.state();
+  Measurements row = motion_of(simulation, report);
+  row.residual = evaluation.residual;
+  row.objective = evaluation.objective();
   row.total = row.kinetic;
   for (const auto& [id, group] : simulation.groups()) {
     row.groups.push_back(group.name);
@@ -182,10 +214,14 @@ Measurements measure(Simulation& simulation, const StepReport& report) {
     (is_gravitational ? row.gravitational : row.other_potential) += potential;
     row.total += potential;
   }
-  for (const auto& [id, collider] : simulation.colliders()) {
-    row.colliders.push_back(collider.name);
-    row.wrenches.push_back(simulation.wrench(id));
-  }
+  check_finite(row);
+  row.past_limits = std::numeric_limits<Real>::quiet_NaN();
+  return row;
+}
+
+Measurements measure(Simulation& simulation, const StepReport& report) {
+  Measurements row = measure_energies(simulation, report);
+  row.past_limits = stretch_past_limits(simulation);
   check_finite(row);
   return row;
 }
@@ -196,19 +232,26 @@ bool has_contact(const ContactColumns& contact) {
   return contact.surfaces || !contact.colliders.empty();
 }
 
-std::string column_names(const std::vector<std::string>& groups, const ContactColumns& contact) {
-  std::string line = "step";
-  for (const Column& column : before_elastic) line += fmt::format(",{}", column.name);
-  for (const std::string& name : groups) line += ',' + csv_field("elastic_" + name);
-  for (const Column& column : after_elastic) line += fmt::format(",{}", column.name);
-  if (!has_contact(contact)) return line + '\n';
-  for (const Column& column : of_contact) line += fmt::format(",{}", column.name);
-  if (contact.surfaces) {
-    for (const Column& column : of_surfaces) line += fmt::format(",{}", column.name);
-  }
+std::vector<std::string> column_names(const std::vector<std::string>& groups, const ContactColumns& contact) {
+  std::vector<std::string> names = {"step"};
+  const auto add = [&names](const auto& columns) {
+    for (const Column& column : columns) names.emplace_back(column.name);
+  };
+  add(before_elastic);
+  for (const std::string& name : groups) names.push_back("elastic_" + name);
+  add(after_elastic);
+  if (!has_contact(contact)) return names;
+  add(of_contact);
+  if (contact.surfaces) add(of_surfaces);
   for (const std::string& name : contact.colliders) {
-    for (const WrenchColumn& column : of_wrench) line += ',' + csv_field(fmt::format("{}_{}", column.name, name));
+    for (const WrenchColumn& column : of_wrench) names.push_back(fmt::format("{}_{}", column.name, name));
   }
+  return names;
+}
+
+std::string line_of(const std::vector<std::string>& names) {
+  std::string line;
+  for (const std::string& name : names) line += (line.empty() ? "" : ",") + csv_field(name);
   return line + '\n';
 }
 
@@ -257,26 +300,34 @@ std::vector<std::optional<std::size_t>> NamedColumns::places_of(const std::vecto
   return places;
 }
 
-MeasurementsWriter::MeasurementsWriter(const std::filesystem::path& path, const std::vector<std::string>& groups,
-                                       std::int64_t kept_rows, const ContactColumns& contact)
-    : file_(open(path, column_names(groups, contact), kept_rows)),
+MeasurementColumns::MeasurementColumns(const std::vector<std::string>& groups, const ContactColumns& contact)
+    : names_(column_names(groups, contact)),
       elastic_(groups),
       wrenches_(contact.colliders),
       has_contact_(has_contact(contact)),
       has_surfaces_(contact.surfaces) {}
 
-void MeasurementsWriter::add(const Measurements& row) {
-  std::string line = std::to_string(row.step);
-  const auto add_columns = [&](const auto& columns, const auto& values) {
-    for (const auto& column : columns) line += fmt::format(",{}", column.value(values));
+std::vector<Real> MeasurementColumns::values(const Measurements& row) const {
+  std::vector<Real> values = {static_cast<Real>(row.step)};
+  values.reserve(names_.size());
+  const auto add = [&values](const auto& columns, const auto& of) {
+    for (const auto& column : columns) values.push_back(column.value(of));
   };
-  add_columns(before_elastic, row);
-  for (const Real energy : elastic_.values(row.groups, row.elastic)) line += fmt::format(",{}", energy);
-  add_columns(after_elastic, row);
-  if (has_contact_) add_columns(of_contact, row);
-  if (has_surfaces_) add_columns(of_surfaces, row);
-  for (const Wrench& wrench : wrenches_.values(row.colliders, row.wrenches)) add_columns(of_wrench, wrench);
-  file_.write(line + '\n');
+  add(before_elastic, row);
+  for (const Real energy : elastic_.values(row.groups, row.elastic)) values.push_back(energy);
+  add(after_elastic, row);
+  if (has_contact_) add(of_contact, row);
+  if (has_surfaces_) add(of_surfaces, row);
+  for (const Wrench& wrench : wrenches_.values(row.colliders, row.wrenches)) add(of_wrench, wrench);
+  return values;
+}
+
+MeasurementsWriter::MeasurementsWriter(const std::filesystem::path& path, const std::vector<std::string>& groups,
+                                       std::int64_t kept_rows, const ContactColumns& contact)
+    : columns_(groups, contact), file_(open(path, line_of(columns_.names()), kept_rows)) {}
+
+void MeasurementsWriter::add(const Measurements& row) {
+  file_.write(fmt::format("{}\n", fmt::join(columns_.values(row), ",")));
   file_.flush();
 }
 

@@ -35,6 +35,16 @@ struct Measurements {
 /// Measures the state; costs one local step.
 Measurements measure(Simulation& simulation, const StepReport& report);
 
+/// The same without `past_limits`, which takes most of the time and is NaN.
+Measurements measure_energies(Simulation& simulation, const StepReport& report);
+
+/// What of it is at hand without a local step; elastic and potential energies, their total, `past_limits`, `residual`
+/// and `objective` are NaN.
+Measurements measure_motion(const Simulation& simulation, const StepReport& report);
+
+/// Whether measure_motion() leaves a column of measurements.csv out, or "elastic", the sum over all groups.
+bool takes_local_step(std::string_view column);
+
 /// How far stretches are past their limits in the state at hand: the largest ‖z − p‖ of all strains, which is 0.02
 /// where cloth that may not stretch is 2 % longer. Of a body with fibres, these alone: what else it has is its shear.
 /// 0 where there are none.
@@ -68,13 +78,32 @@ class NamedColumns {
   std::map<std::string, std::vector<std::size_t>, std::less<>> columns_;
 };
 
+/// The columns of measurements.csv.
+class MeasurementColumns {
+ public:
+  /// `groups` and colliders have columns: one that is not there has 0, a group that is not among them counts in the
+  /// total alone. Without colliders and surfaces there are no columns of contact.
+  explicit MeasurementColumns(const std::vector<std::string>& groups, const ContactColumns& contact = {});
+
+  /// "step", "time" and so on.
+  const std::vector<std::string>& names() const { return names_; }
+  /// One for each name.
+  std::vector<Real> values(const Measurements& row) const;
+
+ private:
+  std::vector<std::string> names_;
+  NamedColumns elastic_;
+  NamedColumns wrenches_;
+  bool has_contact_;
+  bool has_surfaces_;
+};
+
 /// Writes measurements.csv: a line of column names, then a row for each measurement. Numbers are the shortest that read
 /// back to the same bits.
 class MeasurementsWriter {
  public:
-  /// Makes the file and writes the names of the columns; `groups` and colliders have columns: one that is not there
-  /// has 0, a group that is not among them counts in the total alone. Without colliders and surfaces there are no
-  /// columns of contact. Or goes on behind the first `kept_rows` rows of the file that is there.
+  /// Makes the file and writes the names of the columns. Or goes on behind the first `kept_rows` rows of the file that
+  /// is there.
   /// @throws Error (output); Error (input): that file has other columns, or fewer rows
   MeasurementsWriter(const std::filesystem::path& path, const std::vector<std::string>& groups,
                      std::int64_t kept_rows = 0, const ContactColumns& contact = {});
@@ -82,11 +111,8 @@ class MeasurementsWriter {
   void add(const Measurements& row);
 
  private:
+  MeasurementColumns columns_;
   OutputFile file_;
-  NamedColumns elastic_;
-  NamedColumns wrenches_;
-  bool has_contact_;
-  bool has_surfaces_;
 };
 
 }  // namespace pliant
