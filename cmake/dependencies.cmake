@@ -5,7 +5,10 @@
 set(pliant_library_packages "Eigen3 3.4" "fmt 9" "Threads")
 
 # What pliant::io links besides.
-set(pliant_io_packages "ZLIB" "pugixml 1.12")
+set(pliant_io_packages "")
+if(PLIANT_VTU)
+  set(pliant_io_packages "ZLIB" "pugixml 1.12")
+endif()
 
 # CHOLMOD and OpenBLAS. CHOLMOD's Supernodal, Modify and MatrixOps modules are under the GPL (the others under the
 # LGPL), so a program that is linked with this back end and given to others falls under the GPL. Without it Pliant

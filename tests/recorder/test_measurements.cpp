@@ -1,6 +1,5 @@
 // What is measured agrees with closed forms, and its file reads back.
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <sstream>
@@ -15,6 +14,7 @@
 #include "pliant/constraints/triangle_strain.h"
 #include "pliant/forces/builtin.h"
 #include "pliant/mesh/shapes.h"
+#include "pliant_io/files/number_text.h"
 #include "pliant_io/recorder/recorder.h"
 #include "tests/support/temporary_folder.h"
 
@@ -42,7 +42,7 @@ std::map<std::string, std::vector<Real>> read_columns(const std::string& text) {
         continue;
       }
       Real number = 0;
-      const auto result = std::from_chars(field.data(), field.data() + field.size(), number);
+      const auto result = number_from_chars(field.data(), field.data() + field.size(), number);
       CHECK(result.ec == std::errc());
       CHECK(result.ptr == field.data() + field.size());
       REQUIRE(i < names.size());

@@ -1,11 +1,11 @@
 #include "pliant/core/thread_pool.h"
 
-#include <algorithm>
 #include <string>
 #include <system_error>
 #include <utility>
 
 #include "pliant/core/error.h"
+#include "pliant/core/processors.h"
 
 namespace pliant {
 
@@ -13,7 +13,7 @@ ThreadPool::ThreadPool(int threads) {
   if (threads < 0) {
     fail_input("threads: " + std::to_string(threads) + " is negative; give 0 for all processors, or a count from 1");
   }
-  if (threads == 0) threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  if (threads == 0) threads = processor_count();
   workers_ = std::vector<Worker>(static_cast<std::size_t>(threads - 1));
   shares_ = std::vector<Share>(static_cast<std::size_t>(threads));
   active_ = threads;

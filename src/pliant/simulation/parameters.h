@@ -7,6 +7,7 @@
 //     set_parameter(simulation, {skin, "min_stretch"}, {0.9, 0, 0});
 #include <compare>
 #include <string>
+#include <tuple>
 #include <variant>
 #include <vector>
 
@@ -28,7 +29,10 @@ struct ParameterHandle {
   ParameterOwner owner{};
   std::string option{};  ///< "stiffness"
 
-  friend auto operator<=>(const ParameterHandle&, const ParameterHandle&) = default;
+  friend bool operator==(const ParameterHandle&, const ParameterHandle&) = default;
+  friend bool operator<(const ParameterHandle& a, const ParameterHandle& b) {
+    return std::tie(a.owner, a.option) < std::tie(b.owner, b.option);
+  }
 };
 
 enum class ParameterKind { real, integer, choice, vector, flag };

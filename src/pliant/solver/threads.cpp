@@ -1,7 +1,8 @@
 #include "pliant/solver/threads.h"
 
 #include <algorithm>
-#include <thread>
+
+#include "pliant/core/processors.h"
 
 namespace pliant {
 namespace {
@@ -11,8 +12,8 @@ namespace {
 constexpr std::size_t slots_per_thread = 4096;
 
 int useful_threads(Index asked, std::size_t slots) {
-  const auto processors = static_cast<std::size_t>(std::max(1U, std::thread::hardware_concurrency()));
-  const std::size_t most = asked > 0 ? static_cast<std::size_t>(asked) : processors;
+  if (!can_start_threads()) return 1;  // also where a scene asks for some: results do not depend on them
+  const auto most = static_cast<std::size_t>(asked > 0 ? asked : processor_count());
   return static_cast<int>(std::clamp<std::size_t>(slots / slots_per_thread, 1, most));
 }
 

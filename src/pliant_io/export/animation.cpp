@@ -196,7 +196,7 @@ void keep_frames(Animation& animation, const FrameRange& range) {
                            range.first, range.last, range.step));
   }
   std::vector<Real> kept;
-  for (std::int64_t frame = first; frame <= last; frame += std::min(range.step, count)) {
+  for (std::int64_t frame = first; frame <= last; frame += std::min<std::int64_t>(range.step, count)) {
     kept.push_back(animation.times[static_cast<std::size_t>(frame)]);
   }
   animation.times = std::move(kept);

@@ -19,7 +19,9 @@ constexpr AnimationFormat animation_format_list[] = {
     {"gltf", Needs::faces, Thins::always, Beside::colliders, write_gltf},      //
     {"glb", Needs::faces, Thins::always, Beside::colliders, write_glb},        //
     {"usda", Needs::faces, Thins::when_asked, Beside::colliders, write_usda},  //
+#ifdef PLIANT_HAS_VTU
     {"pvd", Needs::faces, Thins::never, Beside::values, write_pvd, pvd_folder},
+#endif
     {"pc2", Needs::points, Thins::never, Beside::nothing, write_pc2},
     {"mdd", Needs::points, Thins::never, Beside::nothing, write_mdd},
     {"npy", Needs::points, Thins::never, Beside::nothing, write_npy},

@@ -141,7 +141,7 @@ class GmshReader {
   }
 
   void resize(std::int64_t count) {
-    mesh_.vertices.resize(count, 3);
+    mesh_.vertices.resize(static_cast<Eigen::Index>(count), 3);
     tags_.resize(static_cast<std::size_t>(count));
   }
 

@@ -138,9 +138,11 @@ class MeditReader {
 
   void read_vertices() {
     if (dimension_ == 0) lexer_.fail("no Dimension before Vertices; write it first");
-    mesh_.vertices.setZero(next_count(static_cast<std::uint64_t>(dimension_) + 1), 3);
+    const std::int64_t count = next_count(static_cast<std::uint64_t>(dimension_) + 1);
+    mesh_.vertices.setZero(static_cast<Eigen::Index>(count), 3);
     for (Index v = 0; v < mesh_.vertex_count(); ++v) {
-      for (std::int64_t k = 0; k < dimension_; ++k) mesh_.vertices(v, k) = lexer_.number(require_word());
+      for (std::int64_t k = 0; k < dimension_; ++k)
+        mesh_.vertices(v, static_cast<Eigen::Index>(k)) = lexer_.number(require_word());
       require(references_.add("vertices", next_integer(), std::span(&v, 1)));
     }
   }

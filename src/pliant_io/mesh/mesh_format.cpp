@@ -32,7 +32,9 @@ constexpr MeshFormat formats[] = {
     {"stl", {"stl"}, read_stl, write_stl},
     {"gmsh", {"msh"}, read_gmsh, write_gmsh},
     {"medit", {"mesh"}, read_medit, write_medit},
+#ifdef PLIANT_HAS_VTU
     {"vtu", {"vtu"}, read_vtu, write_vtu},
+#endif
     {"vtk", {"vtk"}, read_vtk},
     {"tetgen", {"node", "ele"}, read_tetgen, nullptr, read_tetgen_pair},
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <utility>
 
@@ -57,9 +58,9 @@ void check_cache_size(std::string_view name, std::string_view bytes, std::size_t
                                  std::numeric_limits<Index>::max()));
   }
   const std::size_t available = bytes.size() - std::min(first_byte, bytes.size());
-  const std::size_t frame_size = static_cast<std::size_t>(counts.vertices) * 3 * number_size;
-  const std::size_t frames = available / frame_size;
-  const auto wanted = static_cast<std::size_t>(counts.frames);
+  const std::uint64_t frame_size = static_cast<std::uint64_t>(counts.vertices) * 3 * number_size;
+  const std::uint64_t frames = available / frame_size;
+  const auto wanted = static_cast<std::uint64_t>(counts.frames);
   const bool is_longer = tail == CacheTail::refused && (frames > wanted || available % frame_size != 0);
   if (first_byte <= bytes.size() && frames >= wanted && !is_longer) return;
   fail_cache(

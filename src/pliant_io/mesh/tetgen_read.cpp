@@ -34,7 +34,7 @@ class TetgenReader {
     check_room(lexer, count, "points", static_cast<std::uint64_t>(4 + attributes + (markers > 0 ? 1 : 0)));
     for (std::int64_t a = 0; a < attributes; ++a) add_map(fmt::format("attribute{}", a + 1), count);
     if (markers > 0) add_map("marker", count);
-    mesh_.vertices.resize(count, 3);
+    mesh_.vertices.resize(static_cast<Eigen::Index>(count), 3);
     for (Index v = 0; v < mesh_.vertex_count(); ++v) read_point(lexer, v);
   }
 

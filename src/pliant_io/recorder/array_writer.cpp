@@ -71,7 +71,7 @@ class ArrayWriter final : public FrameWriter {
 
   static std::string read_begin(const std::filesystem::path& path, std::uintmax_t size) {
     std::ifstream file(path, std::ios::binary);
-    std::string bytes(size, '\0');
+    std::string bytes(static_cast<std::size_t>(size), '\0');
     file.read(bytes.data(), static_cast<std::streamsize>(size));
     bytes.resize(static_cast<std::size_t>(file.gcount()));
     return bytes;

@@ -63,7 +63,7 @@ void visit_groups(std::uint64_t count, const EmitAll& emit_all, const Share& sha
     std::ranges::sort(uses);
     for (auto first = uses.begin(); first != uses.end();) {
       const auto last = std::find_if(first, uses.end(), [&](const Use& use) { return use.key() != first->key(); });
-      visit(std::span<const Use>(first, last));
+      visit(std::span<const Use>(&*first, static_cast<std::size_t>(last - first)));
       first = last;
     }
   }

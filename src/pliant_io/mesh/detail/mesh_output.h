@@ -9,6 +9,7 @@
 
 #include "pliant/mesh/mesh.h"
 #include "pliant_io/files/atomic_file.h"
+#include "pliant_io/files/number_text.h"
 
 namespace pliant {
 
@@ -49,9 +50,14 @@ class TextOutput {
   /// The shortest digits that read back to the same number.
   template <typename Number>
   requires std::is_arithmetic_v<Number> TextOutput& operator<<(Number number) {
-    char digits[32];
-    const char* end = std::to_chars(digits, digits + sizeof digits, number).ptr;
-    text_ += std::string_view(digits, static_cast<std::size_t>(end - digits));
+    NumberText digits;
+    const char* end = nullptr;
+    if constexpr (std::is_same_v<Number, Real>) {
+      end = number_to_chars(digits, number);
+    } else {
+      end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
+    }
+    text_ += std::string_view(digits.data(), static_cast<std::size_t>(end - digits.data()));
     return *this;
   }
   void end_line();

@@ -11,6 +11,7 @@
 
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
+#include "pliant_io/files/number_text.h"
 
 namespace pliant {
 
@@ -155,7 +156,7 @@ void TextLexer::take_line_end() {
 
 std::string parse_number(std::string_view word, Real& value) {
   const std::string_view digits = without_plus(word);
-  const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  const auto [stop, error] = number_from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error == std::errc::invalid_argument || stop != digits.data() + digits.size()) {
     return fmt::format("{} is not a number; write it like -1.25 or 1e-3", TextLexer::quoted(word));
   }

@@ -1,7 +1,6 @@
 #include "pliant_io/recorder/detail/run_json.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <system_error>
@@ -10,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "pliant/core/error.h"
+#include "pliant_io/files/number_text.h"
 #include "pliant_io/files/read_file.h"
 #include "pliant_io/recorder/run_files.h"
 
@@ -141,7 +141,7 @@ std::vector<Real> read_frame_times(const std::filesystem::path& path) {
        begin = end + 1) {
     const std::string_view word = field(std::string_view(text).substr(begin, end - begin), time_column);
     Real time = 0;
-    const auto [rest, error] = std::from_chars(word.data(), word.data() + word.size(), time);
+    const auto [rest, error] = number_from_chars(word.data(), word.data() + word.size(), time);
     const bool is_time = error == std::errc() && rest == word.data() + word.size() && std::isfinite(time);
     if (!is_time || (!times.empty() && time <= times.back())) {
       fail_input(fmt::format("{}:{}: has no time after that of the line before; run the scene again", path.string(),
