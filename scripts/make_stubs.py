@@ -19,15 +19,15 @@ from ._own import OwnConstraint as OwnConstraint
 from ._own import OwnForce as OwnForce
 from ._picture import Picture as Picture
 from ._pliant import Mesh as Mesh
+from ._results import Evaluation as Evaluation
+from ._results import StepReport as StepReport
 from ._simulation import CONTACT_TYPE as CONTACT_TYPE
 from ._simulation import BodyId as BodyId
 from ._simulation import ColliderId as ColliderId
-from ._simulation import Evaluation as Evaluation
 from ._simulation import ForceId as ForceId
 from ._simulation import GroupId as GroupId
 from ._simulation import Scene as Scene
 from ._simulation import Simulation as _Simulation
-from ._simulation import StepReport as StepReport
 from ._simulation import load_checkpoint as load_checkpoint
 from ._simulation import open_scene as open_scene
 from ._types import TYPES as TYPES

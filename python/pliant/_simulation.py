@@ -15,6 +15,7 @@ from ._error import Error
 from ._own import OwnConstraint, OwnForce
 from ._picture import Picture, picture_of
 from ._pliant import Mesh
+from ._results import Evaluation, StepReport
 from ._types import TYPES, ColliderOptions, ConstraintOptions, ForceOptions, Options, make_classes
 
 if TYPE_CHECKING:
@@ -59,37 +60,6 @@ class ColliderId:
 
 
 Id = Union[GroupId, ForceId, ColliderId]
-
-
-@dataclass(frozen=True)
-class StepReport:
-    """What a step tells about itself: iterations, the largest residual force on a vertex [N], seconds, contact."""
-
-    iterations: int
-    backtracks: int
-    reached_tolerance: bool
-    residual: float
-    seconds_local: float
-    seconds_global: float
-    seconds_factor: float
-    seconds_total: float
-    contacts: int
-    deepest: float
-    pairs: int
-    smallest_gap: float
-    momentum_lost: Tuple[float, float, float]
-
-
-@dataclass(frozen=True)
-class Evaluation:
-    """The largest force left on a vertex [N], and the parts of the objective [J]."""
-
-    residual: float
-    inertia: float
-    elastic: float
-    outside: float
-    contact: float
-    objective: float
 
 
 def _kind_and_number(added: Id) -> Tuple[str, int]:

@@ -157,6 +157,15 @@ class StopAndGoOn(AddonCase):
             bake.advance()
         self.assertEqual((self.baked_to(), baked_files.baked_range(bpy.context.scene)), (40, None))
 
+    def test_a_bake_goes_on_without_its_modifier(self):
+        self.bake()
+        whole = self.bytes_of(self.sheet)
+        self.sheet.modifiers.remove(self.sheet.modifiers["Pliant"])
+        self.scene.frame_end = 42
+        self.assertEqual(bpy.ops.pliant.resume(), {"FINISHED"})
+        self.assertEqual(self.bytes_of(self.sheet)[32 : len(whole)], whole[32:])
+        self.assertTrue(self.sheet.modifiers["Pliant"].show_viewport)
+
     def test_stopping_while_the_animation_is_read_changes_nothing(self):
         bake = baking.Bake(bpy.context, resumes=False)
         next(bake._parts)

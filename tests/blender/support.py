@@ -27,6 +27,10 @@ def add_mesh(name, vertices, faces, edges=(), **transform):
     mesh = bpy.data.meshes.new(name)
     mesh.from_pydata(vertices, list(edges), faces)
     mesh.update()
+    return _add_object(name, mesh, transform)
+
+
+def _add_object(name, mesh, transform):
     obj = bpy.data.objects.new(name, mesh)
     for key, value in transform.items():
         setattr(obj, key, value)
@@ -53,12 +57,7 @@ def add_box(name="Box", size=0.5, **transform):
     bmesh.ops.create_cube(builder, size=size)
     builder.to_mesh(mesh)
     builder.free()
-    obj = bpy.data.objects.new(name, mesh)
-    for key, value in transform.items():
-        setattr(obj, key, value)
-    bpy.context.collection.objects.link(obj)
-    bpy.context.view_layer.update()
-    return obj
+    return _add_object(name, mesh, transform)
 
 
 def pin(obj, weights):

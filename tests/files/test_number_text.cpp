@@ -81,7 +81,7 @@ TEST_CASE("a text becomes the double nearest to it, to where the number ends") {
   }
 }
 
-TEST_CASE("what is no number, and what no double holds, leaves the number as it was") {
+TEST_CASE("text that is not a number, or out of the range of a double, leaves the value unchanged") {
   for (const Reader reader : readers) {
     for (const std::string_view text : {"", "-", ".", "+1", " 1", "e5", "-.e1", "--1", "in", "x"}) {
       CAPTURE(text);

@@ -78,9 +78,10 @@ class Bake:
             self._folder = baked_files.new_folder(scene)
             yield from self._read(context)
         bake = baked_files.read_bake(self._folder)
-        marks = {entry["name"]: _marked(bpy.data.objects[entry["name"]]) for entry in bake["objects"]
-                 if entry["name"] in bpy.data.objects}  # fmt: skip
-        warnings = participants.render_warnings(scene, [bpy.data.objects[name] for name in marks])
+        names = {entry["name"] for entry in bake["objects"]}
+        objects = [obj for obj in bpy.data.objects if obj.name_full in names]
+        marks = {obj.name_full: _marked(obj) for obj in objects}
+        warnings = participants.render_warnings(scene, objects)
         self.is_reading = False
         yield from self._simulate(bake, resumes, warnings)
         if baked_files.recorded_frames(self._folder) is None:

@@ -82,10 +82,11 @@ def render_warnings(scene, objects):
     """Of modifiers above a bake that would make another mesh in renders, which then cannot show the bake."""
     lines = []
     for obj in objects:
-        if obj.pliant.role not in SIMULATED:
+        bake = find_modifier(obj)
+        if obj.pliant.role not in SIMULATED or bake is None:  # of a bake that goes on it may have been removed
             continue
         names = obj.modifiers.keys()
-        for name in names[: names.index(find_modifier(obj).name)]:
+        for name in names[: names.index(bake.name)]:
             if _levels_differ(obj.modifiers[name], scene):
                 lines.append(
                     f'"{obj.name}": the modifier "{name}" above Pliant differs between viewport and render, so renders '

@@ -1,0 +1,36 @@
+"""What a simulation tells about a step and about its state."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Tuple
+
+
+@dataclass(frozen=True)
+class StepReport:
+    """What a step tells about itself: iterations, the largest residual force on a vertex [N], seconds, contact."""
+
+    iterations: int
+    backtracks: int
+    reached_tolerance: bool
+    residual: float
+    seconds_local: float
+    seconds_global: float
+    seconds_factor: float
+    seconds_total: float
+    contacts: int
+    deepest: float
+    pairs: int
+    smallest_gap: float
+    momentum_lost: Tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """The largest force left on a vertex [N], and the parts of the objective [J]."""
+
+    residual: float
+    inertia: float
+    elastic: float
+    outside: float
+    contact: float
+    objective: float
