@@ -15,7 +15,7 @@ if [[ ! -x "$pliant" ]]; then
 fi
 # A folder in which everything was built stays as it is.
 [[ -f build/release/CMakeCache.txt ]] || cmake --preset demo
-cmake --build build/release --target pliant_cli
+cmake --build build/release --target pliant_cli pliant_blender
 built=$SECONDS
 "$pliant" run "$scene" --out "$out" "$@"
 simulated=$SECONDS

@@ -85,6 +85,15 @@ pliant::Scene open_checkpoint(const RenderArguments& arguments) {
   return scene;
 }
 
+/// What touches is found by a step, and not kept in a checkpoint.
+void check_color_of_moment(const pliant::Scene& scene) {
+  const pliant::ColorBy color = scene.view.color;
+  if (scene.steps > scene.simulation.state().step) return;
+  if (color != pliant::ColorBy::gap && color != pliant::ColorBy::contact_force) return;
+  pliant::fail_input(fmt::format("--color: a checkpoint does not hold what touches; give another color, or --steps {}",
+                                 scene.steps + 1));
+}
+
 Clip clip_of_scene(const RenderArguments& arguments) {
   pliant::Scene scene = is_checkpoint(arguments) ? open_checkpoint(arguments) : open_scene(arguments);
   print_warnings(scene);
@@ -93,6 +102,7 @@ Clip clip_of_scene(const RenderArguments& arguments) {
     std::fflush(stdout);  // before it takes its time
   }
   apply_appearance(arguments, scene.view);
+  if (is_checkpoint(arguments)) check_color_of_moment(scene);
   free_camera(arguments, scene.view.camera);
   scene.simulation.set_stop(waits_no_longer);
   return pliant_render::clip_from_scene(scene, steps_a_frame(scene, arguments.fps), [&](std::int64_t step) {

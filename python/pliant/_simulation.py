@@ -432,7 +432,7 @@ class Scene:
     def picture(self, *, size: Tuple[int, int] = (640, 400), color: str = "none", program: str = "pliant") -> Picture:
         """What it looks like now, with the view of the scene; see Simulation.picture.
 
-        ``color`` may be "energy", "gap" and "contact_force" as well.
+        ``color`` may be "energy" as well.
         """
         return picture_of(self.simulation, SCENE_NAMES, self, size, color, program)
 

@@ -197,6 +197,8 @@ class Render(unittest.TestCase):
         for words, remedy in ((("--out", "a.mp4"), "give --out a .png, or --steps"),
                               (("--out", "a.png", "--set", "gravity=null"), "change the scene file, and run it"),
                               (("--out", "a.png", "--backend", "eigen"), "change the scene file, and run it"),
+                              (("--out", "a.png", "--color", "gap"), "give another color, or --steps 11"),
+                              (("--out", "a.png", "--color", "contact_force"), "give another color, or --steps 11"),
                               (("--out", "a.png", "--steps", 5), "10 have been taken")):
             self.assertIn(remedy, self.render("run/checkpoint.pliant", *words, expect=2).stderr)
 

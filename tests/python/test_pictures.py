@@ -170,6 +170,8 @@ class PicturesByTheProgram(unittest.TestCase):
             scene.run(steps=20)
             self.assertNotEqual(self.png(scene, size=(96, 64), color="energy")[0], first)
             self.assertEqual(scene.simulation.steps_taken, 20)
+            with self.assertRaisesRegex(pliant.Error, "^picture: --color: a checkpoint does not hold what touches"):
+                scene.picture(program=PROGRAM, color="contact_force")
             with self.assertRaisesRegex(pliant.Error, "^picture: --color: .*heat"):
                 scene.picture(program=PROGRAM, color="heat")
 
