@@ -2,6 +2,7 @@
 # Compiles the library and its tests to WebAssembly with Debian's Emscripten, and runs the tests in node. Needs no
 # network. Exit code 77 when a Debian package is missing; which one it says, and installs nothing.
 #   scripts/build_web.sh [OPTION...]   options for ctest
+#   scripts/build_web.sh --module      the npm package alone, in build/web/npm; scripts/test_web.sh tests it
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -23,11 +24,15 @@ fi
 export NODE_PATH=/usr/share/nodejs
 jobs="${PLIANT_JOBS:-$(nproc)}"
 cmake --preset web
+if [[ "${1:-}" == --module ]]; then
+  cmake --build --preset web --parallel "$jobs" --target pliant_web
+  exit
+fi
 cmake --build --preset web --parallel "$jobs"
 if ! ctest --preset web --parallel "$jobs" "$@"; then
   echo "build_web.sh: tests FAILED in node, see above" >&2
   exit 1
 fi
-for file in build/web/bin/*.wasm; do
+for file in build/web/npm/*.wasm; do
   echo "$file: $(stat -c %s "$file") bytes, $(gzip -9 -c "$file" | wc -c) gzipped"
 done

@@ -1,9 +1,10 @@
 #pragma once
 // From the scene's camera to matrices, and the automatic camera.
+#include <limits>
 #include <vector>
 
 #include "pliant_io/scene/view_settings.h"
-#include "render/gl_objects.h"
+#include "render/vectors.h"
 
 namespace pliant_render {
 

@@ -7,35 +7,15 @@
 
 #include "pliant_io/export/animation.h"
 #include "pliant_io/scene/scene.h"
-#include "render/annotations.h"
-#include "render/render_mesh.h"
+#include "render/capture.h"
 
 namespace pliant_render {
-
-struct ClipFrame {
-  pliant::Real time = 0;               ///< [s]
-  FrameContent content;                ///< positions, values and markers
-  std::optional<WindAnnotation> wind;  ///< none where no wind blows
-};
 
 struct Clip {
   RenderMesh render_mesh;           ///< what all frames share
   pliant::ViewSettings appearance;  ///< size, camera, colors and light
   std::vector<ClipFrame> frames;    ///< by time, ascending
 };
-
-/// Of the bodies as they are held now, see make_render_mesh of the bodies.
-RenderMesh make_render_mesh(const pliant::Simulation& simulation);
-/// The same with what bodies look like.
-RenderMesh make_render_mesh(const pliant::Scene& scene);
-
-/// Vertices pinned by position constraints, ascending; none of bodies that are held as a whole.
-std::vector<std::uint32_t> pinned_vertices(const pliant::Simulation& simulation);
-
-/// A frame of the current state of the simulation. Whoever takes many keeps the surfaces of the colliders for the next.
-ClipFrame capture_frame(const pliant::Simulation& simulation, const RenderMesh& render_mesh, pliant::ColorBy color,
-                        ColliderSurfaces& surfaces);
-ClipFrame capture_frame(const pliant::Simulation& simulation, const RenderMesh& render_mesh, pliant::ColorBy color);
 
 /// Simulates the scene to its last step and keeps the start, every n-th step and the last; `go_on` gets the step and
 /// ends the clip by returning false.

@@ -10,9 +10,6 @@
 
 namespace pliant_render {
 
-/// Of what goes where it is told: colliders, and bodies that are held as a whole.
-inline const Vec3f solid_tone(0.60F, 0.65F, 0.71F);
-
 /// How points become places in the picture.
 struct Projection {
   Mat4f camera;

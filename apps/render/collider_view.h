@@ -10,6 +10,9 @@
 
 namespace pliant_render {
 
+/// Of what goes where it is told: colliders, and bodies that are held as a whole.
+inline const Vec3f solid_tone(0.60F, 0.65F, 0.71F);
+
 /// The surface of a shape, in its own frame.
 struct ColliderSurface {
   struct Corner {

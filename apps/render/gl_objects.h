@@ -4,15 +4,11 @@
 #include <string_view>
 #include <vector>
 
-#include <Eigen/Core>
 #include <epoxy/gl.h>
 
-namespace pliant_render {
+#include "render/vectors.h"
 
-using Vec2f = Eigen::Vector2f;
-using Vec3f = Eigen::Vector3f;
-using Vec4f = Eigen::Vector4f;
-using Mat4f = Eigen::Matrix4f;
+namespace pliant_render {
 
 /// Owns the name of one OpenGL object.
 template <auto& generate, auto& remove>

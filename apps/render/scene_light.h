@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "render/camera.h"
+#include "render/gl_objects.h"
 
 namespace pliant_render {
 

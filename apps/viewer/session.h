@@ -110,6 +110,9 @@ class Session {
   /// events of the scene; nothing has changed then but for the files.
   std::vector<std::filesystem::path> save(const std::filesystem::path& file, const pliant::ViewSettings& view);
 
+  /// The text of the scene that save() writes to `file`, from where paths in it start; writes nothing.
+  std::string text(const std::filesystem::path& file, const pliant::ViewSettings& view) const;
+
   /// Whether anything has changed since it was saved, or read.
   bool has_unsaved_changes() const { return !(changes_ == saved_changes_); }
   /// How often the scene was made anew with other changes: groups have other ids then.
@@ -129,6 +132,11 @@ class Session {
     std::map<std::string, pliant::Vec3> old_values{};  ///< of what `before` does not have
     std::map<Index, pliant::Vec3> held{};              ///< where the vertices are that it pins or lets go [m]
   };
+  struct Written {
+    pliant::Scene scene;
+    std::vector<std::string> unwritten;  ///< changes that a scene file has no key for
+  };
+  Written write_text(const std::filesystem::path& file, const pliant::ViewSettings& view) const;
   std::optional<Pin> find_pin(Index vertex) const;
   pliant::Vec3 target_of(const Pin& pin) const { return scene_.simulation.target(pin.group, pin.target); }
   pliant::BodyId body_of(Index vertex) const;

@@ -282,7 +282,8 @@ void Session::restart(bool keep_changes) {
   settle(std::move(scene));
 }
 
-std::vector<std::filesystem::path> Session::save(const std::filesystem::path& file, const pliant::ViewSettings& view) {
+/// What is to be written to `file`, and the scene that it makes, at its start.
+Session::Written Session::write_text(const std::filesystem::path& file, const pliant::ViewSettings& view) const {
   namespace fs = std::filesystem;
   if (!unchanged_.has_text()) {
     pliant::fail_input("this scene was made by a program, not read from a scene file, so it cannot be saved as one");
@@ -294,11 +295,21 @@ std::vector<std::filesystem::path> Session::save(const std::filesystem::path& fi
   std::vector<std::string> unwritten;
   pliant::SceneDocument document = unchanged_.with(changes_, &unwritten);
   write_view(view, document);
-  pliant::Scene next = read_changed(text_of_file(document));
-  UnchangedScene::remove_events(next.left_out, document);
-  const pliant::SceneText written = text_of_file(document);
-  next.source.texts.at(0) = written;
-  next.source.leaves_out_events = false;
+  pliant::Scene scene = read_changed(text_of_file(document));
+  UnchangedScene::remove_events(scene.left_out, document);
+  scene.source.texts.at(0) = text_of_file(document);
+  scene.source.leaves_out_events = false;
+  return {std::move(scene), std::move(unwritten)};
+}
+
+std::string Session::text(const std::filesystem::path& file, const pliant::ViewSettings& view) const {
+  return write_text(file, view).scene.source.texts.at(0).text;
+}
+
+std::vector<std::filesystem::path> Session::save(const std::filesystem::path& file, const pliant::ViewSettings& view) {
+  namespace fs = std::filesystem;
+  auto [next, unwritten] = write_text(file, view);
+  const std::string text = next.source.texts.at(0).text;
   std::set<std::string> factors;  // which the file has multiplied into its numbers
   for (const auto& [key, factor] : unchanged_.factors(changes_)) factors.insert(key);
   carry_into(next, changes_, factors);
@@ -311,7 +322,7 @@ std::vector<std::filesystem::path> Session::save(const std::filesystem::path& fi
   } else {
     fs::remove(checkpoint, ignored);  // of what the file was before
   }
-  pliant::write_file_atomically(file, written.text);
+  pliant::write_file_atomically(file, text);
   if (!factors.empty()) {
     next = make_with(changes_, unchanged_);
     carry_into(next, changes_);
