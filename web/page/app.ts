@@ -1,0 +1,337 @@
+// The page: a picture, a simulation beside it, and what the user does with both.
+import { Client } from './client';
+import { byId } from './dom';
+import { download, readFiles, sourceOf } from './files';
+import { firstScene, sourceOfName } from './gallery';
+import { Hands } from './hands';
+import { Messages } from './messages';
+import { Panel } from './panel';
+import type { PanelState, Report, SceneSource, UpAxis, Viewpoint } from './protocol';
+import { SceneList } from './scene_list';
+import { hashOf, longestLink, readHash } from './share';
+import { addWind } from './scene_text';
+import { Stage } from './view/stage';
+
+type Of<T extends Report['type']> = Extract<Report, { type: T }>;
+
+interface PageState {
+  name: string;
+  /** Simulated [s]. */
+  time: number;
+  isPlaying: boolean;
+  isPulling: boolean;
+  /** Vertices that are pinned. */
+  pins: number[];
+  panel: PanelState | null;
+  /** How many were drawn so far. */
+  pictures: number;
+}
+
+const narrow = window.matchMedia('(max-width: 640px)');
+const darkScheme = window.matchMedia('(prefers-color-scheme: dark)');
+const hint = narrow.matches || window.matchMedia('(pointer: coarse)').matches
+  ? 'Drag the cloth to pull it, tap it to pin it; drag beside it to look around.'
+  : 'Drag the cloth to pull it, click it to pin it; drag beside it to look around.';
+
+export class App {
+  private readonly canvas = byId('picture', HTMLCanvasElement);
+  private readonly stage = new Stage(this.canvas);
+  private readonly messages = new Messages(byId('messages', HTMLDivElement));
+  private readonly panelBox = byId('panel', HTMLElement);
+  private readonly playButton = byId('play', HTMLButtonElement);
+  private readonly client = new Client({
+    ready: (report) => this.scenes.fill(report.scenes),
+    opened: (report) => this.opened(report),
+    look: (report) => this.stage.show(report.look, true),
+    frame: (report) => this.take(report),
+    panel: (report) => this.showPanel(report.panel),
+    note: (report) => this.messages.note(report.text),
+    error: (report) => this.failed(report),
+  });
+  private readonly hands = new Hands(this.canvas, this.stage, (command) => this.client.send(command), () => this.used());
+  private readonly panel = new Panel(this.panelBox, {
+    set: (key, value, goesOn) => this.client.send({ type: 'set', key, value, goesOn }),
+    setMaterial: (body, material) => this.client.send({ type: 'setMaterial', body, material }),
+    addWind: () => void this.guard(() => this.addWind()),
+  });
+  private readonly scenes = new SceneList((name) => this.openNamed(name), (files) => void this.guard(() => this.openFiles(files)));
+
+  /** What the page shows now, for the console and for tests. */
+  readonly state: PageState = { name: '', time: 0, isPlaying: true, isPulling: false, pins: [], panel: null, pictures: 0 };
+
+  private source: SceneSource = sourceOfName(firstScene);
+  private opening: { source: SceneSource; hash: string | null } | null = null;
+  private hasNews = false;
+  private lastPicture = 0;
+  private pictures: number[] = [];
+
+  start(): void {
+    this.setTheme(localStorage.getItem('theme') ?? (darkScheme.matches ? 'dark' : 'light'));
+    this.showPanelBox(!narrow.matches);
+    this.connectButtons();
+    this.connectKeys();
+    this.connectDrop();
+    this.stage.onLost = () => this.messages.note('The picture was lost by the graphics driver; it comes back by itself.');
+    window.addEventListener('hashchange', () => void this.guard(() => this.openAddress()));
+    void this.guard(() => this.openAddress());
+    requestAnimationFrame((now) => this.draw(now));
+  }
+
+  /** Where a vertex is in the picture, in CSS pixels from its corner. */
+  placeOf(vertex: number): { x: number; y: number } {
+    return this.stage.placeOf(vertex);
+  }
+
+  viewpoint(): Viewpoint {
+    return this.stage.viewpoint();
+  }
+
+  // ---- scenes
+
+  private async openAddress(): Promise<void> {
+    let shared = null;
+    try {
+      shared = await readHash(location.hash);
+    } catch (error) {
+      if (this.state.name === '') this.open(sourceOfName(firstScene), null);
+      throw error;
+    }
+    if (shared === null) return this.open(sourceOfName(firstScene), null);
+    this.open(shared.kind === 'builtin' ? sourceOfName(shared.name)
+                                        : { kind: 'text', text: shared.text, name: shared.name, files: [] }, null);
+  }
+
+  /** hash: of the address from then on; null: as it is. */
+  private open(source: SceneSource, hash: string | null): void {
+    this.opening = { source, hash };
+    const aspect = this.canvas.clientWidth / Math.max(this.canvas.clientHeight, 1);
+    this.client.send({ type: 'open', source, aspect: Math.max(aspect, 1.2) });
+  }
+
+  private openNamed(name: string): void {
+    this.open(sourceOfName(name), `#scene=${encodeURIComponent(name)}`);
+  }
+
+  private async openFiles(files: File[], up: UpAxis = 'z'): Promise<void> {
+    this.open(sourceOf(await readFiles(files), up), '#');
+  }
+
+  private opened(report: Of<'opened'>): void {
+    const { source, hash } = this.opening ?? { source: this.source, hash: null };
+    this.source = source;
+    this.opening = null;
+    if (hash !== null) history.replaceState(null, '', hash === '#' ? location.pathname + location.search : hash);
+    this.state.name = source.kind === 'builtin' ? source.name : report.name.replace(/\.[^.]*$/, '');
+    this.hands.cancel();
+    this.messages.clear();
+    this.stage.show(report.look, false);
+    this.panel.reset();
+    this.showPanel(report.panel);
+    const title = this.state.name.replaceAll('_', ' ');
+    byId('scene-name', HTMLSpanElement).textContent = title;
+    byId('description', HTMLParagraphElement).textContent = report.description;
+    document.title = `${title} · Pliant`;
+    byId('loading', HTMLParagraphElement).hidden = true;
+    for (const warning of report.warnings) this.messages.note(warning);
+    if (localStorage.getItem('used') === null) this.showHint(hint);
+    if (source.kind === 'mesh') this.offerUp(source);
+  }
+
+  /** Which axis of a mesh points up nobody knows but its owner. */
+  private offerUp(source: Extract<SceneSource, { kind: 'mesh' }>): void {
+    const other: UpAxis = source.up === 'z' ? 'y' : 'z';
+    this.messages.choice(`${source.name} is taken with ${source.up} up.`, `Take ${other}`,
+                         () => this.open({ ...source, up: other }, null));
+  }
+
+  private async addWind(): Promise<void> {
+    const text = addWind(await this.client.text());
+    const files = this.source.kind === 'builtin' ? [] : this.source.files;
+    this.open({ kind: 'text', text, name: this.state.name, files }, '#');
+  }
+
+  private failed(report: Of<'error'>): void {
+    if (report.command === 'open') {
+      this.opening = null;
+      if (this.state.name === '') this.open(sourceOfName(firstScene), null);
+    }
+    if (report.command === 'load') byId('loading', HTMLParagraphElement).hidden = true;
+    this.messages.error(report.message);
+  }
+
+  private async share(): Promise<void> {
+    const needed = this.source.kind === 'builtin' ? [] : this.source.files.filter((file) => !file.name.endsWith('.json'));
+    if (needed.length > 0) {
+      throw new Error(`a link cannot hold ${needed.map((file) => file.name).join(', ')}; save the scene and send the files with it`);
+    }
+    const isNamed = this.state.panel?.hasChanges === false && this.source.kind === 'builtin';
+    const hash = await hashOf(isNamed ? { kind: 'builtin', name: this.state.name }
+                                      : { kind: 'text', name: this.state.name, text: await this.client.text() });
+    if (hash.length > longestLink) {
+      throw new Error(`the link would have ${hash.length} characters, more than programs take; save the scene and send the file`);
+    }
+    history.replaceState(null, '', hash);
+    try {
+      await navigator.clipboard.writeText(location.href);
+      this.messages.note('The link is in the clipboard: it opens the scene as you have changed it, from its start.');
+    } catch {
+      this.messages.note('The address of this page is the link now: it opens the scene as you have changed it, from its start.');
+    }
+  }
+
+  private async save(): Promise<void> {
+    download(`${this.state.name}.json`, await this.client.text());
+  }
+
+  // ---- pictures
+
+  private take(report: Of<'frame'>): void {
+    this.stage.update(report.frame);
+    this.hasNews = true;
+    this.state.isPlaying = report.statistics.isPlaying;
+    this.state.time = report.statistics.time;
+    this.state.pins = [...report.frame.pins];
+    this.state.isPulling = report.frame.pull !== null;
+    this.playButton.textContent = this.state.isPlaying ? '⏸' : '▶';
+    this.playButton.ariaLabel = this.state.isPlaying ? 'Pause' : 'Play';
+    this.playButton.title = `${this.playButton.ariaLabel} (Space)`;
+    const { time, stepMilliseconds, speed } = report.statistics;
+    const pace = !this.state.isPlaying ? 'paused' : speed > 0.97 ? 'real time' : `${speed.toFixed(2)} × real time`;
+    const text = `${time.toFixed(2)} s · ${pace}`;
+    const rate = byId('rate', HTMLOutputElement);
+    if (rate.value !== text) rate.value = text;
+    rate.title = `${stepMilliseconds.toFixed(1)} ms a step, ${this.picturesPerSecond()} pictures a second, quality ${this.stage.quality}`;
+  }
+
+  private draw(now: number): void {
+    requestAnimationFrame((next) => this.draw(next));
+    this.hands.flush();
+    this.stage.draw();
+    if (!this.hasNews) return;
+    this.hasNews = false;
+    if (now - this.lastPicture < 1000) this.stage.noteInterval(now - this.lastPicture);
+    this.lastPicture = now;
+    this.state.pictures += 1;
+    this.pictures = [...this.pictures.filter((at) => now - at < 1000), now];
+    this.client.send({ type: 'drawn' });
+  }
+
+  private picturesPerSecond(): number {
+    return this.pictures.length;
+  }
+
+  // ---- panel, buttons, keys
+
+  private showPanel(state: PanelState): void {
+    this.panel.show(state);
+    this.state.panel = state;
+    const label = (id: string, what: string, keys: string, next: string): void => {
+      const button = byId(id, HTMLButtonElement);
+      button.disabled = next === '';
+      button.title = next === '' ? `${what} (${keys})` : `${what} ${next} (${keys})`;
+    };
+    label('undo', 'Undo', 'Ctrl Z', state.undoneNext);
+    label('redo', 'Redo', 'Ctrl Shift Z', state.redoneNext);
+  }
+
+  private showPanelBox(on: boolean): void {
+    this.panelBox.hidden = !on;
+    byId('panel-toggle', HTMLButtonElement).ariaExpanded = String(on);
+    this.stage.setInset(on && !narrow.matches ? this.panelBox.offsetWidth + 12 : 0);
+  }
+
+  private setTheme(theme: string): void {
+    document.documentElement.dataset['theme'] = theme;
+    this.stage.setDark(theme === 'dark');
+  }
+
+  private toggleTheme(): void {
+    const theme = document.documentElement.dataset['theme'] === 'dark' ? 'light' : 'dark';
+    localStorage.setItem('theme', theme);
+    this.setTheme(theme);
+  }
+
+  private restart(): void {
+    this.hands.cancel();
+    this.client.send({ type: 'restart', keeps: true });
+  }
+
+  private used(): void {
+    localStorage.setItem('used', 'yes');
+    byId('hint', HTMLParagraphElement).hidden = true;
+  }
+
+  private showHint(text: string): void {
+    const box = byId('hint', HTMLParagraphElement);
+    box.textContent = text;
+    box.hidden = false;
+  }
+
+  private connectButtons(): void {
+    const on = (id: string, act: () => void | Promise<void>): void => {
+      byId(id, HTMLButtonElement).addEventListener('click', () => void this.guard(async () => act()));
+    };
+    on('choose', () => this.scenes.show());
+    on('undo', () => this.client.send({ type: 'undo' }));
+    on('redo', () => this.client.send({ type: 'redo' }));
+    on('share', () => this.share());
+    on('save', () => this.save());
+    on('theme', () => this.toggleTheme());
+    on('panel-toggle', () => this.showPanelBox(this.panelBox.hidden !== false));
+    on('restart', () => this.restart());
+    on('play', () => this.client.send({ type: 'play', on: !this.state.isPlaying }));
+    on('step', () => this.client.send({ type: 'step' }));
+  }
+
+  private connectKeys(): void {
+    const keys: Record<string, () => void> = {
+      ' ': () => this.client.send({ type: 'play', on: !this.state.isPlaying }),
+      s: () => this.client.send({ type: 'step' }),
+      r: () => this.restart(),
+      f: () => this.stage.frame(),
+      o: () => this.scenes.show(),
+      t: () => this.toggleTheme(),
+      p: () => this.showPanelBox(this.panelBox.hidden !== false),
+      'ctrl z': () => this.client.send({ type: 'undo' }),
+      'ctrl shift z': () => this.client.send({ type: 'redo' }),
+      'ctrl y': () => this.client.send({ type: 'redo' }),
+      'ctrl s': () => void this.guard(() => this.save()),
+    };
+    window.addEventListener('keydown', (event) => {
+      const target = event.target as HTMLElement;
+      if (target.closest('input, select, dialog') !== null || (event.key === ' ' && target.closest('button, summary') !== null)) return;
+      const isCommand = event.ctrlKey || event.metaKey;
+      const name = `${isCommand ? 'ctrl ' : ''}${isCommand && event.shiftKey ? 'shift ' : ''}${event.key.toLowerCase()}`;
+      const act = keys[name];
+      if (act === undefined || event.altKey) return;
+      event.preventDefault();
+      act();
+    });
+  }
+
+  private connectDrop(): void {
+    const box = byId('drop', HTMLDivElement);
+    window.addEventListener('dragover', (event) => {
+      event.preventDefault();
+      box.hidden = false;
+    });
+    window.addEventListener('dragleave', (event) => {
+      if (event.relatedTarget === null) box.hidden = true;
+    });
+    window.addEventListener('drop', (event) => {
+      event.preventDefault();
+      box.hidden = true;
+      const files = [...(event.dataTransfer?.files ?? [])];
+      if (files.length > 0) void this.guard(() => this.openFiles(files));
+    });
+  }
+
+  /** Does it, and tells what went wrong. */
+  private async guard(act: () => Promise<void>): Promise<void> {
+    try {
+      await act();
+    } catch (error) {
+      this.messages.error(error instanceof Error ? error.message : String(error));
+    }
+  }
+}

@@ -1,0 +1,253 @@
+import { readdir, readFile } from 'node:fs/promises';
+import { existsSync } from 'node:fs';
+import type { Server } from 'node:http';
+import { join } from 'node:path';
+import { gzipSync } from 'node:zlib';
+import type { Browser } from 'playwright-core';
+import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
+import { folder, launch, openTab, program, serve, type Tab, type TabOptions, until } from './browser';
+
+const hasBrowser = existsSync(program);
+if (!hasBrowser) console.warn(`skipped: no ${program} (apt-get install chromium)`);
+
+let browser: Browser;
+let server: Server;
+let address: string;
+const tabs: Tab[] = [];
+
+async function open(hash = '', options: TabOptions = {}): Promise<Tab> {
+  const tab = await openTab(browser, address + hash, options);
+  tabs.push(tab);
+  return tab;
+}
+
+/** Where vertex `v` is in the picture. */
+const placeOf = (tab: Tab, v: number): Promise<{ x: number; y: number }> =>
+  tab.page.evaluate((vertex) => globalThis.pliantPage.placeOf(vertex), v);
+
+const pinsOf = (tab: Tab): Promise<number[]> => tab.page.evaluate(() => globalThis.pliantPage.state.pins);
+
+const messagesOf = (tab: Tab): Promise<string> => tab.page.locator('#messages').innerText();
+
+describe.runIf(hasBrowser)('the page', () => {
+  beforeAll(async () => {
+    ({ server, address } = await serve());
+    browser = await launch();
+  });
+  afterAll(async () => {
+    await browser?.close();
+    server?.close();
+  });
+  afterEach(async () => {
+    for (const tab of tabs.splice(0)) {
+      expect(tab.errors).toEqual([]);
+      await tab.close();
+    }
+  });
+
+  it('asks for nothing from elsewhere, and moves', async () => {
+    const tab = await open();
+    const before = await tab.page.evaluate(() => globalThis.pliantPage.state.time);
+    await tab.page.waitForTimeout(1000);
+    expect(await tab.page.evaluate(() => globalThis.pliantPage.state.time)).toBeGreaterThan(before + 0.2);
+    await tab.page.locator('#choose').click();
+    await tab.page.waitForTimeout(300);
+    expect(tab.requests.filter((each) => !each.startsWith(address) && !each.startsWith('blob:'))).toEqual([]);
+  });
+
+  it('has less than 1.5 MB in all', async () => {
+    const names = await readdir(folder, { recursive: true, withFileTypes: true });
+    let size = 0;
+    for (const each of names.filter((entry) => entry.isFile())) {
+      size += gzipSync(await readFile(join(each.parentPath, each.name)), { level: 9 }).length;
+    }
+    expect(size).toBeLessThan(1.5e6);
+  });
+
+  it('pulls the cloth where the mouse goes, and lets it go', async () => {
+    const tab = await open('#scene=curtain');
+    await tab.page.keyboard.press('Space');
+    await until(tab, () => !globalThis.pliantPage.state.isPlaying);
+    const middle = 820;
+    const from = await placeOf(tab, middle);
+    await tab.page.mouse.move(from.x, from.y);
+    await tab.page.mouse.down();
+    await tab.page.mouse.move(from.x - 60, from.y + 10, { steps: 4 });
+    await tab.page.keyboard.press('Space');
+    await tab.page.mouse.move(from.x - 120, from.y + 20, { steps: 10 });
+    await tab.page.waitForTimeout(1500);
+    const held = await placeOf(tab, middle);
+    expect(Math.hypot(held.x - (from.x - 120), held.y - (from.y + 20))).toBeLessThan(30);
+    await tab.page.mouse.up();
+    await tab.page.waitForTimeout(4000);
+    const after = await placeOf(tab, middle);
+    expect(Math.hypot(after.x - held.x, after.y - held.y)).toBeGreaterThan(40);
+  });
+
+  it('pins by a click, lets go by another, and takes both back', async () => {
+    const tab = await open('#scene=curtain');
+    await tab.page.keyboard.press('Space');
+    const pins = await pinsOf(tab);
+    const place = await placeOf(tab, 700);
+    await tab.page.mouse.click(place.x, place.y);
+    await until(tab, () => globalThis.pliantPage.state.pins.includes(700));
+    await tab.page.mouse.click(place.x, place.y);
+    await until(tab, () => !globalThis.pliantPage.state.pins.includes(700));
+    await tab.page.keyboard.press('Control+z');
+    await until(tab, () => globalThis.pliantPage.state.pins.includes(700));
+    await tab.page.locator('#undo').click();
+    await until(tab, () => !globalThis.pliantPage.state.pins.includes(700));
+    expect(await pinsOf(tab)).toEqual(pins);
+    expect(await tab.page.locator('#undo').isDisabled()).toBe(true);
+  });
+
+  it('turns the camera beside the bodies, and frames them again', async () => {
+    const tab = await open('#scene=curtain');
+    await tab.page.keyboard.press('Space');
+    const before = await placeOf(tab, 0);
+    await tab.page.mouse.move(30, 400);
+    await tab.page.mouse.down();
+    await tab.page.mouse.move(200, 380, { steps: 5 });
+    await tab.page.mouse.up();
+    const turned = await placeOf(tab, 0);
+    expect(Math.hypot(turned.x - before.x, turned.y - before.y)).toBeGreaterThan(20);
+    await tab.page.keyboard.press('f');
+    const again = await placeOf(tab, 0);
+    expect(Math.hypot(again.x - before.x, again.y - before.y)).toBeLessThan(2);
+  });
+
+  it('changes materials and options in the panel', async () => {
+    const tab = await open('#scene=towel');
+    await tab.page.locator('#panel select').first().selectOption('silk');
+    await until(tab, () => globalThis.pliantPage.state.panel?.materials[0]?.material === 'silk');
+    expect(await tab.page.locator('#undo').getAttribute('title')).toContain('silk');
+    await tab.page.locator('#panel summary', { hasText: 'Solver' }).click();
+    const field = tab.page.locator('.row', { hasText: /^iterations/ }).locator('input[type=number]');
+    await field.fill('11');
+    await field.press('Enter');
+    await until(tab, () => globalThis.pliantPage.state.panel?.parameters.some((each) => each.option === 'iterations' && each.value[0] === 11) ?? false);
+    await field.fill('-4');
+    await field.press('Enter');
+    await tab.page.waitForTimeout(300);
+    expect(await messagesOf(tab)).toContain('iterations');
+  });
+
+  it('drags a slider as one change', async () => {
+    const tab = await open('#scene=turning_ball');
+    await tab.page.locator('#panel summary', { hasText: 'Solver' }).click();
+    const slider = tab.page.locator('.row', { hasText: /^iterations/ }).locator('input[type=range]');
+    const box = await slider.boundingBox();
+    if (box === null) throw new Error('no slider');
+    await tab.page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+    await tab.page.mouse.down();
+    await tab.page.mouse.move(box.x + box.width * 0.75, box.y + box.height / 2, { steps: 6 });
+    await tab.page.mouse.up();
+    await until(tab, () => globalThis.pliantPage.state.panel?.undoneNext === 'iterations');
+    await tab.page.keyboard.press('Control+z');
+    await until(tab, () => globalThis.pliantPage.state.panel?.undoneNext === '');
+  });
+
+  it('shares what was changed by a link', async () => {
+    const tab = await open('#scene=towel');
+    await tab.page.locator('#share').click();
+    await until(tab, () => location.hash === '#scene=towel');
+    await tab.page.locator('#panel select').first().selectOption('felt');
+    await until(tab, () => globalThis.pliantPage.state.panel?.hasChanges ?? false);
+    await tab.page.locator('#share').click();
+    await until(tab, () => location.hash.includes('text='));
+    const link = await tab.page.evaluate(() => navigator.clipboard.readText());
+    expect(link).toBe(tab.page.url());
+    const other = await open(new URL(link).hash);
+    expect(await other.page.evaluate(() => globalThis.pliantPage.state.panel?.materials[0]?.material)).toBe('felt');
+    expect(await other.page.title()).toContain('towel');
+  });
+
+  it('tells that a link is damaged, and opens the first scene', async () => {
+    const tab = await open('#name=x&text=AAAA_');
+    expect(await messagesOf(tab)).toContain('damaged');
+    const none = await open('#scene=no_such');
+    expect(await messagesOf(none)).toContain("no built-in scene 'no_such'");
+  });
+
+  it('adds a wind', async () => {
+    const tab = await open('#scene=curtain');
+    await tab.page.locator('button', { hasText: 'Add wind' }).click();
+    await until(tab, () => globalThis.pliantPage.state.panel?.parameters.some((each) => each.key.startsWith('force:wind')) ?? false);
+  });
+
+  it('opens meshes and scenes of one\'s own, and tells what is wrong with a broken one', async () => {
+    const tab = await open();
+    const rows = Array.from({ length: 21 }, (_, j) => Array.from({ length: 21 }, (_, i) => `v ${i / 20} ${j / 20} 0`)).flat();
+    const faces = Array.from({ length: 400 }, (_, f) => {
+      const at = Math.floor(f / 20) * 21 + (f % 20) + 1;
+      return `f ${at} ${at + 1} ${at + 22} ${at + 21}`;
+    });
+    const files = tab.page.locator('#files');
+    await files.setInputFiles({ name: 'sheet.obj', mimeType: 'text/plain', buffer: Buffer.from([...rows, ...faces].join('\n')) });
+    await until(tab, () => globalThis.pliantPage.state.name === 'sheet');
+    expect(await tab.page.evaluate(() => globalThis.pliantPage.state.panel?.materials[0]?.material)).toBe('cotton');
+    await tab.page.locator('#share').click();
+    await until(tab, () => document.querySelector('#messages')?.textContent?.includes('a link cannot hold sheet.obj') ?? false);
+    await files.setInputFiles({ name: 'broken.obj', mimeType: 'text/plain', buffer: Buffer.from('v 0 0 0\nf 1 2 3\n') });
+    await until(tab, () => document.querySelector('#messages')?.textContent?.includes('broken.obj:2:') ?? false);
+    expect(await tab.page.evaluate(() => globalThis.pliantPage.state.name)).toBe('sheet');
+    await files.setInputFiles({ name: 'photo.png', mimeType: 'image/png', buffer: Buffer.from('no') });
+    await until(tab, () => document.querySelector('#messages')?.textContent?.includes('photo.png: neither a scene') ?? false);
+  });
+
+  it('saves a scene that it opens again', async () => {
+    const tab = await open('#scene=towel');
+    await tab.page.locator('#panel select').first().selectOption('denim');
+    await until(tab, () => globalThis.pliantPage.state.panel?.hasChanges ?? false);
+    const coming = tab.page.waitForEvent('download');
+    await tab.page.keyboard.press('Control+s');
+    const saved = await coming;
+    expect(saved.suggestedFilename()).toBe('towel.json');
+    const buffer = await readFile(await saved.path());
+    await tab.page.locator('#files').setInputFiles({ name: 'mine.json', mimeType: 'application/json', buffer });
+    await until(tab, () => globalThis.pliantPage.state.name === 'mine');
+    expect(await tab.page.evaluate(() => globalThis.pliantPage.state.panel?.materials[0]?.material)).toBe('denim');
+  });
+
+  it('shows its picture again after the graphics driver lost it', async () => {
+    const tab = await open();
+    const before = await tab.page.evaluate(() => globalThis.pliantPage.state.pictures);
+    await tab.page.evaluate(async () => {
+      const context = document.querySelector('canvas')?.getContext('webgl2');
+      const lose = context?.getExtension('WEBGL_lose_context');
+      lose?.loseContext();
+      await new Promise((resolve) => setTimeout(resolve, 300));
+      lose?.restoreContext();
+    });
+    await tab.page.waitForFunction((count) => globalThis.pliantPage.state.pictures > count + 5, before);
+    tab.errors.splice(0);  // the driver's own message
+    const picture = await tab.page.locator('canvas').screenshot();
+    expect(picture.length).toBeGreaterThan(15_000);
+  });
+
+  it('works by touch on a phone', async () => {
+    const tab = await open('#scene=curtain', { width: 390, height: 844, isPhone: true });
+    expect(await tab.page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(390);
+    await tab.page.locator('#play').tap();
+    await until(tab, () => !globalThis.pliantPage.state.isPlaying);
+    const place = await placeOf(tab, 820);
+    await tab.page.touchscreen.tap(place.x, place.y);
+    await until(tab, () => globalThis.pliantPage.state.pins.length > 0 && globalThis.pliantPage.state.panel?.undoneNext === 'pin');
+    const client = await tab.page.context().newCDPSession(tab.page);
+    const touch = (type: string, points: { x: number; y: number }[]): Promise<unknown> =>
+      client.send('Input.dispatchTouchEvent', { type: type as 'touchMove', touchPoints: points });
+    const at = await placeOf(tab, 400);
+    await touch('touchStart', [at]);
+    for (let i = 1; i <= 6; ++i) await touch('touchMove', [{ x: at.x + 8 * i, y: at.y }]);
+    await until(tab, () => globalThis.pliantPage.state.isPulling);
+    await touch('touchEnd', []);
+    await until(tab, () => !globalThis.pliantPage.state.isPulling);
+    const two = [{ x: 150, y: 400 }, { x: 240, y: 400 }];
+    const distance = await tab.page.evaluate(() => globalThis.pliantPage.viewpoint().eye);
+    await touch('touchStart', two);
+    for (let i = 1; i <= 6; ++i) await touch('touchMove', [{ x: 150 - 10 * i, y: 400 }, { x: 240 + 10 * i, y: 400 }]);
+    await touch('touchEnd', []);
+    const closer = await tab.page.evaluate(() => globalThis.pliantPage.viewpoint().eye);
+    expect(closer).not.toEqual(distance);
+  });
+});
