@@ -11,7 +11,14 @@ export default defineConfig({
   resolve: { alias: { pliant: here('../build/web/npm/index.mjs') } },
   server: { fs: { allow: [here('..')] } },
   worker: { format: 'es' },
-  test: { root: here('.'), include: ['tests/*.test.ts'], testTimeout: 60_000, hookTimeout: 60_000, fileParallelism: false },
+  test: {
+    root: here('.'),
+    // What takes minutes, or measures, is run by name.
+    include: [process.env.PLIANT_SLOW ? 'tests/**/*.slow.ts' : 'tests/**/*.test.ts'],
+    testTimeout: 60_000,
+    hookTimeout: 60_000,
+    fileParallelism: false,
+  },
   build: {
     outDir: here('dist'),
     emptyOutDir: true,

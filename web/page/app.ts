@@ -20,6 +20,7 @@ interface PageState {
   time: number;
   isPlaying: boolean;
   isPulling: boolean;
+  vertexCount: number;
   /** Vertices that are pinned. */
   pins: number[];
   panel: PanelState | null;
@@ -57,7 +58,8 @@ export class App {
   private readonly scenes = new SceneList((name) => this.openNamed(name), (files) => void this.guard(() => this.openFiles(files)));
 
   /** What the page shows now, for the console and for tests. */
-  readonly state: PageState = { name: '', time: 0, isPlaying: true, isPulling: false, pins: [], panel: null, pictures: 0 };
+  readonly state: PageState = { name: '', time: 0, isPlaying: true, isPulling: false, vertexCount: 0,
+                                pins: [], panel: null, pictures: 0 };
 
   private source: SceneSource = sourceOfName(firstScene);
   private opening: { source: SceneSource; hash: string | null } | null = null;
@@ -80,6 +82,11 @@ export class App {
   /** Where a vertex is in the picture, in CSS pixels from its corner. */
   placeOf(vertex: number): { x: number; y: number } {
     return this.stage.placeOf(vertex);
+  }
+
+  /** Of all scenes that the page offers. */
+  sceneNames(): string[] {
+    return this.scenes.names();
   }
 
   viewpoint(): Viewpoint {
@@ -122,6 +129,7 @@ export class App {
     this.opening = null;
     if (hash !== null) history.replaceState(null, '', hash === '#' ? location.pathname + location.search : hash);
     this.state.name = source.kind === 'builtin' ? source.name : report.name.replace(/\.[^.]*$/, '');
+    this.state.vertexCount = report.look.vertexCount;
     this.hands.cancel();
     this.messages.clear();
     this.stage.show(report.look, false);
@@ -211,6 +219,7 @@ export class App {
     this.hasNews = false;
     if (now - this.lastPicture < 1000) this.stage.noteInterval(now - this.lastPicture);
     this.lastPicture = now;
+    if (this.state.pictures === 0) performance.mark('first picture');
     this.state.pictures += 1;
     this.pictures = [...this.pictures.filter((at) => now - at < 1000), now];
     this.client.send({ type: 'drawn' });

@@ -15,7 +15,7 @@ export class SceneList {
   private readonly dialog = byId('scenes', HTMLDialogElement);
   private readonly cards = byId('cards', HTMLDivElement);
   private readonly search = byId('search', HTMLInputElement);
-  private entries: { words: string; card: HTMLButtonElement }[] = [];
+  private entries: { name: string; words: string; card: HTMLButtonElement }[] = [];
 
   constructor(private readonly open: (name: string) => void, openFiles: (files: File[]) => void) {
     const files = byId('files', HTMLInputElement);
@@ -37,6 +37,7 @@ export class SceneList {
 
   fill(builtin: SceneEntry[]): void {
     this.entries = allScenes(builtin).map((entry) => ({
+      name: entry.name,
       words: `${entry.name.replaceAll('_', ' ')} ${entry.description}`.toLowerCase(),
       card: cardOf(entry, (name) => {
         this.dialog.close();
@@ -44,6 +45,10 @@ export class SceneList {
       }),
     }));
     this.cards.replaceChildren(...this.entries.map(({ card }) => card));
+  }
+
+  names(): string[] {
+    return this.entries.map(({ name }) => name);
   }
 
   show(): void {

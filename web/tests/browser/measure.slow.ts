@@ -1,0 +1,69 @@
+// How fast the page is in this machine's Chromium:  npm run measure
+import { readdir, readFile } from 'node:fs/promises';
+import type { Server } from 'node:http';
+import { join } from 'node:path';
+import { gzipSync } from 'node:zlib';
+import type { Browser } from 'playwright-core';
+import { afterAll, beforeAll, it } from 'vitest';
+import { folder, launch, openTab, serve } from './browser';
+
+let browser: Browser;
+let server: Server;
+let address: string;
+beforeAll(async () => {
+  ({ server, address } = await serve());
+  browser = await launch();
+});
+afterAll(async () => {
+  await browser?.close();
+  server?.close();
+});
+
+const median = (numbers: number[]): number => numbers.sort((a, b) => a - b)[Math.floor(numbers.length / 2)] ?? NaN;
+
+it('says how large it is', async () => {
+  const entries = await readdir(folder, { recursive: true, withFileTypes: true });
+  let sum = 0;
+  for (const each of entries.filter((entry) => entry.isFile())) {
+    const path = join(each.parentPath, each.name);
+    const size = gzipSync(await readFile(path), { level: 9 }).length;
+    sum += size;
+    if (size > 10_000) console.log(`${path.slice(folder.length + 1)}: ${size} bytes gzipped`);
+  }
+  console.log(`in all: ${sum} bytes gzipped`);
+});
+
+it('says when the first picture is there', async () => {
+  const times: number[] = [];
+  for (let i = 0; i < 5; ++i) {
+    const tab = await openTab(browser, address);
+    times.push(await tab.page.evaluate(() => performance.getEntriesByName('first picture')[0]?.startTime ?? NaN));
+    await tab.close();
+  }
+  console.log(`first picture: ${times.map((time) => time.toFixed(0)).join(', ')} ms, median ${median(times).toFixed(0)}`);
+});
+
+/** A cloth that hangs by two corners, and is as fine as that. */
+const cloth = (count: number): string => JSON.stringify({
+  pliant: 1,
+  bodies: [{ name: 'cloth', mesh: { shape: 'grid', columns: count, rows: count, size: [1, 1] }, material: 'cotton',
+             constraints: [{ type: 'position', on: { nearest: [[0, 0, 0], [1, 0, 0]] } }] }],
+});
+
+it('says how many pictures a second it draws', { timeout: 120_000 }, async () => {
+  for (const count of [32, 100]) {
+    const tab = await openTab(browser, address);
+    await tab.page.locator('#files').setInputFiles({ name: `cloth${count}.json`, mimeType: 'application/json',
+                                                     buffer: Buffer.from(cloth(count)) });
+    await tab.page.waitForFunction((name) => globalThis.pliantPage.state.name === name, `cloth${count}`);
+    await tab.page.waitForTimeout(4000);
+    const begin = await tab.page.evaluate(() => ({ ...globalThis.pliantPage.state, at: performance.now() }));
+    await tab.page.waitForTimeout(8000);
+    const end = await tab.page.evaluate(() => ({ ...globalThis.pliantPage.state, at: performance.now() }));
+    const seconds = (end.at - begin.at) / 1000;
+    const title = await tab.page.locator('#rate').getAttribute('title');
+    console.log(`${count} x ${count}: ${((end.pictures - begin.pictures) / seconds).toFixed(1)} pictures a second, ` +
+                `${((end.time - begin.time) / seconds).toFixed(2)} x real time; ${title ?? ''}`);
+    await tab.close();
+  }
+});

@@ -1,0 +1,42 @@
+// Lets every scene of up to 3,000 vertices run for ten seconds:  npm run test:scenes
+import type { Server } from 'node:http';
+import type { Browser } from 'playwright-core';
+import { afterAll, beforeAll, expect, it } from 'vitest';
+import { launch, openTab, serve } from './browser';
+
+const most = 3000;  // vertices
+const time = 10_000;  // [ms]
+
+let browser: Browser;
+let server: Server;
+let address: string;
+beforeAll(async () => {
+  ({ server, address } = await serve());
+  browser = await launch();
+});
+afterAll(async () => {
+  await browser?.close();
+  server?.close();
+});
+
+it('runs every scene without an error', { timeout: 20 * 60_000 }, async () => {
+  const first = await openTab(browser, address);
+  const names = await first.page.evaluate(() => globalThis.pliantPage.sceneNames());
+  await first.close();
+  expect(names.length).toBeGreaterThan(35);
+  const failed: string[] = [];
+  for (const name of names) {
+    const tab = await openTab(browser, `${address}#scene=${name}`);
+    const vertices = await tab.page.evaluate(() => globalThis.pliantPage.state.vertexCount);
+    if (vertices <= most) {
+      await tab.page.waitForTimeout(time);
+      const state = await tab.page.evaluate(() => globalThis.pliantPage.state);
+      const messages = await tab.page.locator('#messages .error').allInnerTexts();
+      console.log(`${name}: ${vertices} vertices, ${state.time.toFixed(2)} s simulated, ${state.pictures} pictures`);
+      if (tab.errors.length + messages.length > 0) failed.push(`${name}: ${[...tab.errors, ...messages].join('; ')}`);
+      if (!(state.isPlaying && state.time > 0.3)) failed.push(`${name}: stands at ${state.time} s`);
+    }
+    await tab.close();
+  }
+  expect(failed).toEqual([]);
+});
