@@ -200,7 +200,7 @@ export class App {
     this.state.time = report.statistics.time;
     this.state.pins = [...report.frame.pins];
     this.state.isPulling = report.frame.pull !== null;
-    this.playButton.textContent = this.state.isPlaying ? '⏸' : '▶';
+    this.playButton.classList.toggle('paused', !this.state.isPlaying);
     this.playButton.ariaLabel = this.state.isPlaying ? 'Pause' : 'Play';
     this.playButton.title = `${this.playButton.ariaLabel} (Space)`;
     const { time, stepMilliseconds, speed } = report.statistics;

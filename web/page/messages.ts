@@ -37,7 +37,7 @@ export class Messages {
     for (const old of [...this.root.children]) {
       if (old.firstElementChild?.textContent === text) old.remove();
     }
-    const close = element('button', { title: 'Close', ariaLabel: 'Close' }, '✕');
+    const close = element('button', { title: 'Close', ariaLabel: 'Close' }, '×');
     const message = element('p', { className: kind }, element('span', {}, text), close);
     close.addEventListener('click', () => message.remove());
     this.root.append(message);
