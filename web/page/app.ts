@@ -111,6 +111,7 @@ export class App {
   /** hash: of the address from then on; null: as it is. */
   private open(source: SceneSource, hash: string | null): void {
     this.opening = { source, hash };
+    this.messages.clear();
     const aspect = this.canvas.clientWidth / Math.max(this.canvas.clientHeight, 1);
     this.client.send({ type: 'open', source, aspect: Math.max(aspect, 1.2) });
   }
@@ -131,7 +132,6 @@ export class App {
     this.state.name = source.kind === 'builtin' ? source.name : report.name.replace(/\.[^.]*$/, '');
     this.state.vertexCount = report.look.vertexCount;
     this.hands.cancel();
-    this.messages.clear();
     this.stage.show(report.look, false);
     this.panel.reset();
     this.showPanel(report.panel);
@@ -308,7 +308,7 @@ export class App {
     };
     window.addEventListener('keydown', (event) => {
       const target = event.target as HTMLElement;
-      if (target.closest('input, select, dialog') !== null || (event.key === ' ' && target.closest('button, summary') !== null)) return;
+      if (target.closest('input[type="number"], input[type="search"], select, dialog') !== null || (event.key === ' ' && target.closest('button, summary') !== null)) return;
       const isCommand = event.ctrlKey || event.metaKey;
       const name = `${isCommand ? 'ctrl ' : ''}${isCommand && event.shiftKey ? 'shift ' : ''}${event.key.toLowerCase()}`;
       const act = keys[name];

@@ -4,7 +4,9 @@ import type { RawShaderMaterial } from 'three';
 import type { Frame, SceneLook } from '../protocol';
 import { material, placed } from './layers';
 import type { Layers, SharedUniforms } from './layers';
-import { bodyFragment, bodyVertex, depthFragment, depthVertex, flattenFragment, flattenVertex } from './surface_shaders';
+import {
+  bodyFragment, bodyVertex, depthFragment, depthVertex, flattenFragment, flattenVertex,
+} from './surface_shaders';
 
 function changing(count: number): BufferAttribute {
   const attribute = new BufferAttribute(new Float32Array(3 * count), 3);
@@ -13,7 +15,8 @@ function changing(count: number): BufferAttribute {
 }
 
 /** The programs of shadows, for bodies and colliders. */
-export function shadowMaterials(shared: SharedUniforms, setback: { value: number }): [RawShaderMaterial, RawShaderMaterial] {
+export function shadowMaterials(shared: SharedUniforms,
+                                setback: { value: number }): [RawShaderMaterial, RawShaderMaterial] {
   const inLight = material({
     vertex: depthVertex, fragment: depthFragment, uniforms: { lightMatrix: shared.lightMatrix, setback },
   });
@@ -70,7 +73,9 @@ export class Bodies {
   private place(): void {
     const { layers, geometry } = this;
     layers.bodies.clear();
-    for (const scene of [layers.light, layers.mask]) scene.remove(...scene.children.filter((each) => each.name === 'body'));
+    for (const scene of [layers.light, layers.mask]) {
+      scene.remove(...scene.children.filter((each) => each.name === 'body'));
+    }
     if ((geometry.index?.count ?? 0) === 0) return;
     layers.bodies.add(placed(new Mesh(geometry, this.look)));
     for (const [scene, look] of [[layers.light, this.shadows[0]], [layers.mask, this.shadows[1]]] as const) {

@@ -1,5 +1,5 @@
 // Floors that fade into the background, each with the shadow that lies on it.
-import { BufferAttribute, BufferGeometry, Matrix4, Mesh, Vector2, Vector3 } from 'three';
+import { BufferAttribute, BufferGeometry, CustomBlending, Matrix4, Mesh, NoBlending, Vector2, Vector3 } from 'three';
 import type { IUniform, RawShaderMaterial, WebGLRenderer } from 'three';
 import type { Vec3 } from '../protocol';
 import { moved } from './colliders';
@@ -16,6 +16,7 @@ const rings = 24, sectors = 48;
 const leastSlopeOfLight = 0.05;
 
 export interface FloorTones {
+  background: Vec3;
   /** Of a floor that looks up (sRGB). */
   tone: Vec3;
   shadow: number;
@@ -56,8 +57,9 @@ class Floor {
     this.shadow = new FloorShadow(shared);
     const uniforms = {
       place: { value: this.place }, center: { value: new Vector2() }, extent: { value: 1 }, setback: shared.setback,
-      tone: { value: new Vector3() }, middle: { value: this.shadow.middle },
-      reach: { value: this.shadow.reach }, darkness: { value: 0 }, mask: { value: this.shadow.mask },
+      tone: { value: new Vector3() }, background: { value: new Vector3() }, isFirst: { value: false },
+      middle: { value: this.shadow.middle }, reach: { value: this.shadow.reach }, darkness: { value: 0 },
+      mask: { value: this.shadow.mask },
     };
     this.look = material({ vertex: floorVertex, fragment: floorFragment, uniforms, isBlended: true });
     this.mesh = placed(new Mesh(geometry, this.look));
@@ -82,10 +84,18 @@ class Floor {
     this.uniform('extent').value = Math.max(12 * bounds.radius, 1);
     this.uniform('tone').value.set(...tones.tone.map((x) => Math.min(x * share, 1)) as Vec3);
     this.uniform('darkness').value = dot(this.normal, light) > leastSlopeOfLight && !bounds.isEmpty ? tones.shadow : 0;
+    this.uniform('background').value.set(...tones.background);
     this.look.depthTest = this.look.depthWrite = !isGround;
   }
 
-  drawShadow(renderer: WebGLRenderer, layers: Layers, blur: Blur, positions: Float32Array, solids: PlacedCollider[]): void {
+  /** isFirst: of all that are seen. */
+  prepare(isFirst: boolean): void {
+    this.uniform('isFirst').value = isFirst;
+    this.look.blending = isFirst ? NoBlending : CustomBlending;
+  }
+
+  drawShadow(renderer: WebGLRenderer, layers: Layers, blur: Blur, positions: Float32Array,
+             solids: PlacedCollider[]): void {
     if (this.uniform('darkness').value === 0) return;
     this.shadow.draw(renderer, layers, blur, this.place, this.shared.light.value, positions, solids);
   }
@@ -124,8 +134,11 @@ export class Floors {
 
   /** Before a picture: floors are seen from above only. */
   prepare(eye: Vec3): void {
+    let isFirst = true;
     this.all.forEach((floor, i) => {
       floor.mesh.visible = i < this.count && dot(floor.normal, subtract(eye, floor.origin)) > 0;
+      floor.prepare(isFirst);
+      if (floor.mesh.visible) isFirst = false;
     });
   }
 

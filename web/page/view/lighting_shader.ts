@@ -40,27 +40,31 @@ float keyShare(vec3 point, vec3 n, float towards) {
 
 vec3 rollOff(vec3 c) {
   const float from = 0.75;
+  if (max(max(c.r, c.g), c.b) <= from) return c;
   vec3 over = max(c - from, 0.0) / (1.0 - from);
   return min(c, from) + (1.0 - from) * (1.0 - exp(-over));
 }
 
-/// sheen: 1 of cloth, whose fibers catch light at grazing angles and let some through; 0 of what is solid and has a
-/// soft highlight.
-vec3 lit(vec3 tone, vec3 point, vec3 n, float sheen) {
+/// The tone of a point whose own tone in linear light is base. Cloth has fibers that catch light at grazing angles
+/// and let some through; what is solid has a soft highlight.
+vec3 lit(vec3 base, vec3 point, vec3 n, bool isCloth) {
   vec3 toEye = normalize(eye - point);
   float towards = dot(n, light);
   float key = 0.0;
   if (towards > 0.0) key = towards * keyShare(point, n, towards);
-  else if (sheen > 0.5) key = -through * towards * keyShare(point, -n, -towards);
+  else if (isCloth) key = -through * towards * keyShare(point, -n, -towards);
   float open = 0.97 + 0.03 * n.z;
   float facing = clamp(dot(n, toEye), 0.0, 1.0);
   vec3 around = open * (mix(ground, sky, 0.5 + 0.5 * n.z) + fromEye * facing);
-  vec3 base = pow(tone, vec3(2.2));
   vec3 color = base * ((0.6 + 0.4 * open) * key * keyLight + around);
-  float rim = pow(1.0 - facing, 4.0);
-  color += sheen * 0.30 * rim * mix(vec3(1), base, 0.6) * (0.6 * key * keyLight + around);
-  float glance = max(dot(n, normalize(light + toEye)), 0.0);
-  color += (1.0 - sheen) * (0.10 * key * pow(glance, 40.0) * keyLight + 0.10 * rim * open * sky);
+  float rim = (1.0 - facing) * (1.0 - facing);
+  rim *= rim;
+  if (isCloth) {
+    color += 0.30 * rim * mix(vec3(1), base, 0.6) * (0.6 * key * keyLight + around);
+  } else {
+    float glance = max(dot(n, normalize(light + toEye)), 0.0);
+    color += 0.10 * key * pow(glance, 40.0) * keyLight + 0.10 * rim * open * sky;
+  }
   return pow(rollOff(color), vec3(0.4545));
 }
 `;

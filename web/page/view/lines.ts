@@ -1,5 +1,7 @@
 // Ropes, and the line along which something is pulled.
-import { BufferAttribute, DynamicDrawUsage, InstancedBufferAttribute, InstancedBufferGeometry, Mesh, Vector2 } from 'three';
+import {
+  BufferAttribute, DynamicDrawUsage, InstancedBufferAttribute, InstancedBufferGeometry, Mesh, Vector2,
+} from 'three';
 import type { RawShaderMaterial } from 'three';
 import type { Frame, SceneLook } from '../protocol';
 import { material, placed } from './layers';

@@ -102,22 +102,22 @@ in vec3 position;
 uniform mat4 place, viewMatrix, projectionMatrix;
 uniform vec2 center;
 uniform float extent, setback;
-out vec2 onFloor, depth;
+out vec2 onFloor;
 out float opacity;
 void main() {
   onFloor = center + extent * position.xy;
   opacity = 1.0 - smoothstep(0.12, 1.0, position.z);
   gl_Position = projectionMatrix * (viewMatrix * (place * vec4(onFloor, 0, 1)));
-  depth = vec2(gl_Position.z + setback * gl_Position.w, gl_Position.w);
-  gl_Position.z = 0.0;  // it goes on in front of what the camera is made for
+  gl_Position.z += setback * gl_Position.w;
 }`;
 
 export const floorFragment = `${precision}
-in vec2 onFloor, depth;
+in vec2 onFloor;
 in float opacity;
-uniform vec3 tone;
+uniform vec3 tone, background;
 uniform vec2 middle, reach;
 uniform float darkness;
+uniform bool isFirst;  // it has nothing but the background behind it
 uniform sampler2D mask;
 out vec4 color;
 void main() {
@@ -126,8 +126,9 @@ void main() {
   if (darkness > 0.0 && max(abs(at.x), abs(at.y)) < 1.0) shadow = darkness * textureLod(mask, 0.5 * at + 0.5, 0.0).r;
   // Half a step of the screen's tones, so that the fading shows no bands.
   float grain = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715)))) - 0.5;
-  color = vec4((1.0 - shadow) * tone + grain / 255.0, opacity);
-  gl_FragDepth = clamp(0.5 * depth.x / depth.y + 0.5, 0.0, 1.0);
+  vec3 here = (1.0 - shadow) * tone;
+  color = isFirst ? vec4(mix(background, here, opacity), 1) : vec4(here, opacity);
+  color.rgb += grain / 255.0;
 }`;
 
 export const screenVertex = `${precision}

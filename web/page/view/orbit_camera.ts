@@ -135,7 +135,8 @@ export class OrbitCamera {
     const away = subtract(point, this.eye);
     const { width, height, inset } = this.size;
     const scale = height / (2 * this.slope * depth);
-    return { x: (width - inset) / 2 + scale * dot(away, this.right), y: height / 2 - scale * dot(away, this.up), depth };
+    const x = (width - inset) / 2 + scale * dot(away, this.right);
+    return { x, y: height / 2 - scale * dot(away, this.up), depth };
   }
 
   /** Makes the matrices of three.js. Returns where near and far are [m]. */
@@ -145,7 +146,8 @@ export class OrbitCamera {
     const radius = Math.max(bounds.radius, 1e-3);
     const distance = length(subtract(bounds.center, eye));
     const far = distance + 30 * radius;
-    const near = Math.max(distance - 3 * radius, 1e-3 * Math.max(distance, radius));
+    // So near that no floor under the eye is cut off.
+    const near = 2e-3 * Math.max(distance, radius);
     const { camera, slope } = this;
     camera.matrixWorld.set(right[0], up[0], -forward[0], eye[0], right[1], up[1], -forward[1], eye[1],
                            right[2], up[2], -forward[2], eye[2], 0, 0, 0, 1);

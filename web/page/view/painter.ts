@@ -172,7 +172,8 @@ export class Painter {
   }
 
   dispose(): void {
-    for (const each of [this.bodies, this.colliders, this.lines, this.marks, this.floors, this.shadowMap]) each.dispose();
+    const { bodies, colliders, lines, marks, floors, shadowMap } = this;
+    for (const each of [bodies, colliders, lines, marks, floors, shadowMap]) each.dispose();
     this.blur?.dispose();
     this.renderer.dispose();
   }
@@ -199,7 +200,7 @@ export class Painter {
     const isDark = background === darkBackground;
     const share = isDark ? 1.42 : 0.86;
     const tone = background.map((x) => x * share) as Vec3;
-    return { tone, shadow: isDark ? 0.52 : 0.34 };
+    return { background, tone, shadow: isDark ? 0.52 : 0.34 };
   }
 
   private colliderCorners(): Vec3[] {

@@ -104,8 +104,8 @@ export class Picker {
       const number = look.triangles[3 * hit.number + corner]!;
       return number < look.vertexCount ? number : look.copies[number - look.vertexCount]!;
     };
-    const point: SurfacePoint = { vertices: [vertex(0), vertex(1), vertex(2)], weights: [1 - hit.v - hit.w, hit.v, hit.w] };
-    return this.found(point, positions, hit.way);
+    const weights: SurfacePoint['weights'] = [1 - hit.v - hit.w, hit.v, hit.w];
+    return this.found({ vertices: [vertex(0), vertex(1), vertex(2)], weights }, positions, hit.way);
   }
 
   private pickRope(x: number, y: number, look: SceneLook, positions: Float32Array, before: number): Found | null {

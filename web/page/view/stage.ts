@@ -60,7 +60,7 @@ export class Stage {
     return this.painter.memory;
   }
 
-  /** Shows another scene. Nothing is seen of it before its first frame. */
+  /** Shows another scene, from its first frame on. */
   show(look: SceneLook, keepsCamera: boolean): void {
     this.look = look;
     this.frame_ = null;
@@ -91,7 +91,9 @@ export class Stage {
     if (this.hasJustDrawn) this.lastInterval = now - this.lastCall;
     this.lastCall = now;
     this.hasJustDrawn = false;
-    if (!this.isDirty || this.painter.isLost) return;
+    // Until the first frame of a scene comes, the picture of the one before stays.
+    const isWaiting = this.look !== null && this.frame_ === null;
+    if (!this.isDirty || isWaiting || this.painter.isLost) return;
     this.takeSize();
     this.painter.resize(this.size.width, this.size.height);
     if (this.frame_ !== null && this.hasNewFrame) this.painter.update(this.frame_);

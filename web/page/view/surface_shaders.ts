@@ -2,21 +2,22 @@
 import { lighting, precision } from './lighting_shader';
 
 /** The tone of all colliders (sRGB). */
-const solidTone = 'vec3(0.60, 0.65, 0.71)';
+const solidTone = 'pow(vec3(0.60, 0.65, 0.71), vec3(2.2))';
 
 export const bodyVertex = `${precision}
 in vec3 position, normal, place;
 in vec4 front, back, second;
 uniform mat4 viewMatrix, projectionMatrix;
 out vec3 pointHere, normalHere, placeHere;
-flat out vec4 frontHere, backHere, secondHere;
+flat out vec4 frontHere, backHere, secondHere;  // in linear light
+vec4 linear(vec4 tone) { return vec4(pow(tone.rgb, vec3(2.2)), tone.a); }
 void main() {
   pointHere = position;
   normalHere = normal;
   placeHere = place;
-  frontHere = front;
-  backHere = back;
-  secondHere = second;
+  frontHere = linear(front);
+  backHere = linear(back);
+  secondHere = linear(second);
   gl_Position = projectionMatrix * (viewMatrix * vec4(position, 1));
 }`;
 
@@ -36,14 +37,15 @@ vec3 ownTone() {
   int pattern = int(255.0 * backHere.a + 0.5);
   vec3 base = gl_FrontFacing ? frontHere.rgb : backHere.rgb;
   vec3 turns = inTurn(placeHere);
+  if (pattern == 0) return base;
   float turn = pattern == 1 ? turns.x * turns.y * turns.z : turns.x;
-  return pattern == 0 ? base : mix(base, secondHere.rgb, 0.5 + 0.5 * turn);
+  return mix(base, secondHere.rgb, 0.5 + 0.5 * turn);
 }
 
 void main() {
   vec3 n = normalize(normalHere + 1e-9 * (eye - pointHere));  // never of length zero
   if (!gl_FrontFacing) n = -n;
-  color = vec4(lit(ownTone(), pointHere, n, frontHere.a), 1);
+  color = vec4(lit(ownTone(), pointHere, n, frontHere.a > 0.5), 1);
 }`;
 
 /** setback [m]: colliders give way to what touches them. */
@@ -64,7 +66,7 @@ in vec3 pointHere, normalHere;
 out vec4 color;
 void main() {
   vec3 n = normalize(normalHere + 1e-9 * (eye - pointHere));
-  color = vec4(lit(${solidTone}, pointHere, gl_FrontFacing ? n : -n, 0.0), 1);
+  color = vec4(lit(${solidTone}, pointHere, gl_FrontFacing ? n : -n, false), 1);
 }`;
 
 /** As the light sees it. */
