@@ -1,4 +1,4 @@
-// The JavaScript module. web/pliant.d.ts has its types, and what each part of it does.
+// The JavaScript module. web/npm/index.d.ts has its types, and what each part of it does.
 #include <exception>
 #include <fstream>
 #include <memory>
@@ -31,6 +31,8 @@ auto guarded(F&& f) {
     return f();
   } catch (const std::exception& error) {
     message = error.what();
+  } catch (...) {
+    message = "an error without a message";
   }
   val::global("Error").new_(message).throw_();
 }
@@ -244,6 +246,10 @@ void write_file(const std::string& path, const std::string& bytes) {
   });
 }
 
+void remove_files(const std::string& folder) {
+  guarded([&] { std::filesystem::remove_all(folder); });
+}
+
 Scene* open_scene(const std::string& text, const std::string& name, const std::string& folder) {
   return guarded([&] { return std::make_unique<Scene>(WebScene::of_text(text, name, folder)).release(); });
 }
@@ -285,8 +291,11 @@ val builtin_scenes() {
 using SceneClass = emscripten::class_<Scene>;
 
 void bind_pictures(const SceneClass& scene) {
-  scene.function("look", &Scene::look)
-      .function("frame", &Scene::frame)
+  scene
+      .function(
+          "look", +[](Scene& self, float aspect) { return guarded([&] { return self.look(aspect); }); })
+      .function(
+          "frame", +[](Scene& self) { return guarded([&] { return self.frame(); }); })
       .function(
           "name", +[](Scene& self) { return self.session().scene().name; })
       .function(
@@ -377,6 +386,7 @@ EMSCRIPTEN_BINDINGS(pliant) {
   emscripten::function("openScene", &open_scene, allow_raw_pointers());
   emscripten::function("openMesh", &open_mesh, allow_raw_pointers());
   emscripten::function("writeFile", &write_file);
+  emscripten::function("removeFiles", &remove_files);
   const SceneClass scene("Scene");
   bind_pictures(scene);
   bind_time(scene);

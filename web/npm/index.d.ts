@@ -175,6 +175,8 @@ export interface Pliant {
   openMesh(file: string, scale: number, up: 'x' | 'y' | 'z'): Scene;
   /** Puts a file where openScene and openMesh find it: in memory. */
   writeFile(path: string, bytes: Uint8Array): void;
+  /** Removes a folder of such files. Scenes that were opened with them cannot restart, be undone or written then. */
+  removeFiles(folder: string): void;
 }
 
 export interface LoadOptions {

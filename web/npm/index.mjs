@@ -2,7 +2,7 @@
 import createPliant from './pliant.mjs';
 
 async function readBeside() {
-  const { readFile } = await import('node:fs/promises');
+  const { readFile } = await import(/* webpackIgnore: true */ /* @vite-ignore */ 'node:fs/promises');
   return readFile(new URL('./pliant.wasm', import.meta.url));
 }
 

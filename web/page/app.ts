@@ -2,14 +2,16 @@
 import { Client } from './client';
 import { byId } from './dom';
 import { download, readFiles, sourceOf } from './files';
-import { firstScene, sourceOfName } from './gallery';
+import { firstScene, isOfGallery, sourceOfName } from './gallery';
 import { Hands } from './hands';
+import { Loading } from './loading';
 import { Messages } from './messages';
 import { Panel } from './panel';
 import type { PanelState, Report, SceneSource, UpAxis, Viewpoint } from './protocol';
 import { SceneList } from './scene_list';
 import { hashOf, longestLink, readHash } from './share';
 import { addWind } from './scene_text';
+import { recall, store } from './storage';
 import { Stage } from './view/stage';
 
 type Of<T extends Report['type']> = Extract<Report, { type: T }>;
@@ -37,6 +39,7 @@ const hint = narrow.matches || window.matchMedia('(pointer: coarse)').matches
 export class App {
   private readonly canvas = byId('picture', HTMLCanvasElement);
   private readonly stage = new Stage(this.canvas);
+  private readonly loading = new Loading(() => this.giveUp());
   private readonly messages = new Messages(byId('messages', HTMLDivElement));
   private readonly panelBox = byId('panel', HTMLElement);
   private readonly playButton = byId('play', HTMLButtonElement);
@@ -61,18 +64,27 @@ export class App {
   readonly state: PageState = { name: '', time: 0, isPlaying: true, isPulling: false, vertexCount: 0,
                                 pins: [], panel: null, pictures: 0 };
 
+  private hasOpened = false;
   private source: SceneSource = sourceOfName(firstScene);
-  private opening: { source: SceneSource; hash: string | null } | null = null;
+  /** What was asked for and has not come yet, by the number of the command. */
+  private readonly opening = new Map<number, { source: SceneSource; hash: string | null }>();
+  private lastOpening = 0;
+  /** What was to be opened at first could not be: it was the first scene then, once. */
+  private hasFallenBack = false;
   private hasNews = false;
+  /** Whether it goes on when the page is seen again. */
+  private plays = true;
   private lastPicture = 0;
   private pictures: number[] = [];
 
   start(): void {
-    this.setTheme(localStorage.getItem('theme') ?? (darkScheme.matches ? 'dark' : 'light'));
+    this.setTheme(recall('theme') ?? (darkScheme.matches ? 'dark' : 'light'));
     this.showPanelBox(!narrow.matches);
     this.connectButtons();
     this.connectKeys();
     this.connectDrop();
+    narrow.addEventListener('change', () => this.showPanelBox(!narrow.matches));
+    document.addEventListener('visibilitychange', () => this.rest());
     this.stage.onLost = () => this.messages.note('The picture was lost by the graphics driver; it comes back by itself.');
     window.addEventListener('hashchange', () => void this.guard(() => this.openAddress()));
     void this.guard(() => this.openAddress());
@@ -97,12 +109,14 @@ export class App {
 
   private async openAddress(): Promise<void> {
     let shared = null;
+    const ticket = this.lastOpening;
     try {
       shared = await readHash(location.hash);
     } catch (error) {
-      if (this.state.name === '') this.open(sourceOfName(firstScene), null);
+      if (!this.hasOpened) this.open(sourceOfName(firstScene), null);
       throw error;
     }
+    if (ticket !== this.lastOpening) return;
     if (shared === null) return this.open(sourceOfName(firstScene), null);
     this.open(shared.kind === 'builtin' ? sourceOfName(shared.name)
                                         : { kind: 'text', text: shared.text, name: shared.name, files: [] }, null);
@@ -110,10 +124,12 @@ export class App {
 
   /** hash: of the address from then on; null: as it is. */
   private open(source: SceneSource, hash: string | null): void {
-    this.opening = { source, hash };
+    const id = ++this.lastOpening;
+    this.opening.set(id, { source, hash });
     this.messages.clear();
+    this.loading.begin(source.name);
     const aspect = this.canvas.clientWidth / Math.max(this.canvas.clientHeight, 1);
-    this.client.send({ type: 'open', source, aspect: Math.max(aspect, 1.2) });
+    this.client.send({ type: 'open', id, source, aspect: Math.max(aspect, 1.2) });
   }
 
   private openNamed(name: string): void {
@@ -121,15 +137,20 @@ export class App {
   }
 
   private async openFiles(files: File[], up: UpAxis = 'z'): Promise<void> {
-    this.open(sourceOf(await readFiles(files), up), '#');
+    const ticket = this.lastOpening;
+    const source = sourceOf(await readFiles(files), up);
+    if (ticket === this.lastOpening) this.open(source, '#');
   }
 
   private opened(report: Of<'opened'>): void {
-    const { source, hash } = this.opening ?? { source: this.source, hash: null };
+    const { source, hash } = this.opening.get(report.id) ?? { source: this.source, hash: null };
     this.source = source;
-    this.opening = null;
+    this.opening.delete(report.id);
+    this.client.shown = report.id;
+    this.hasOpened = true;
+    if (this.opening.size === 0) this.loading.end();
     if (hash !== null) history.replaceState(null, '', hash === '#' ? location.pathname + location.search : hash);
-    this.state.name = source.kind === 'builtin' ? source.name : report.name.replace(/\.[^.]*$/, '');
+    this.state.name = (source.kind === 'builtin' ? source.name : report.name) || 'scene';
     this.state.vertexCount = report.look.vertexCount;
     this.hands.cancel();
     this.stage.show(report.look, false);
@@ -139,42 +160,46 @@ export class App {
     byId('scene-name', HTMLSpanElement).textContent = title;
     byId('description', HTMLParagraphElement).textContent = report.description;
     document.title = `${title} · Pliant`;
-    byId('loading', HTMLParagraphElement).hidden = true;
     for (const warning of report.warnings) this.messages.note(warning);
-    if (localStorage.getItem('used') === null) this.showHint(hint);
+    if (recall('used') === null) this.showHint(hint);
     if (source.kind === 'mesh') this.offerUp(source);
   }
 
   /** Which axis of a mesh points up nobody knows but its owner. */
   private offerUp(source: Extract<SceneSource, { kind: 'mesh' }>): void {
     const other: UpAxis = source.up === 'z' ? 'y' : 'z';
-    this.messages.choice(`${source.name} is taken with ${source.up} up.`, `Take ${other}`,
+    this.messages.choice(`Its ${source.up} axis is taken as up.`, `Use ${other} as up`,
                          () => this.open({ ...source, up: other }, null));
   }
 
   private async addWind(): Promise<void> {
+    const ticket = this.lastOpening;
+    const { source } = this;
+    const files = source.kind === 'builtin' ? [] : source.files;
     const text = addWind(await this.client.text());
-    const files = this.source.kind === 'builtin' ? [] : this.source.files;
-    this.open({ kind: 'text', text, name: this.state.name, files }, '#');
+    if (ticket === this.lastOpening) this.open({ kind: 'text', text, name: this.state.name, files }, '#');
   }
 
   private failed(report: Of<'error'>): void {
     if (report.command === 'open') {
-      this.opening = null;
-      if (this.state.name === '') this.open(sourceOfName(firstScene), null);
+      this.opening.delete(report.id ?? -1);
+      if (!this.hasOpened && !this.hasFallenBack) this.open(sourceOfName(firstScene), null);
+      this.hasFallenBack = true;
     }
-    if (report.command === 'load') byId('loading', HTMLParagraphElement).hidden = true;
+    if (this.opening.size === 0 || report.command === 'load') this.loading.end();
     this.messages.error(report.message);
   }
 
   private async share(): Promise<void> {
-    const needed = this.source.kind === 'builtin' ? [] : this.source.files.filter((file) => !file.name.endsWith('.json'));
+    const needed = this.source.kind === 'builtin' ? [] : this.source.files.filter((file) => !/\.json$/i.test(file.name));
     if (needed.length > 0) {
       throw new Error(`a link cannot hold ${needed.map((file) => file.name).join(', ')}; save the scene and send the files with it`);
     }
-    const isNamed = this.state.panel?.hasChanges === false && this.source.kind === 'builtin';
-    const hash = await hashOf(isNamed ? { kind: 'builtin', name: this.state.name }
-                                      : { kind: 'text', name: this.state.name, text: await this.client.text() });
+    // Asked for first: what was changed just before is known then.
+    const text = await this.client.text();
+    const isNamed = this.state.panel?.hasChanges === false && isOfGallery(this.source);
+    const hash = await hashOf(isNamed ? { kind: 'builtin', name: this.source.name }
+                                      : { kind: 'text', name: this.state.name, text });
     if (hash.length > longestLink) {
       throw new Error(`the link would have ${hash.length} characters, more than programs take; save the scene and send the file`);
     }
@@ -214,15 +239,16 @@ export class App {
   private draw(now: number): void {
     requestAnimationFrame((next) => this.draw(next));
     this.hands.flush();
-    this.stage.draw();
+    const hasDrawn = this.stage.draw();
     if (!this.hasNews) return;
     this.hasNews = false;
+    this.client.send({ type: 'drawn' });
+    if (!hasDrawn) return;
     if (now - this.lastPicture < 1000) this.stage.noteInterval(now - this.lastPicture);
     this.lastPicture = now;
     if (this.state.pictures === 0) performance.mark('first picture');
     this.state.pictures += 1;
     this.pictures = [...this.pictures.filter((at) => now - at < 1000), now];
-    this.client.send({ type: 'drawn' });
   }
 
   private picturesPerSecond(): number {
@@ -256,7 +282,7 @@ export class App {
 
   private toggleTheme(): void {
     const theme = document.documentElement.dataset['theme'] === 'dark' ? 'light' : 'dark';
-    localStorage.setItem('theme', theme);
+    store('theme', theme);
     this.setTheme(theme);
   }
 
@@ -265,8 +291,32 @@ export class App {
     this.client.send({ type: 'restart', keeps: true });
   }
 
+  private togglePlay(): void {
+    this.state.isPlaying = !this.state.isPlaying;
+    this.client.send({ type: 'play', on: this.state.isPlaying });
+  }
+
+  /** What nobody sees stands still. */
+  private rest(): void {
+    if (document.hidden) {
+      this.plays = this.state.isPlaying;
+      this.client.send({ type: 'play', on: false });
+    } else if (this.plays) {
+      this.client.send({ type: 'play', on: true });
+    }
+  }
+
+  /** Ends what takes too long, and goes back to the scene before. */
+  private giveUp(): void {
+    this.client.renew();
+    this.opening.clear();
+    this.hands.cancel();
+    if (this.hasOpened) this.open(this.source, null);
+    else this.loading.end();
+  }
+
   private used(): void {
-    localStorage.setItem('used', 'yes');
+    store('used', 'yes');
     byId('hint', HTMLParagraphElement).hidden = true;
   }
 
@@ -288,13 +338,13 @@ export class App {
     on('theme', () => this.toggleTheme());
     on('panel-toggle', () => this.showPanelBox(this.panelBox.hidden !== false));
     on('restart', () => this.restart());
-    on('play', () => this.client.send({ type: 'play', on: !this.state.isPlaying }));
+    on('play', () => this.togglePlay());
     on('step', () => this.client.send({ type: 'step' }));
   }
 
   private connectKeys(): void {
     const keys: Record<string, () => void> = {
-      ' ': () => this.client.send({ type: 'play', on: !this.state.isPlaying }),
+      ' ': () => this.togglePlay(),
       s: () => this.client.send({ type: 'step' }),
       r: () => this.restart(),
       f: () => this.stage.frame(),
@@ -308,7 +358,7 @@ export class App {
     };
     window.addEventListener('keydown', (event) => {
       const target = event.target as HTMLElement;
-      if (target.closest('input[type="number"], input[type="search"], select, dialog') !== null || (event.key === ' ' && target.closest('button, summary') !== null)) return;
+      if (target.closest('input[type="number"], input[type="search"], select, dialog') !== null || (event.key === ' ' && target.closest('button, summary, input[type="checkbox"]') !== null)) return;
       const isCommand = event.ctrlKey || event.metaKey;
       const name = `${isCommand ? 'ctrl ' : ''}${isCommand && event.shiftKey ? 'shift ' : ''}${event.key.toLowerCase()}`;
       const act = keys[name];

@@ -29,6 +29,11 @@ export function sourceOfName(name: string): SceneSource {
   return text === undefined ? { kind: 'builtin', name } : { kind: 'text', text, name, files: [] };
 }
 
+/** Whether that is the text of one of them, unchanged. */
+export function isOfGallery(source: SceneSource): boolean {
+  return source.kind === 'builtin' || (source.kind === 'text' && gallery.get(source.name) === source.text);
+}
+
 export function thumbnailOf(name: string): string {
   return `./thumbnails/${name}.webp`;
 }

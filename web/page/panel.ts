@@ -44,7 +44,7 @@ export class Panel {
     for (const each of state.parameters) this.rows.get(each.key)?.show(each.value);
     for (const each of state.materials) {
       const menu = this.materials.get(each.body);
-      if (menu !== undefined && document.activeElement !== menu) menu.value = each.material;
+      if (menu !== undefined) menu.value = each.material;
     }
   }
 
@@ -62,7 +62,12 @@ export class Panel {
       const parameters = state.parameters.filter((each) => titleOf(each) === title);
       if (parameters.length > 0 || title === 'Forces') sections.push(this.parameterSection(title, parameters));
     }
+    const focused = document.activeElement?.getAttribute('aria-label');
+    const { scrollTop } = this.root;
     this.root.replaceChildren(...sections);
+    this.root.scrollTop = scrollTop;
+    const again = [...this.root.querySelectorAll<HTMLElement>('[aria-label]')].find((each) => each.ariaLabel === focused);
+    if (focused !== null && focused !== undefined) again?.focus({ preventScroll: true });
   }
 
   private section(title: string, content: HTMLElement[], key = title): HTMLElement {
@@ -74,7 +79,7 @@ export class Panel {
 
   private materialSection(materials: BodyMaterial[]): HTMLElement {
     const rows = materials.map((each) => {
-      const menu = element('select', { title: 'What this body is made of' });
+      const menu = element('select', { title: 'What this body is made of', ariaLabel: `Material of ${each.body}` });
       if (each.material === '') menu.append(element('option', { value: '' }, 'its own constraints'));
       for (const choice of each.choices) {
         menu.append(element('option', { value: choice.name, title: choice.description }, choice.name));
@@ -82,7 +87,6 @@ export class Panel {
       menu.value = each.material;
       menu.addEventListener('change', () => {
         if (menu.value !== '') this.actions.setMaterial(each.body, menu.value);
-        menu.blur();
       });
       this.materials.set(each.body, menu);
       return element('label', { className: 'row' }, element('span', { className: 'name' }, each.body), menu);

@@ -25,10 +25,13 @@ function textOf(value: number): string {
 
 function numberField(parameter: Parameter, at: number, change: (value: number) => void): HTMLInputElement {
   const field = element('input', { type: 'number', step: 'any' });
+  field.addEventListener('input', () => field.classList.add('editing'));
+  field.addEventListener('blur', () => field.classList.remove('editing'));
   if (Number.isFinite(parameter.min)) field.min = String(parameter.min);
   if (Number.isFinite(parameter.max)) field.max = String(parameter.max);
   field.setAttribute('aria-label', `${parameter.option.replaceAll('_', ' ')}${'xyz'[at] ?? ''}`);
   field.addEventListener('change', () => {
+    field.classList.remove('editing');
     const value = field.valueAsNumber;
     if (Number.isFinite(value)) change(parameter.kind === 'integer' ? Math.round(value) : value);
   });
@@ -36,7 +39,7 @@ function numberField(parameter: Parameter, at: number, change: (value: number) =
 }
 
 function showIn(field: HTMLInputElement, value: number | undefined): void {
-  if (value !== undefined && document.activeElement !== field) field.value = textOf(value);
+  if (value !== undefined && !field.classList.contains('editing')) field.value = textOf(value);
 }
 
 function numberControl(parameter: Parameter, change: Change): Control {
@@ -67,19 +70,21 @@ function numberControl(parameter: Parameter, change: Change): Control {
 }
 
 function vectorControl(parameter: Parameter, change: Change): Control {
+  let now: readonly number[] = parameter.value;
   const fields: HTMLInputElement[] = [0, 1, 2].map((at) => numberField(parameter, at, () => {
-    change(fields.map((field, i) => (Number.isFinite(field.valueAsNumber) ? field.valueAsNumber : parameter.value[i] ?? 0)), false);
+    change(fields.map((field, i) => (Number.isFinite(field.valueAsNumber) ? field.valueAsNumber : now[i] ?? 0)), false);
   }));
-  return { elements: fields, show: (value) => fields.forEach((field, i) => showIn(field, value[i])) };
+  const show = (value: readonly number[]): void => {
+    now = value;
+    fields.forEach((field, i) => showIn(field, value[i]));
+  };
+  return { elements: fields, show };
 }
 
 function choiceControl(parameter: Parameter, change: Change): Control {
   const menu = element('select', {});
   parameter.choices.forEach((choice, i) => menu.append(element('option', { value: String(i) }, choice)));
-  menu.addEventListener('change', () => {
-    change([Number(menu.value)], false);
-    menu.blur();
-  });
+  menu.addEventListener('change', () => change([Number(menu.value)], false));
   return { elements: [menu], show: (value) => { menu.value = String(value[0] ?? 0); } };
 }
 

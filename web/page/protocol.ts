@@ -26,7 +26,7 @@ export type SceneSource =
 
 /** What the page asks of the worker. */
 export type Command =
-  | { type: 'open'; source: SceneSource; aspect: number }
+  | { type: 'open'; id: number; source: SceneSource; aspect: number }
   | { type: 'play'; on: boolean }
   | { type: 'step' }
   | { type: 'restart'; keeps: boolean }
@@ -46,6 +46,12 @@ export type Command =
   | { type: 'text'; id: number }
   /** The frame that was sent last has been drawn: another one may come. */
   | { type: 'drawn' };
+
+/** scene: the number of the `open` whose scene the page shows; what is meant for another one is dropped. */
+export interface Letter {
+  command: Command;
+  scene: number;
+}
 
 export interface SceneEntry {
   name: string;
@@ -74,7 +80,7 @@ export interface PanelState {
 /** What the worker reports. */
 export type Report =
   | { type: 'ready'; version: string; scenes: SceneEntry[] }
-  | { type: 'opened'; name: string; description: string; look: SceneLook; panel: PanelState; warnings: string[] }
+  | { type: 'opened'; id: number; name: string; description: string; look: SceneLook; panel: PanelState; warnings: string[] }
   /** The bodies or colliders are others than before, of the same scene. */
   | { type: 'look'; look: SceneLook }
   | { type: 'frame'; frame: Frame; statistics: Statistics }
@@ -82,4 +88,4 @@ export type Report =
   | { type: 'note'; text: string }
   | { type: 'text'; id: number; text: string }
   /** What a command could not do; of `open`: the scene before goes on. */
-  | { type: 'error'; message: string; command: Command['type'] | 'load' };
+  | { type: 'error'; message: string; command: Command['type'] | 'load'; id?: number };

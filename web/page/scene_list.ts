@@ -24,6 +24,7 @@ export class SceneList {
       if (files.files !== null && files.files.length > 0) openFiles([...files.files]);
       files.value = '';
     });
+    byId('open-file', HTMLButtonElement).addEventListener('click', () => files.click());
     this.search.addEventListener('input', () => this.filter());
     this.search.addEventListener('keydown', (event) => {
       if (event.key !== 'Enter') return;

@@ -8,6 +8,8 @@ export const longestLink = 16000;
 /** No text is longer than that, whatever a link unpacks to [bytes]. */
 const longestText = 4_000_000;
 
+class TooLarge extends Error {}
+
 function toBase64Url(bytes: Uint8Array): string {
   let text = '';
   for (const byte of bytes) text += String.fromCharCode(byte);
@@ -27,7 +29,7 @@ async function through(bytes: Uint8Array<ArrayBuffer>, transform: GenericTransfo
     const { done, value } = await reader.read();
     if (done) break;
     size += value.length;
-    if (size > longestText) throw new Error('the scene in this link is too large');
+    if (size > longestText) throw new TooLarge('the scene in this link is too large');
     parts.push(value);
   }
   const all = new Uint8Array(size);
@@ -59,11 +61,13 @@ export async function readHash(hash: string): Promise<Shared | null> {
   if (scene !== null) return { kind: 'builtin', name: scene };
   const packed = values.get('text');
   if (packed === null) return null;
+  if (!('DecompressionStream' in globalThis)) throw new Error('this browser is too old for links that hold a scene; a newer one opens it');
   try {
     const text = new TextDecoder('utf-8', { fatal: true })
       .decode(await through(fromBase64Url(packed), new DecompressionStream('deflate-raw')));
     return { kind: 'text', name: values.get('name') ?? 'shared', text };
-  } catch {
+  } catch (error) {
+    if (error instanceof TooLarge) throw error;
     throw new Error('the scene in this link is damaged; ask for the link again, and copy all of it');
   }
 }

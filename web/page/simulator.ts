@@ -9,14 +9,21 @@ type Of<T extends Command['type']> = Extract<Command, { type: T }>;
 
 /** The values of the scene's events show in the panel that often [ms]. */
 const panelInterval = 250;
+/** A key that is held down asks for more than can be taken. */
+const mostSingleSteps = 2;
 
 function arraysOf(of: Frame | SceneLook): Transferable[] {
   const lists: unknown[] = Object.values(of);
   return lists.flatMap((list) => (ArrayBuffer.isView(list) ? [list.buffer as ArrayBuffer] : []));
 }
 
+/** Paths begin with the names of the user's files; what the machine says is said in words. */
 function messageOf(error: unknown): string {
-  return error instanceof Error ? error.message : String(error);
+  const message = error instanceof Error ? error.message : String(error);
+  if (/bad_alloc|out of memory|memory access|Aborted|unreachable/.test(message)) {
+    return 'there is not enough memory for this scene; reload the page, and open a smaller one';
+  }
+  return message.replaceAll(/\/opened\/\d+\//g, '');
 }
 
 function sameNumbers(a: readonly number[], b: readonly number[]): boolean {
@@ -33,7 +40,11 @@ export class Simulator {
   private readonly soon = new MessageChannel();
   private timer: ReturnType<typeof setTimeout> | undefined;
   private isScheduled = false;
+  /** Of the `open` that it came from. */
+  private id = 0;
   private opened = 0;
+  /** Of the scene's own files. */
+  private folder = '/opened/0';
   private colliders: number[] = [];
   private rebuilds = 0;
   private note = '';
@@ -48,11 +59,19 @@ export class Simulator {
     this.soon.port1.onmessage = () => this.turn();
   }
 
-  command(command: Command): void {
+  /** scene: see Letter; without it the one that is open is meant. */
+  command(command: Command, scene = this.id): void {
     try {
-      this.act(command);
+      if (scene === this.id || command.type === 'open' || command.type === 'drawn' || command.type === 'play') this.act(command);
+      else if (command.type === 'text') throw new Error('another scene was opened in between');
     } catch (error) {
-      this.send({ type: 'error', message: messageOf(error), command: command.type });
+      const id = command.type === 'open' || command.type === 'text' ? { id: command.id } : {};
+      this.send({ type: 'error', message: messageOf(error), command: command.type, ...id });
+      // The panel has a value that was refused.
+      if (command.type === 'set' && this.scene !== null) {
+        this.panelText = '';
+        this.tellPanel();
+      }
     }
     this.schedule();
   }
@@ -63,11 +82,14 @@ export class Simulator {
       case 'drawn':
         this.pageIsFree = true;
         return;
-      case 'play': return this.play(command.on);
+      case 'play':
+        if (this.scene !== null) this.play(command.on);
+        return;
       case 'text': return this.send({ type: 'text', id: command.id, text: this.theScene().text() });
       case 'step':
+        if (this.scene === null) return;
         this.play(false);
-        this.singleSteps += 1;
+        this.singleSteps = Math.min(this.singleSteps + 1, mostSingleSteps);
         return;
       default:
         this.change(this.theScene(), command);
@@ -104,35 +126,53 @@ export class Simulator {
     return this.scene;
   }
 
-  private read(source: SceneSource): Scene {
+  /** Files of its own are put into the folder. */
+  private read(source: SceneSource, folder: string): Scene {
     if (source.kind === 'builtin') return this.pliant.openScene(this.pliant.builtinScene(source.name), source.name, '');
-    const folder = `/opened/${++this.opened}`;
     for (const file of source.files) this.pliant.writeFile(`${folder}/${file.name}`, file.bytes);
     if (source.kind === 'mesh') return this.pliant.openMesh(`${folder}/${source.name}`, 1, source.up);
     return this.pliant.openScene(source.text, source.name, folder);
   }
 
-  private open({ source, aspect }: Of<'open'>): void {
-    const scene = this.read(source);
+  private open({ id, source, aspect }: Of<'open'>): void {
+    const folder = `/opened/${++this.opened}`;
+    let scene: Scene | null = null;
+    let look: SceneLook;
+    let panel: PanelState;
+    try {
+      scene = this.read(source, folder);
+      look = scene.look(aspect);
+      panel = this.panel(scene);
+    } catch (error) {
+      scene?.delete();
+      this.pliant.removeFiles(folder);
+      throw error;
+    }
     this.scene?.delete();
+    this.pliant.removeFiles(this.folder);
     this.scene = scene;
+    this.folder = folder;
+    this.id = id;
     this.aspect = aspect;
     this.note = '';
     this.singleSteps = 0;
     this.startClock();
-    const look = this.makeLook(scene);
-    const panel = this.panel(scene);
+    this.remember(scene, look);
     this.panelText = JSON.stringify(panel);
-    this.send({ type: 'opened', name: scene.name(), description: scene.description(), look, panel,
+    this.send({ type: 'opened', id, name: scene.name(), description: scene.description(), look, panel,
                 warnings: scene.warnings() }, arraysOf(look));
     this.isDirty = true;
   }
 
   private makeLook(scene: Scene): SceneLook {
     const look = scene.look(this.aspect);
+    this.remember(scene, look);
+    return look;
+  }
+
+  private remember(scene: Scene, look: SceneLook): void {
     this.colliders = look.colliders.map((collider) => collider.number);
     this.rebuilds = scene.rebuilds();
-    return look;
   }
 
   private restart(scene: Scene, keeps: boolean): void {
@@ -166,6 +206,7 @@ export class Simulator {
   private schedule(): void {
     if (this.isScheduled) return;
     clearTimeout(this.timer);
+    if (this.scene === null) return;
     const wait = this.isDirty && this.pageIsFree ? 0 : this.timeToStep();
     if (wait <= 0) {
       this.isScheduled = true;
@@ -177,16 +218,27 @@ export class Simulator {
 
   private turn(): void {
     this.isScheduled = false;
+    const { scene } = this;
+    if (scene === null) return;
     try {
-      if (this.timeToStep() <= 0) this.step(this.theScene());
-      if (this.isDirty && this.pageIsFree) this.publish(this.theScene());
+      if (this.timeToStep() <= 0) this.step(scene);
     } catch (error) {
-      this.isPlaying = false;
-      this.singleSteps = 0;
-      this.send({ type: 'error', message: messageOf(error), command: 'step' });
+      this.stop(error);
       this.isDirty = true;
     }
+    try {
+      if (this.isDirty && this.pageIsFree) this.publish(scene);
+    } catch (error) {
+      this.stop(error);
+      this.isDirty = false;
+    }
     this.schedule();
+  }
+
+  private stop(error: unknown): void {
+    this.isPlaying = false;
+    this.singleSteps = 0;
+    this.send({ type: 'error', message: messageOf(error), command: 'step' });
   }
 
   private step(scene: Scene): void {

@@ -1,23 +1,23 @@
 // The worker: simulates, and tells the page what there is to see. Between two steps it listens to the page.
 import { loadPliant } from 'pliant';
 import { Simulator } from './simulator';
-import type { Command, Report } from './protocol';
+import type { Letter, Report } from './protocol';
 
 const send = (report: Report, transfer: Transferable[] = []): void => self.postMessage(report, { transfer });
 
-const waiting: Command[] = [];
+const waiting: Letter[] = [];
 let simulator: Simulator | null = null;
 
-self.addEventListener('message', (event: MessageEvent<Command>) => {
+self.addEventListener('message', (event: MessageEvent<Letter>) => {
   if (simulator === null) waiting.push(event.data);
-  else simulator.command(event.data);
+  else simulator.command(event.data.command, event.data.scene);
 });
 
 loadPliant().then(
   (pliant) => {
     simulator = new Simulator(pliant, send);
     send({ type: 'ready', version: pliant.version(), scenes: pliant.builtinScenes() });
-    for (const command of waiting) simulator.command(command);
+    for (const { command, scene } of waiting) simulator.command(command, scene);
   },
-  (error: unknown) => send({ type: 'error', message: String(error), command: 'load' }),
+  (error: unknown) => send({ type: 'error', message: `this browser cannot run the simulation: ${String(error)}`, command: 'load' }),
 );

@@ -46,7 +46,7 @@ describe('a link', () => {
     const bytes = await new Response(new Blob([' '.repeat(8_000_000)]).stream()
       .pipeThrough(new CompressionStream('deflate-raw'))).arrayBuffer();
     const packed = Buffer.from(bytes).toString('base64url');
-    await expect(readHash(`#text=${packed}`)).rejects.toThrow(/damaged|too large/);
+    await expect(readHash(`#text=${packed}`)).rejects.toThrow(/too large/);
   });
 
   it('that says nothing opens nothing', async () => {

@@ -1,6 +1,6 @@
 // The simulation as the worker runs it, with the real module, in node.
 import { afterEach, describe, expect, it } from 'vitest';
-import { loadPliant, type Pliant } from '../../build/web/npm/index.mjs';
+import { loadPliant, type Pliant } from 'pliant';
 import type { Command, Report } from '../page/protocol';
 import { Simulator } from '../page/simulator';
 
@@ -16,12 +16,13 @@ class Page {
 
   constructor(private readonly draws = true) {}
 
-  command(command: Command): void {
-    this.simulator.command(command);
+  /** scene: as the page's client adds it. */
+  command(command: Command, scene?: number): void {
+    this.simulator.command(command, scene);
   }
 
   open(name = 'flag'): void {
-    this.command({ type: 'open', source: { kind: 'builtin', name }, aspect: 1.5 });
+    this.command({ type: 'open', id: 1, source: { kind: 'builtin', name }, aspect: 1.5 });
   }
 
   all<T extends Report['type']>(type: T): Extract<Report, { type: T }>[] {
@@ -104,10 +105,10 @@ describe('a scene in the worker', () => {
   it('goes on with the scene before when another cannot be opened', async () => {
     const tab = page();
     tab.open();
-    tab.command({ type: 'open', source: { kind: 'builtin', name: 'no such' }, aspect: 1 });
-    expect(tab.all('error')).toEqual([{ type: 'error', message: "there is no built-in scene 'no such'", command: 'open' }]);
+    tab.command({ type: 'open', id: 1, source: { kind: 'builtin', name: 'no such' }, aspect: 1 });
+    expect(tab.all('error')).toEqual([{ type: 'error', message: "there is no built-in scene 'no such'", command: 'open', id: 1 }]);
     const bytes = new TextEncoder().encode('v 0 0 0\nv 1 0 0\nf 1 2 9\n');
-    tab.command({ type: 'open', source: { kind: 'mesh', name: 'broken.obj', files: [{ name: 'broken.obj', bytes }], up: 'z' }, aspect: 1 });
+    tab.command({ type: 'open', id: 1, source: { kind: 'mesh', name: 'broken.obj', files: [{ name: 'broken.obj', bytes }], up: 'z' }, aspect: 1 });
     expect(tab.all('error').at(-1)?.message).toMatch(/broken\.obj:3: /);
     await tab.until(() => tab.all('frame').length > 0 && tab.frame().statistics.time > 0.1);
     expect(tab.all('opened')).toHaveLength(1);
@@ -116,7 +117,7 @@ describe('a scene in the worker', () => {
   it('opens a mesh, and gives the scene it makes of it', async () => {
     const tab = page();
     const bytes = new TextEncoder().encode('v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nf 1 2 3 4\n');
-    tab.command({ type: 'open', source: { kind: 'mesh', name: 'cloth.obj', files: [{ name: 'cloth.obj', bytes }], up: 'z' }, aspect: 1 });
+    tab.command({ type: 'open', id: 1, source: { kind: 'mesh', name: 'cloth.obj', files: [{ name: 'cloth.obj', bytes }], up: 'z' }, aspect: 1 });
     expect(tab.all('opened')[0]?.panel.materials[0]).toMatchObject({ body: 'cloth', material: 'cotton' });
     tab.command({ type: 'setMaterial', body: 'cloth', material: 'silk' });
     tab.command({ type: 'text', id: 7 });
@@ -124,6 +125,22 @@ describe('a scene in the worker', () => {
     expect(report?.id).toBe(7);
     expect(report?.text).toContain('silk');
     expect(report?.text).toContain('cloth.obj');
+  });
+
+  it('starts over with a mesh that is still there, whatever was opened in between', async () => {
+    const tab = page();
+    const bytes = new TextEncoder().encode('v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nf 1 2 3 4\n');
+    const broken = new TextEncoder().encode('f 1 2 3\n');
+    const source = (name: string, content: Uint8Array): Command =>
+      ({ type: 'open', id: 1, source: { kind: 'mesh', name, files: [{ name, bytes: content }], up: 'z' }, aspect: 1 });
+    for (let i = 0; i < 3; ++i) tab.command(source('cloth.obj', bytes));
+    tab.command(source('cloth.obj', broken));
+    expect(tab.all('error')).toHaveLength(1);
+    tab.command({ type: 'restart', keeps: true });
+    expect(tab.all('error')).toHaveLength(1);
+    expect(tab.all('look')).toHaveLength(1);
+    tab.open();
+    expect(tab.all('opened')).toHaveLength(4);
   });
 
   it('tells the panel what is out of range, and leaves it as it was', async () => {
@@ -135,6 +152,25 @@ describe('a scene in the worker', () => {
     tab.command({ type: 'set', key, value: [7], goesOn: false });
     const changed = tab.all('panel').at(-1)?.panel.parameters.find((each) => each.key === key);
     expect(changed?.value).toEqual([7]);
+  });
+
+  it('drops what was meant for the scene before', async () => {
+    const tab = page();
+    tab.open();
+    tab.command({ type: 'pin', vertex: 400 }, 0);
+    tab.command({ type: 'text', id: 5 }, 0);
+    await tab.until(() => tab.all('frame').length > 0);
+    expect(tab.frame().frame.pins).not.toContain(400);
+    expect(tab.all('error')).toEqual([{ type: 'error', message: 'another scene was opened in between', command: 'text', id: 5 }]);
+  });
+
+  it('shows what stands again when a value is refused', () => {
+    const tab = page();
+    tab.open();
+    const panels = tab.all('panel').length;
+    const key = tab.all('opened')[0]?.panel.parameters.find((each) => each.option === 'iterations')?.key ?? '';
+    tab.command({ type: 'set', key, value: [-3], goesOn: false });
+    expect(tab.all('panel').length).toBe(panels + 1);
   });
 
   it('tells that nothing is open yet', () => {

@@ -85,15 +85,15 @@ export class Stage {
     this.hasNewFrame = this.isDirty = true;
   }
 
-  /** Once for each picture of the screen. Does nothing where all is as it was. */
-  draw(): void {
+  /** Once for each picture of the screen. Does nothing where all is as it was; says whether it has drawn. */
+  draw(): boolean {
     const now = performance.now();
     if (this.hasJustDrawn) this.lastInterval = now - this.lastCall;
     this.lastCall = now;
     this.hasJustDrawn = false;
     // Until the first frame of a scene comes, the picture of the one before stays.
     const isWaiting = this.look !== null && this.frame_ === null;
-    if (!this.isDirty || isWaiting || this.painter.isLost) return;
+    if (!this.isDirty || isWaiting || this.painter.isLost) return false;
     this.takeSize();
     this.painter.resize(this.size.width, this.size.height);
     if (this.frame_ !== null && this.hasNewFrame) this.painter.update(this.frame_);
@@ -105,6 +105,7 @@ export class Stage {
     this.painter.draw(this.camera, this.frame_ !== null);
     this.hasNewFrame = this.isDirty = false;
     this.hasJustDrawn = true;
+    return true;
   }
 
   /** The time from picture to picture while things move; waiting for the simulation does not count [ms]. */
