@@ -90,7 +90,7 @@ describe.runIf(hasBrowser)('the page', () => {
   it('pulls the cloth where the mouse goes, and lets it go', async () => {
     const tab = await open('#scene=curtain');
     await stopAtStart(tab);
-    const middle = 820;
+    const middle = 840;
     const from = await placeOf(tab, middle);
     await tab.page.mouse.move(from.x, from.y);
     await tab.page.mouse.down();
@@ -99,7 +99,7 @@ describe.runIf(hasBrowser)('the page', () => {
     await tab.page.mouse.move(from.x - 120, from.y + 20, { steps: 10 });
     await tab.page.waitForTimeout(1500);
     const held = await placeOf(tab, middle);
-    expect(Math.hypot(held.x - (from.x - 120), held.y - (from.y + 20))).toBeLessThan(30);
+    expect(Math.hypot(held.x - (from.x - 120), held.y - (from.y + 20))).toBeLessThan(60);
     await tab.page.mouse.up();
     await tab.page.waitForTimeout(4000);
     const after = await placeOf(tab, middle);
@@ -256,13 +256,13 @@ describe.runIf(hasBrowser)('the page', () => {
     const tab = await open('#scene=curtain', { width: 390, height: 844, isPhone: true });
     expect(await tab.page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(390);
     await stopAtStart(tab);
-    const place = await placeOf(tab, 820);
+    const place = await placeOf(tab, 840);
     await tab.page.touchscreen.tap(place.x, place.y);
     await until(tab, () => globalThis.pliantPage.state.pins.length > 0 && globalThis.pliantPage.state.panel?.undoneNext === 'pin');
     const client = await tab.page.context().newCDPSession(tab.page);
     const touch = (type: string, points: { x: number; y: number }[]): Promise<unknown> =>
       client.send('Input.dispatchTouchEvent', { type: type as 'touchMove', touchPoints: points });
-    const at = await placeOf(tab, 400);
+    const at = await placeOf(tab, 1008);
     await touch('touchStart', [at]);
     for (let i = 1; i <= 6; ++i) await touch('touchMove', [{ x: at.x + 8 * i, y: at.y }]);
     await until(tab, () => globalThis.pliantPage.state.isPulling);
