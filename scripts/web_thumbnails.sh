@@ -20,7 +20,8 @@ mkdir -p "$folder"
 for name in "${scenes[@]}"; do
   scene="$name"
   [[ ! -e "docs/gallery/$name.json" ]] || scene="docs/gallery/$name.json"
-  "$pliant" render "$scene" --out "$work/$name.png" --steps "${steps[$name]:-120}" --size 256x160 --quiet >/dev/null
+  "$pliant" render "$scene" --out "$work/$name.png" --steps "${steps[$name]:-120}" --size 256x160 \
+    --set view.wind_arrow=false --quiet >/dev/null
   ffmpeg -loglevel error -y -i "$work/$name.png" -c:v libwebp -quality 60 -compression_level 6 "$folder/$name.webp"
 done
 echo "$(find "$folder" -name '*.webp' | wc -l) pictures, $(du -bs "$folder" | cut -f1) bytes"

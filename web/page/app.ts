@@ -271,6 +271,7 @@ export class App {
 
   private showPanelBox(on: boolean): void {
     this.panelBox.hidden = !on;
+    if (on && narrow.matches) byId('hint', HTMLParagraphElement).hidden = true;  // it lies over the panel there
     byId('panel-toggle', HTMLButtonElement).ariaExpanded = String(on);
     this.stage.setInset(on && !narrow.matches ? this.panelBox.offsetWidth + 12 : 0);
   }

@@ -20,7 +20,7 @@ interface Control {
 const steps = 1000;
 
 function textOf(value: number): string {
-  return String(Number(value.toPrecision(6)));
+  return String(Number(value.toPrecision(Math.abs(value) < 1 ? 4 : 6)));
 }
 
 function numberField(parameter: Parameter, at: number, change: (value: number) => void): HTMLInputElement {
