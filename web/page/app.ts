@@ -1,5 +1,5 @@
 // The page: a picture, a simulation beside it, and what the user does with both.
-import { Client } from './client';
+import type { Client, Listeners } from './client';
 import { byId } from './dom';
 import { download, readFiles, sourceOf } from './files';
 import { firstScene, isOfGallery, sourceOfName } from './gallery';
@@ -43,7 +43,7 @@ export class App {
   private readonly messages = new Messages(byId('messages', HTMLDivElement));
   private readonly panelBox = byId('panel', HTMLElement);
   private readonly playButton = byId('play', HTMLButtonElement);
-  private readonly client = new Client({
+  private readonly listeners: Listeners = {
     ready: (report) => this.scenes.fill(report.scenes),
     opened: (report) => this.opened(report),
     look: (report) => this.stage.show(report.look, true),
@@ -51,7 +51,7 @@ export class App {
     panel: (report) => this.showPanel(report.panel),
     note: (report) => this.messages.note(report.text),
     error: (report) => this.failed(report),
-  });
+  };
   private readonly hands = new Hands(this.canvas, this.stage, (command) => this.client.send(command), () => this.used());
   private readonly panel = new Panel(this.panelBox, {
     set: (key, value, goesOn) => this.client.send({ type: 'set', key, value, goesOn }),
@@ -77,7 +77,10 @@ export class App {
   private lastPicture = 0;
   private pictures: number[] = [];
 
+  constructor(private readonly client: Client) {}
+
   start(): void {
+    this.client.listen(this.listeners);
     this.setTheme(recall('theme') ?? (darkScheme.matches ? 'dark' : 'light'));
     this.showPanelBox(!narrow.matches);
     this.connectButtons();

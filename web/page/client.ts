@@ -8,10 +8,17 @@ export class Client {
   /** The number of the `open` whose scene is shown. */
   shown = 0;
   private worker = this.begin();
+  private listeners: Listeners | null = null;
+  /** What came before anyone listened. */
+  private readonly early: Report[] = [];
   private readonly texts = new Map<number, { resolve: (text: string) => void; reject: (error: Error) => void }>();
   private lastText = 0;
 
-  constructor(private readonly listeners: Listeners) {}
+  /** Tells what has come, and what comes. */
+  listen(listeners: Listeners): void {
+    this.listeners = listeners;
+    for (const report of this.early.splice(0)) this.take(report);
+  }
 
   send(command: Command): void {
     this.worker.postMessage({ command, scene: this.shown } satisfies Letter);
@@ -37,12 +44,16 @@ export class Client {
     const worker = new Worker(new URL('./worker.ts', import.meta.url), { type: 'module' });
     worker.addEventListener('message', (event: MessageEvent<Report>) => this.take(event.data));
     worker.addEventListener('error', (event) => {
-      this.listeners.error({ type: 'error', message: event.message || 'the simulation could not be loaded', command: 'load' });
+      this.take({ type: 'error', message: event.message || 'the simulation could not be loaded', command: 'load' });
     });
     return worker;
   }
 
   private take(report: Report): void {
+    if (this.listeners === null) {
+      this.early.push(report);
+      return;
+    }
     if (report.type === 'text') {
       this.texts.get(report.id)?.resolve(report.text);
       this.texts.delete(report.id);

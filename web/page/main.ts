@@ -1,8 +1,11 @@
 // The page. The console has it as `pliantPage`.
-import { App } from './app';
+import { Client } from './client';
 
+// The simulation begins to load before what draws it.
+const client = new Client();
 try {
-  const page = new App();
+  const { App } = await import('./app');
+  const page = new App(client);
   Object.assign(globalThis, { pliantPage: page });
   page.start();
 } catch (error) {

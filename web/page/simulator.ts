@@ -53,6 +53,7 @@ export class Simulator {
   /** Something has changed that the page has not been told. */
   private isDirty = false;
   private pageIsFree = true;
+  private isFirst = false;
 
   constructor(private readonly pliant: Pliant, private readonly send: Send,
               private readonly now: () => number = () => performance.now()) {
@@ -158,6 +159,7 @@ export class Simulator {
     this.singleSteps = 0;
     this.startClock();
     this.remember(scene, look);
+    this.isFirst = true;
     this.panelText = JSON.stringify(panel);
     this.send({ type: 'opened', id, name: scene.name(), description: scene.description(), look, panel,
                 warnings: scene.warnings() }, arraysOf(look));
@@ -221,7 +223,8 @@ export class Simulator {
     const { scene } = this;
     if (scene === null) return;
     try {
-      if (this.timeToStep() <= 0) this.step(scene);
+      // What a scene looks like at its start is told before its first step, which takes longest.
+      if (!this.isFirst && this.timeToStep() <= 0) this.step(scene);
     } catch (error) {
       this.stop(error);
       this.isDirty = true;
@@ -232,6 +235,7 @@ export class Simulator {
       this.stop(error);
       this.isDirty = false;
     }
+    this.isFirst = false;
     this.schedule();
   }
 

@@ -5,6 +5,9 @@ import type { Letter, Report } from './protocol';
 
 const send = (report: Report, transfer: Transferable[] = []): void => self.postMessage(report, { transfer });
 
+/** [ms] */
+const listDelay = 1000;
+
 const waiting: Letter[] = [];
 let simulator: Simulator | null = null;
 
@@ -16,8 +19,9 @@ self.addEventListener('message', (event: MessageEvent<Letter>) => {
 loadPliant().then(
   (pliant) => {
     simulator = new Simulator(pliant, send);
-    send({ type: 'ready', version: pliant.version(), scenes: pliant.builtinScenes() });
     for (const { command, scene } of waiting) simulator.command(command, scene);
+    // The list of scenes is not needed for the first picture, and takes as long as that.
+    setTimeout(() => send({ type: 'ready', version: pliant.version(), scenes: pliant.builtinScenes() }), listDelay);
   },
   (error: unknown) => send({ type: 'error', message: `this browser cannot run the simulation: ${String(error)}`, command: 'load' }),
 );

@@ -14,7 +14,7 @@ export const levels: readonly QualityLevel[] = [
   { name: 'full', pixelRatio: 2, shadowMap: 2048, taps: 16 },
   { name: 'medium', pixelRatio: 1, shadowMap: 1024, taps: 4 },
   { name: 'low', pixelRatio: 1, shadowMap: 0, taps: 0 },
-  { name: 'lowest', pixelRatio: 0.6, shadowMap: 0, taps: 0 },
+  { name: 'lowest', pixelRatio: 0.5, shadowMap: 0, taps: 0 },
 ];
 
 /** Intervals in the mean that decide, and the longest mean that is well [ms]. */
