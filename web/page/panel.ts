@@ -104,8 +104,9 @@ export class Panel {
         this.rows.set(each.key, row);
         return row.element;
       });
-      const isAlone = heading === '' || owners.size === 1;
-      content.push(...(isAlone ? rows : [this.section(heading, rows, `${title}/${heading}`)]));
+      const key = `${title}/${heading}`;
+      if (owners.size === 1 && !this.open.has(key)) this.open.set(key, true);
+      content.push(...(heading === '' ? rows : [this.section(heading, rows, key)]));
     }
     if (title === 'Forces' && !parameters.some((each) => each.heading.startsWith('wind'))) {
       const button = element('button', { className: 'wide', title: 'Adds a wind along x; the scene starts over' }, 'Add wind');
