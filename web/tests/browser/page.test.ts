@@ -221,6 +221,17 @@ describe.runIf(hasBrowser)('the page', () => {
     await until(tab, () => document.querySelector('#messages')?.textContent?.includes('photo.png: neither a scene') ?? false);
   });
 
+  it('gives up what takes too long to open, and goes back', async () => {
+    const tab = await open('#scene=flag');
+    const huge = { pliant: 1, bodies: [{ name: 'cloth', mesh: { shape: 'grid', columns: 1200, rows: 1200 }, material: 'cotton' }] };
+    await tab.page.locator('#files').setInputFiles({ name: 'huge.json', mimeType: 'application/json', buffer: Buffer.from(JSON.stringify(huge)) });
+    await tab.page.locator('#give-up').click();
+    await tab.page.locator('#loading').waitFor({ state: 'hidden' });
+    const before = await tab.page.evaluate(() => globalThis.pliantPage.state.pictures);
+    await tab.page.waitForFunction((count) => globalThis.pliantPage.state.pictures > count + 3, before);
+    expect(await tab.page.evaluate(() => globalThis.pliantPage.state.name)).toBe('flag');
+  });
+
   it('saves a scene that it opens again', async () => {
     const tab = await open('#scene=towel');
     await tab.page.locator('#panel select').first().selectOption('denim');
