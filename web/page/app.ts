@@ -99,6 +99,11 @@ export class App {
     return this.stage.placeOf(vertex);
   }
 
+  /** What the graphics card holds of it. */
+  memory(): { geometries: number; textures: number; programs: number } {
+    return this.stage.memory;
+  }
+
   /** Of all scenes that the page offers. */
   sceneNames(): string[] {
     return this.scenes.names();

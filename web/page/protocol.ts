@@ -79,7 +79,7 @@ export interface PanelState {
 
 /** What the worker reports. */
 export type Report =
-  | { type: 'ready'; version: string; scenes: SceneEntry[] }
+  | { type: 'ready'; scenes: SceneEntry[] }
   | { type: 'opened'; id: number; name: string; description: string; look: SceneLook; panel: PanelState; warnings: string[] }
   /** The bodies or colliders are others than before, of the same scene. */
   | { type: 'look'; look: SceneLook }

@@ -1,6 +1,6 @@
 // Draws a scene with three.js: maps of shadows where something has moved, and the picture.
 import { Color, ColorManagement, LinearSRGBColorSpace, WebGLRenderer } from 'three';
-import type { ColliderLook, Frame, SceneLook, Vec3 } from '../protocol';
+import type { Frame, SceneLook, Vec3 } from '../protocol';
 import { Bodies } from './bodies';
 import { Colliders, moved } from './colliders';
 import type { PlacedCollider } from './colliders';
@@ -106,10 +106,6 @@ export class Painter {
     this.lines.show(look);
     this.marks.clear();
     this.shared.light.value.set(...unit(look.light));
-  }
-
-  showColliders(looks: ColliderLook[]): void {
-    this.colliders.show(looks);
   }
 
   update(frame: Frame): void {

@@ -1,5 +1,5 @@
 // The picture of a scene: what is drawn, from where, and what is under the mouse.
-import type { ColliderLook, Frame, SceneLook, Vec3, Viewpoint } from '../protocol';
+import type { Frame, SceneLook, Vec3, Viewpoint } from '../protocol';
 import { CanvasSize } from './canvas_size';
 import { OrbitCamera } from './orbit_camera';
 import { Painter } from './painter';
@@ -69,12 +69,6 @@ export class Stage {
     if (!keepsCamera) this.painter.quality.forget();
     this.painter.show(look);
     this.goesHome = this.isDirty = true;
-  }
-
-  showColliders(looks: ColliderLook[]): void {
-    if (this.look !== null) this.look = { ...this.look, colliders: looks };
-    this.painter.showColliders(looks);
-    if (this.frame_ !== null) this.update(this.frame_);
   }
 
   /** Frames of another scene than the one shown are left out. */

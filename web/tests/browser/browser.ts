@@ -4,6 +4,7 @@ import { createServer, type Server } from 'node:http';
 import { extname, join, normalize } from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { type Browser, type Page, chromium } from 'playwright-core';
+import { afterAll, beforeAll } from 'vitest';
 import type { App } from '../../page/app';
 
 export const folder = fileURLToPath(new URL('../../dist', import.meta.url));
@@ -15,7 +16,7 @@ const types: Record<string, string> = {
 };
 
 /** The types of the files, and no other headers. */
-export async function serve(): Promise<{ server: Server; address: string }> {
+async function serve(): Promise<{ server: Server; address: string }> {
   const server = createServer((request, response) => {
     const path = normalize(decodeURIComponent(new URL(request.url ?? '/', 'http://page').pathname));
     const file = join(folder, path.endsWith('/') ? `${path}index.html` : path);
@@ -29,12 +30,29 @@ export async function serve(): Promise<{ server: Server; address: string }> {
   return { server, address: `http://127.0.0.1:${port}/` };
 }
 
-export function launch(): Promise<Browser> {
+function launch(): Promise<Browser> {
   return chromium.launch({
     executablePath: program,
     args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-quic',
            '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync'],
   });
+}
+
+/** A browser and the address of the page, for all tests of a file. */
+export function useBrowser(): { browser: Browser; address: string } {
+  const used = {} as { browser: Browser; address: string };
+  let server: Server | undefined;
+  beforeAll(async () => {
+    const served = await serve();
+    server = served.server;
+    used.address = served.address;
+    used.browser = await launch();
+  });
+  afterAll(async () => {
+    await used.browser?.close();
+    server?.close();
+  });
+  return used;
 }
 
 declare global {

@@ -1,23 +1,11 @@
 // How fast the page is in this machine's Chromium:  npm run measure
 import { readdir, readFile } from 'node:fs/promises';
-import type { Server } from 'node:http';
 import { join } from 'node:path';
 import { gzipSync } from 'node:zlib';
-import type { Browser } from 'playwright-core';
-import { afterAll, beforeAll, it } from 'vitest';
-import { folder, launch, openTab, serve } from './browser';
+import { it } from 'vitest';
+import { folder, openTab, useBrowser } from './browser';
 
-let browser: Browser;
-let server: Server;
-let address: string;
-beforeAll(async () => {
-  ({ server, address } = await serve());
-  browser = await launch();
-});
-afterAll(async () => {
-  await browser?.close();
-  server?.close();
-});
+const used = useBrowser();
 
 const median = (numbers: number[]): number => numbers.sort((a, b) => a - b)[Math.floor(numbers.length / 2)] ?? NaN;
 
@@ -36,7 +24,7 @@ it('says how large it is', async () => {
 it('says when the first picture is there', async () => {
   const times: number[] = [];
   for (let i = 0; i < 5; ++i) {
-    const tab = await openTab(browser, address);
+    const tab = await openTab(used.browser, used.address);
     times.push(await tab.page.evaluate(() => performance.getEntriesByName('first picture')[0]?.startTime ?? NaN));
     await tab.close();
   }
@@ -52,7 +40,7 @@ const cloth = (count: number): string => JSON.stringify({
 
 it('says how many pictures a second it draws', { timeout: 120_000 }, async () => {
   for (const count of [32, 100]) {
-    const tab = await openTab(browser, address);
+    const tab = await openTab(used.browser, used.address);
     await tab.page.locator('#files').setInputFiles({ name: `cloth${count}.json`, mimeType: 'application/json',
                                                      buffer: Buffer.from(cloth(count)) });
     await tab.page.waitForFunction((name) => globalThis.pliantPage.state.name === name, `cloth${count}`);

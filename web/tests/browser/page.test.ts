@@ -1,22 +1,18 @@
 import { readdir, readFile } from 'node:fs/promises';
 import { existsSync } from 'node:fs';
-import type { Server } from 'node:http';
 import { join } from 'node:path';
 import { gzipSync } from 'node:zlib';
-import type { Browser } from 'playwright-core';
-import { afterAll, afterEach, beforeAll, describe, expect, it } from 'vitest';
-import { folder, launch, openTab, program, serve, type Tab, type TabOptions, until } from './browser';
+import { afterEach, describe, expect, it } from 'vitest';
+import { folder, openTab, program, type Tab, type TabOptions, until, useBrowser } from './browser';
 
 const hasBrowser = existsSync(program);
 if (!hasBrowser) console.warn(`skipped: no ${program} (apt-get install chromium)`);
 
-let browser: Browser;
-let server: Server;
-let address: string;
+let used: ReturnType<typeof useBrowser>;
 const tabs: Tab[] = [];
 
 async function open(hash = '', options: TabOptions = {}): Promise<Tab> {
-  const tab = await openTab(browser, address + hash, options);
+  const tab = await openTab(used.browser, used.address + hash, options);
   tabs.push(tab);
   return tab;
 }
@@ -54,14 +50,7 @@ async function difference(tab: Tab, a: Buffer, b: Buffer): Promise<number> {
 const messagesOf = (tab: Tab): Promise<string> => tab.page.locator('#messages').innerText();
 
 describe.runIf(hasBrowser)('the page', () => {
-  beforeAll(async () => {
-    ({ server, address } = await serve());
-    browser = await launch();
-  });
-  afterAll(async () => {
-    await browser?.close();
-    server?.close();
-  });
+  used = useBrowser();
   afterEach(async () => {
     const errors = tabs.flatMap((tab) => tab.errors);
     for (const tab of tabs.splice(0)) await tab.close();
@@ -75,7 +64,7 @@ describe.runIf(hasBrowser)('the page', () => {
     expect(await tab.page.evaluate(() => globalThis.pliantPage.state.time)).toBeGreaterThan(before + 0.2);
     await tab.page.locator('#choose').click();
     await tab.page.waitForTimeout(300);
-    expect(tab.requests.filter((each) => !each.startsWith(address) && !each.startsWith('blob:'))).toEqual([]);
+    expect(tab.requests.filter((each) => !each.startsWith(used.address) && !each.startsWith('blob:'))).toEqual([]);
   });
 
   it('has less than 1.5 MB in all', async () => {
@@ -230,6 +219,23 @@ describe.runIf(hasBrowser)('the page', () => {
     const before = await tab.page.evaluate(() => globalThis.pliantPage.state.pictures);
     await tab.page.waitForFunction((count) => globalThis.pliantPage.state.pictures > count + 3, before);
     expect(await tab.page.evaluate(() => globalThis.pliantPage.state.name)).toBe('flag');
+  });
+
+  it('keeps nothing of earlier scenes on the graphics card', async () => {
+    const tab = await open('#scene=flag');
+    const show = async (name: string): Promise<unknown> => {
+      await tab.page.evaluate((scene) => { location.hash = `#scene=${scene}`; }, name);
+      await tab.page.waitForFunction((scene) => globalThis.pliantPage.state.name === scene, name);
+      const before = await tab.page.evaluate(() => globalThis.pliantPage.state.pictures);
+      await tab.page.waitForFunction((count) => globalThis.pliantPage.state.pictures > count + 1, before);
+      return tab.page.evaluate(() => globalThis.pliantPage.memory());
+    };
+    await show('slope');
+    const first = await show('flag');
+    for (let i = 0; i < 3; ++i) {
+      await show('slope');
+      expect(await show('flag')).toEqual(first);
+    }
   });
 
   it('saves a scene that it opens again', async () => {

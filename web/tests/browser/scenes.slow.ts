@@ -1,32 +1,20 @@
 // Lets every scene of up to 3,000 vertices run for ten seconds:  npm run test:scenes
-import type { Server } from 'node:http';
-import type { Browser } from 'playwright-core';
-import { afterAll, beforeAll, expect, it } from 'vitest';
-import { launch, openTab, serve } from './browser';
+import { expect, it } from 'vitest';
+import { openTab, useBrowser } from './browser';
 
 const most = 3000;  // vertices
 const time = 10_000;  // [ms]
 
-let browser: Browser;
-let server: Server;
-let address: string;
-beforeAll(async () => {
-  ({ server, address } = await serve());
-  browser = await launch();
-});
-afterAll(async () => {
-  await browser?.close();
-  server?.close();
-});
+const used = useBrowser();
 
 it('runs every scene without an error', { timeout: 20 * 60_000 }, async () => {
-  const first = await openTab(browser, address);
+  const first = await openTab(used.browser, used.address);
   const names = await first.page.evaluate(() => globalThis.pliantPage.sceneNames());
   await first.close();
   expect(names.length).toBeGreaterThan(35);
   const failed: string[] = [];
   for (const name of names) {
-    const tab = await openTab(browser, `${address}#scene=${name}`);
+    const tab = await openTab(used.browser, `${used.address}#scene=${name}`);
     const vertices = await tab.page.evaluate(() => globalThis.pliantPage.state.vertexCount);
     if (vertices <= most) {
       await tab.page.waitForTimeout(time);
