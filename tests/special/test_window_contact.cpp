@@ -63,12 +63,11 @@ struct ThrowingDesk : Desk {
         watch(the_watch) {}
 
   void turn_and_look() {
-    if (watch.looks == asked) {  // one look at a time, lest steps should wait behind many
-      source.live()->post([this](CommandContext& context) { watch.look(context.session.simulation()); },
-                          LiveScene::Kind::steers);
-      ++asked;
-    }
-    viewer.turn(0.02);
+    source.live()->post([this](CommandContext& context) { watch.look(context.session.simulation()); },
+                        LiveScene::Kind::steers);
+    ++asked;
+    do viewer.turn(0.02);
+    while (watch.looks < asked);  // so one look each time, however slow the machine
     slowest = std::max(slowest, shown().statistics.total);
   }
   void run_for(double seconds) {
@@ -158,7 +157,7 @@ TEST_CASE("a crate is thrown onto a cloth over a ball, which is pulled away unde
   desk.tell("all lies on the floor");
   CHECK(desk.mean(false).x() > 0.4F);
   CHECK(desk.mean(true).z() < 0.3F);
-  CHECK(watch.looks > 100);
+  CHECK(watch.looks >= 3 * 13);  // a drag turns thirteen times at least
   CHECK(watch.crossings == 0);
   CHECK(desk.shown().note.empty());
 }
