@@ -137,7 +137,7 @@ void LiveScene::run_commands() {
   for (const auto& [command, kind] : commands) {
     const bool was_playing = context_.is_playing;
     const double speed = pacer_.speed();
-    const std::uint64_t restarts = context_.restarts;
+    const std::uint64_t restarts = session_.restarts();
     try {
       context_.message.clear();
       command(context_);
@@ -145,7 +145,7 @@ void LiveScene::run_commands() {
         message_ = context_.message;
         ++messages_;
       }
-      if (context_.restarts != restarts) note_.clear();
+      if (session_.restarts() != restarts) note_.clear();
     } catch (const std::exception& error) {
       note_ = error.what();
     }
@@ -162,8 +162,8 @@ void LiveScene::run_commands() {
     rebuilds_seen_ = session_.rebuilds();
     update_render_mesh();
   }
-  if (context_.restarts == restarts_seen_) return;
-  restarts_seen_ = context_.restarts;
+  if (session_.restarts() == restarts_seen_) return;
+  restarts_seen_ = session_.restarts();
   statistics_.clear();
   pacer_.start(Clock::now());
   set_thread_count();
@@ -244,7 +244,7 @@ void LiveScene::publish() {
   back_.undone_next = session_.undone_next();
   back_.redone_next = session_.redone_next();
   back_.has_unsaved_changes = session_.has_unsaved_changes();
-  back_.restarts = context_.restarts;
+  back_.restarts = session_.restarts();
   back_.commands = commands_published_ = commands_done_;
   {
     const std::lock_guard lock(mutex_);

@@ -50,14 +50,12 @@ struct CommandContext {
   std::int64_t single_steps = 0;  ///< still to take while paused
   pliant::ColorBy color = pliant::ColorBy::none;
   Measuring measuring = {};
-  std::uint64_t restarts = 0;
   std::string message = {};  ///< for the user; empty: none
 
   /// As Session::restart; also drops single steps that were requested.
   void restart(bool keep_changes) {
     session.restart(keep_changes);
     single_steps = 0;
-    ++restarts;
   }
 };
 

@@ -16,7 +16,7 @@ constexpr float zoom_a_notch = 0.88F;
 std::uint64_t post(const MouseInteraction::View& view, LiveScene::Kind kind, std::function<void(Session&)> act) {
   return view.live->post(
       [act = std::move(act), restarts = view.snapshot->restarts](CommandContext& context) {
-        if (context.restarts == restarts) act(context.session);
+        if (context.session.restarts() == restarts) act(context.session);
       },
       kind);
 }

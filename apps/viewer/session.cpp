@@ -63,7 +63,9 @@ Session::Session(MakeScene make)
       scene_(make_()),
       unchanged_(scene_.simulation.state().step == 0 ? UnchangedScene(scene_)
                                                      : UnchangedScene(parse_scene(scene_.source))),
-      collider_speed_(suggest_collider_speed(scene_.simulation)) {}
+      collider_speed_(suggest_collider_speed(scene_.simulation)) {
+  open(scene_);
+}
 
 void Session::set_stop(std::function<bool()> stop) {
   stop_ = std::move(stop);
@@ -77,18 +79,24 @@ void Session::set_threads(Index threads) {
 }
 
 pliant::StepReport Session::step() {
+  do_what_is_due();
   steer_colliders();
+  pliant::StepReport report;
   try {
-    return scene_.step();
+    report = scene_.step();
   } catch (const pliant::Error& error) {
     if (error.kind() != pliant::ErrorKind::input) throw;
     if (scene_.timeline.skip_due(scene_.simulation) == 0) throw;
     note_ = std::string("left out: ") + error.what();
-    return scene_.step();
+    report = scene_.step();
   }
+  log_.took_step(scene_.simulation);
+  check_replayed_step();
+  return report;
 }
 
 void Session::grab(const Pull& pull) {
+  const auto noted = note(action::Grab{pull});
   const pliant::BodyId body = body_of(static_cast<Index>(pull.point.vertices[0]));
   let_go();
   pull_group_ =
@@ -97,24 +105,28 @@ void Session::grab(const Pull& pull) {
 }
 
 void Session::pull_to(const Vec3f& target) {
+  const auto noted = note(action::PullTo{target});
   if (!pull_group_ || !target.allFinite()) return;
   scene_.simulation.set_target(*pull_group_, 0, target.cast<Real>());
   pull_->target = target;
 }
 
 void Session::set_pull_stiffness(Real stiffness) {
+  const auto noted = note(action::PullStiffness{stiffness});
   if (!pull_group_) return;
   scene_.simulation.set_stiffness(*pull_group_, stiffness);
   pull_->stiffness = stiffness;
 }
 
 void Session::let_go() {
+  const auto noted = note(action::LetGo{});
   if (pull_group_) scene_.simulation.remove(*pull_group_);
   pull_group_.reset();
   pull_.reset();
 }
 
 void Session::pin(Index vertex) {
+  const auto noted = note(action::PinVertex{vertex});
   if (is_pinned(vertex)) return;
   const pliant::BodyId body = body_of(vertex);
   Edit edit{.what = "pin", .before = changes_};
@@ -127,6 +139,7 @@ void Session::pin(Index vertex) {
 }
 
 void Session::unpin(Index vertex) {
+  const auto noted = note(action::Unpin{vertex});
   if (!is_pinned(vertex)) return;
   Edit edit{.what = "unpin", .before = changes_};
   edit.held[vertex] = target_of(*find_pin(vertex));
@@ -156,6 +169,7 @@ void Session::note_release(Index vertex, const pliant::Group& group, const Pin& 
 }
 
 void Session::move_pin(Index vertex, const Vec3f& target) {
+  const auto noted = note(action::MovePin{vertex, target});
   const auto pin = find_pin(vertex);
   if (!pin || !target.allFinite()) return;
   const pliant::Group& group = scene_.simulation.groups().at(pin->group);
@@ -164,6 +178,7 @@ void Session::move_pin(Index vertex, const Vec3f& target) {
 }
 
 void Session::move_collider(pliant::ColliderId collider, const Vec3f& position) {
+  const auto noted = note(action::MoveCollider{static_cast<Index>(collider), position});
   pliant::Simulation& simulation = scene_.simulation;
   const auto found = simulation.colliders().find(collider);
   if (found == simulation.colliders().end() || !found->second.shape->is_bounded() || !position.allFinite()) return;

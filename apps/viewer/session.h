@@ -12,20 +12,14 @@
 #include "pliant_io/scene/scene.h"
 #include "viewer/body_materials.h"
 #include "viewer/history.h"
-#include "viewer/picking.h"
 #include "viewer/scene_changes.h"
+#include "viewer/session_log.h"
+#include "viewer/session_record.h"
 #include "viewer/sliders.h"
 
 namespace pliant_viewer {
 
 using MakeScene = std::function<pliant::Scene()>;
-
-/// The spring between the mouse and a point of a body.
-struct Pull {
-  SurfacePoint point;
-  Vec3f target = {0, 0, 0};  ///< [m]
-  Real stiffness = 1;        ///< [N/m]
-};
 
 class Session {
  public:
@@ -117,7 +111,21 @@ class Session {
   bool has_unsaved_changes() const { return !(changes_ == saved_changes_); }
   /// How often the scene was made anew with other changes: groups have other ids then.
   std::uint64_t rebuilds() const { return rebuilds_; }
+  /// How often it was restarted.
+  std::uint64_t restarts() const { return restarts_; }
   const SceneChanges& changes() const { return changes_; }
+
+  /// All that was done since the scene was opened, or restarted without changes, to be replayed; shown like that.
+  /// `file`: where it will be. @throws pliant::Error (input): the scene was made by a program, or its files were
+  /// changed while it was open.
+  SessionRecord record(const std::filesystem::path& file, const pliant::ViewSettings& view) const;
+
+  /// From now on does with every step what was done then; of a session that was just made by scene_maker_of(). Whatever
+  /// else is done ends it, as does an action that fails, whose error step() throws.
+  void replay(SessionRecord record);
+  bool is_replaying() const { return replay_.has_value(); }
+  /// The last replay, or the one under way.
+  const ReplayReport& replayed() const { return replayed_; }
 
  private:
   /// Where a vertex is pinned: the group, and which of its targets that is.
@@ -136,6 +144,14 @@ class Session {
     pliant::Scene scene;
     std::vector<std::string> unwritten;  ///< changes that a scene file has no key for
   };
+  SessionLog::Scope note(Action action);
+  void do_again(const Action& action);
+  void do_what_is_due();
+  void check_replayed_step();
+  void end_replay();
+  void open(const pliant::Scene& scene);
+  std::vector<std::filesystem::path> go_on_as_saved(const std::filesystem::path& file, const pliant::ViewSettings& view,
+                                                    bool is_written);
   Written write_text(const std::filesystem::path& file, const pliant::ViewSettings& view) const;
   std::optional<Pin> find_pin(Index vertex) const;
   pliant::Vec3 target_of(const Pin& pin) const { return scene_.simulation.target(pin.group, pin.target); }
@@ -161,7 +177,12 @@ class Session {
   std::map<std::string, pliant::MaterialPlacement> placements_;  // of the bodies whose material changed, as they had it
   std::set<pliant::ColliderId> left_alone_;                      // moved by hand while time went on
   std::set<pliant::GroupId> of_hand_;                            // groups of pins that were set by hand
-  std::uint64_t rebuilds_ = 0;
+  std::uint64_t rebuilds_ = 0, restarts_ = 0;
+  OpenedScene opened_;
+  SessionLog log_;
+  std::optional<Replay> replay_;
+  ReplayReport replayed_;
+  bool is_doing_again_ = false;
   std::optional<Pull> pull_;
   std::optional<pliant::GroupId> pull_group_;
   std::map<pliant::ColliderId, pliant::Vec3> collider_goals_;  // of those that are on their way [m]

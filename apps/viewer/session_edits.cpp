@@ -58,6 +58,7 @@ void Session::remember(Edit edit) {
 }
 
 void Session::set(const std::string& key, const pliant::Vec3& value, bool goes_on) {
+  const auto noted = note(action::Set{key, value, goes_on});
   const std::vector<Slider> all = sliders();
   const auto found = std::ranges::find(all, key, &Slider::key);
   if (found == all.end() || found->parameter.value == value) return;
@@ -75,6 +76,7 @@ void Session::set(const std::string& key, const pliant::Vec3& value, bool goes_o
 }
 
 void Session::set_material(const std::string& body, const std::string& material) {
+  const auto noted = note(action::SetMaterial{body, material});
   const auto id = find_body(scene_.simulation, body);
   if (!id) pliant::fail_input("there is no body '" + pliant::printable(body) + "'");
   const std::vector<Slider> before = sliders();
@@ -101,6 +103,7 @@ void Session::set_material(const std::string& body, const std::string& material)
 }
 
 void Session::drop_pin(Index vertex) {
+  const auto noted = note(action::DropPin{vertex});
   const auto pin = find_pin(vertex);
   if (!pin || simulation().state().step > 0) return;
   Edit edit{.what = "move a pin", .before = changes_};
@@ -115,6 +118,7 @@ void Session::drop_pin(Index vertex) {
 }
 
 void Session::drop_collider(pliant::ColliderId collider) {
+  const auto noted = note(action::DropCollider{static_cast<Index>(collider)});
   const auto goal = collider_goals_.find(collider);
   if (goal == collider_goals_.end() || simulation().state().step > 0) return;
   Edit edit{.what = "move a collider", .before = changes_};
@@ -228,6 +232,7 @@ void Session::go(const Edit& edit, const SceneChanges& from, const SceneChanges&
 }
 
 void Session::undo() {
+  const auto noted = note(action::Undo{});
   if (done_.empty()) return;
   go(done_.back(), done_.back().after, done_.back().before);
   undone_.push_back(std::move(done_.back()));
@@ -235,6 +240,7 @@ void Session::undo() {
 }
 
 void Session::redo() {
+  const auto noted = note(action::Redo{});
   if (undone_.empty()) return;
   go(undone_.back(), undone_.back().before, undone_.back().after);
   done_.push_back(std::move(undone_.back()));
@@ -256,7 +262,12 @@ void Session::take_old_values_of(const std::vector<Slider>& at_start) {
 }
 
 void Session::restart(bool keep_changes) {
+  const auto noted = note(action::Restart{keep_changes});
   pliant::Scene scene = make_();
+  const bool is_as_opened = is_made_from(opened_, scene);
+  const bool has_history = !changes_.is_empty() || !done_.empty() || !undone_.empty();
+  const bool is_fresh = !keep_changes || (!has_history && saved_changes_.is_empty());
+  if (is_fresh) open(scene);
   UnchangedScene unchanged(scene);
   const std::vector<Slider> at_start = list_sliders(scene.simulation);
   if (keep_changes && !changes_.is_empty()) {
@@ -280,6 +291,8 @@ void Session::restart(bool keep_changes) {
   collider_speed_ = suggest_collider_speed(scene.simulation);
   note_.clear();
   settle(std::move(scene));
+  ++restarts_;
+  if (!is_fresh && !is_as_opened) opened_.was_changed = true;
 }
 
 /// What is to be written to `file`, and the scene that it makes, at its start.
@@ -307,6 +320,13 @@ std::string Session::text(const std::filesystem::path& file, const pliant::ViewS
 }
 
 std::vector<std::filesystem::path> Session::save(const std::filesystem::path& file, const pliant::ViewSettings& view) {
+  const auto noted = note(action::Save{});
+  return go_on_as_saved(file, view, true);
+}
+
+/// With `is_written` false everything but the files.
+std::vector<std::filesystem::path> Session::go_on_as_saved(const std::filesystem::path& file,
+                                                           const pliant::ViewSettings& view, bool is_written) {
   namespace fs = std::filesystem;
   auto [next, unwritten] = write_text(file, view);
   const std::string text = next.source.texts.at(0).text;
@@ -316,13 +336,15 @@ std::vector<std::filesystem::path> Session::save(const std::filesystem::path& fi
   std::vector<fs::path> files = {file};
   const fs::path checkpoint = fs::path(file).replace_extension(".pliant");
   std::error_code ignored;
-  if (simulation().state().step > 0) {
+  if (!is_written) {
+    files.clear();
+  } else if (simulation().state().step > 0) {
     write_checkpoint(checkpoint, next);
     files.push_back(checkpoint);
   } else {
     fs::remove(checkpoint, ignored);  // of what the file was before
   }
-  pliant::write_file_atomically(file, text);
+  if (is_written) pliant::write_file_atomically(file, text);
   if (!factors.empty()) {
     next = make_with(changes_, unchanged_);
     carry_into(next, changes_);

@@ -31,4 +31,17 @@ TEST_CASE("base64 takes any bytes, and uses all of its digits") {
   }
 }
 
+TEST_CASE("what base64 makes is read back, and nothing else is") {
+  std::string bytes;
+  for (int i = 0; i < 300; ++i) {
+    CAPTURE(i);
+    CHECK(pliant::bytes_of_base64(pliant::base64(bytes)) == bytes);
+    bytes += static_cast<char>(7 * i);
+  }
+  for (const char* text : {"Z", "Zg=", "====", "Z===", "Zg=a", "Zm9v\n", "Zm 9", "Z=9v", "Zm9vZg==Zg=="}) {
+    CAPTURE(text);
+    CHECK_FALSE(pliant::bytes_of_base64(text).has_value());
+  }
+}
+
 }  // namespace test_base64

@@ -18,6 +18,9 @@ namespace pliant {
 /// @throws Error (output): the file cannot be written.
 void write_checkpoint(const std::filesystem::path& path, const Scene& scene);
 
+/// The bytes of such a file in `folder`.
+std::string checkpoint_bytes(const Scene& scene, const std::filesystem::path& folder);
+
 /// What may be another when a run is taken up; the bits of the results depend on none of it.
 struct ResumeOptions {
   std::optional<std::int64_t> steps = {};  ///< in all, with those taken

@@ -204,10 +204,10 @@ Json write_timeline(const TimelineState& timeline) {
 
 }  // namespace
 
-void write_checkpoint(const std::filesystem::path& path, const Scene& scene) {
+std::string checkpoint_bytes(const Scene& scene, const std::filesystem::path& folder) {
   const Json content = {{"pliant", version},
                         {"compiler", compiler},
-                        {"folder", bytes_of(absolute_path(path).parent_path().string())},
+                        {"folder", bytes_of(absolute_path(folder).string())},
                         {"source", write_source(scene.source)},
                         {"files", write_files(scene.files)},
                         {"state", write_state(scene.simulation.state())},
@@ -215,7 +215,11 @@ void write_checkpoint(const std::filesystem::path& path, const Scene& scene) {
                         {"timeline", write_timeline(scene.timeline.state())}};
   std::string bytes;
   Json::to_cbor(content, bytes);
-  write_file_atomically(path, seal(bytes));
+  return seal(bytes);
+}
+
+void write_checkpoint(const std::filesystem::path& path, const Scene& scene) {
+  write_file_atomically(path, checkpoint_bytes(scene, absolute_path(path).parent_path()));
 }
 
 }  // namespace pliant

@@ -1,0 +1,88 @@
+#pragma once
+// What is done to a session by hand, one of these each time.
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "pliant/core/types.h"
+#include "viewer/picking.h"
+
+namespace pliant_viewer {
+
+using pliant::Index;
+using pliant::Real;
+
+/// The spring between the mouse and a point of a body.
+struct Pull {
+  SurfacePoint point;
+  Vec3f target = {0, 0, 0};  ///< [m]
+  Real stiffness = 1;        ///< [N/m]
+};
+
+/// Each is called like the member of Session that does it, and has what that is given.
+namespace action {
+struct Grab {
+  Pull pull;
+};
+struct PullTo {
+  Vec3f target = {0, 0, 0};  ///< [m]
+};
+struct PullStiffness {
+  Real stiffness = 1;  ///< [N/m]
+};
+struct LetGo {};
+struct PinVertex {
+  Index vertex = 0;
+};
+struct Unpin {
+  Index vertex = 0;
+};
+struct MovePin {
+  Index vertex = 0;
+  Vec3f target = {0, 0, 0};  ///< [m]
+};
+struct DropPin {
+  Index vertex = 0;
+};
+struct MoveCollider {
+  Index collider = 0;
+  Vec3f target = {0, 0, 0};  ///< [m]
+};
+struct DropCollider {
+  Index collider = 0;
+};
+struct Set {
+  std::string key;
+  pliant::Vec3 value = pliant::Vec3::Zero();
+  bool goes_on = false;
+};
+struct SetMaterial {
+  std::string body, material;
+};
+struct Undo {};
+struct Redo {};
+struct Restart {
+  bool keep_changes = true;
+};
+struct Save {};
+}  // namespace action
+
+using Action =
+    std::variant<action::Grab, action::PullTo, action::PullStiffness, action::LetGo, action::PinVertex, action::Unpin,
+                 action::MovePin, action::DropPin, action::MoveCollider, action::DropCollider, action::Set,
+                 action::SetMaterial, action::Undo, action::Redo, action::Restart, action::Save>;
+
+/// An action, and how many steps the session had taken before it.
+struct TimedAction {
+  std::int64_t step = 0;
+  Action action;
+};
+
+/// The bits of positions and velocities after so many steps.
+struct StepChecksum {
+  std::int64_t step = 0;
+  std::uint32_t crc32 = 0;
+};
+
+}  // namespace pliant_viewer

@@ -1,0 +1,123 @@
+// A session's record: what it is made of, and how it is done again.
+#include "pliant/core/error.h"
+#include "pliant_io/checkpoint/checkpoint.h"
+#include "viewer/session.h"
+#include "viewer/view_document.h"
+
+namespace pliant_viewer {
+namespace {
+
+template <class... Cases>
+struct Overloaded : Cases... {
+  using Cases::operator()...;
+};
+
+}  // namespace
+
+/// Begins a new record with this scene.
+void Session::open(const pliant::Scene& scene) {
+  opened_ = {scene.source, scene.files, {}};
+  // Of one that goes on from a checkpoint the source tells the start alone.
+  if (scene.simulation.state().step > 0) opened_.checkpoint = pliant::checkpoint_bytes(scene, {});
+  log_.clear();
+}
+
+SessionRecord Session::record(const std::filesystem::path& file, const pliant::ViewSettings& view) const {
+  if (!unchanged_.has_text()) {
+    pliant::fail_input("this scene was made by a program, not read from a scene file, so its session cannot be saved");
+  }
+  const char* const changed =
+      "the scene's files were changed while it was open, so this session cannot be saved; open it again";
+  if (opened_.was_changed) pliant::fail_input(changed);
+  pliant::Scene start = opened_.checkpoint.empty() ? parse_scene(opened_.source)
+                                                   : pliant::parse_checkpoint(opened_.checkpoint, scene_.name);
+  if (!is_made_from(opened_, start)) pliant::fail_input(changed);
+  pliant::SceneDocument document(start);
+  write_view(view, document);
+  if (const std::string text = document.get("view"); !text.empty()) {
+    start.source.overrides.set.push_back("view=" + text);
+  }
+  SessionRecord record;
+  record.scene = scene_.name;
+  record.start = pliant::checkpoint_bytes(start, file.parent_path());
+  record.steps = log_.steps();
+  record.actions = log_.actions();
+  record.checksums = log_.checksums();
+  if (record.steps > 0 && (record.checksums.empty() || record.checksums.back().step < record.steps)) {
+    record.checksums.push_back({record.steps, state_checksum(simulation())});
+  }
+  return record;
+}
+
+SessionLog::Scope Session::note(Action action) {
+  if (!is_doing_again_) replay_.reset();  // someone takes over
+  return {log_, std::move(action)};
+}
+
+void Session::replay(SessionRecord record) {
+  replayed_ = {.wanted_steps = record.steps};
+  replay_ = Replay{std::move(record)};
+  if (replayed_.wanted_steps == 0) end_replay();
+}
+
+void Session::end_replay() {
+  do_what_is_due();
+  replay_.reset();
+  replayed_.has_ended = true;
+}
+
+/// Before the next step. An action that fails ends the replay.
+void Session::do_what_is_due() {
+  while (replay_ && replay_->next_action < replay_->record.actions.size()) {
+    const TimedAction timed = replay_->record.actions[replay_->next_action];
+    if (timed.step > replayed_.steps) return;
+    ++replay_->next_action;
+    is_doing_again_ = true;
+    try {
+      do_again(timed.action);
+    } catch (...) {
+      is_doing_again_ = false;
+      replay_.reset();
+      throw;
+    }
+    is_doing_again_ = false;
+  }
+}
+
+void Session::do_again(const Action& action) {
+  const auto collider = [](Index id) { return static_cast<pliant::ColliderId>(id); };
+  std::visit(
+      Overloaded{[&](const action::Grab& grabbed) { grab(grabbed.pull); },
+                 [&](const action::PullTo& moved) { pull_to(moved.target); },
+                 [&](const action::PullStiffness& set) { set_pull_stiffness(set.stiffness); },
+                 [&](const action::LetGo&) { let_go(); }, [&](const action::PinVertex& pinned) { pin(pinned.vertex); },
+                 [&](const action::Unpin& released) { unpin(released.vertex); },
+                 [&](const action::MovePin& moved) { move_pin(moved.vertex, moved.target); },
+                 [&](const action::DropPin& dropped) { drop_pin(dropped.vertex); },
+                 [&](const action::MoveCollider& moved) { move_collider(collider(moved.collider), moved.target); },
+                 [&](const action::DropCollider& dropped) { drop_collider(collider(dropped.collider)); },
+                 [&](const action::Set& changed) { set(changed.key, changed.value, changed.goes_on); },
+                 [&](const action::SetMaterial& dressed) { set_material(dressed.body, dressed.material); },
+                 [&](const action::Undo&) { undo(); }, [&](const action::Redo&) { redo(); },
+                 [&](const action::Restart& restarted) { restart(restarted.keep_changes); },
+                 [&](const action::Save&) {
+                   const auto noted = note(action::Save{});
+                   go_on_as_saved("replayed.json", scene_.view, false);
+                 }},
+      action);
+}
+
+/// After a step.
+void Session::check_replayed_step() {
+  if (!replay_) return;
+  ++replayed_.steps;
+  const std::vector<StepChecksum>& checksums = replay_->record.checksums;
+  std::size_t& next = replay_->next_checksum;
+  if (next < checksums.size() && checksums[next].step == replayed_.steps) {
+    const bool is_same = checksums[next++].crc32 == state_checksum(simulation());
+    if (!is_same && !replayed_.differs_from) replayed_.differs_from = replayed_.steps;
+  }
+  if (replayed_.steps == replayed_.wanted_steps) end_replay();
+}
+
+}  // namespace pliant_viewer
