@@ -14,6 +14,7 @@ namespace pliant_cli {
 inline constexpr bool has_studies = PLIANT_HAS_STUDIES;
 inline constexpr std::array<std::string_view, 4> study_commands = {"bench", "sweep", "experiment", "plot"};
 
+inline constexpr int exit_differs = 5;
 inline constexpr int exit_interrupted = 130;
 inline constexpr std::size_t message_limit = 900;  // bytes of a message on the terminal
 
@@ -29,6 +30,7 @@ void add_info_command(CLI::App& program);
 void add_plot_command(CLI::App& program);
 void add_render_command(CLI::App& program, int& exit_code);
 void add_view_command(CLI::App& program, int& exit_code);
+void add_replay_command(CLI::App& program, int& exit_code);
 void add_resume_command(CLI::App& program, int& exit_code);
 void add_run_command(CLI::App& program, int& exit_code);
 void add_sweep_command(CLI::App& program, int& exit_code);

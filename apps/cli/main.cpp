@@ -141,6 +141,7 @@ void add_commands(CLI::App& program, int& exit_code) {
   }
   pliant_cli::add_render_command(program, exit_code);
   pliant_cli::add_view_command(program, exit_code);
+  pliant_cli::add_replay_command(program, exit_code);
   pliant_cli::add_check_command(program);
   pliant_cli::add_convert_command(program);
   pliant_cli::add_info_command(program);

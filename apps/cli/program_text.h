@@ -15,10 +15,11 @@ struct ExitCode {
   int code;
   std::string_view meaning;
 };
-inline constexpr std::array<ExitCode, 5> exit_codes = {{{0, "done"},
+inline constexpr std::array<ExitCode, 6> exit_codes = {{{0, "done"},
                                                         {2, "bad input"},
                                                         {3, "the simulation diverged"},
                                                         {4, "the output could not be written"},
+                                                        {5, "a replay differs from what was recorded"},
                                                         {130, "interrupted"}}};
 
 struct Example {

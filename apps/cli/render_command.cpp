@@ -18,6 +18,7 @@
 #include "render/clip.h"
 #include "render/film_writer.h"
 #include "render/picture_maker.h"
+#include "session_film.h"
 #include "terminal.h"
 
 namespace pliant_cli {
@@ -92,6 +93,18 @@ void check_color_of_moment(const pliant::Scene& scene) {
   if (color != pliant::ColorBy::gap && color != pliant::ColorBy::contact_force) return;
   pliant::fail_input(fmt::format("--color: a checkpoint does not hold what touches; give another color, or --steps {}",
                                  scene.steps + 1));
+}
+
+Clip clip_of_session(const RenderArguments& arguments) {
+  const auto prepare = [&arguments](pliant::Scene& scene) {
+    apply_appearance(arguments, scene.view);
+    free_camera(arguments, scene.view.camera);
+    return steps_a_frame(scene, arguments.fps);
+  };
+  return clip_from_session(arguments.scene, prepare, [&](std::int64_t step, std::int64_t steps) {
+    if (step % 16 == 0) show(arguments, fmt::format("simulating: step {} of {}", step, steps));
+    return !was_interrupted();
+  });
 }
 
 Clip clip_of_scene(const RenderArguments& arguments) {
@@ -236,6 +249,7 @@ std::string write_film(const RenderArguments& arguments, const Clip& clip) {
 }
 
 void check(const RenderArguments& arguments) {
+  check_session(arguments);
   const auto format = pliant_render::film_format_of(arguments.out);
   if (!format) {
     pliant::fail_input(fmt::format("--out: '{}' has no known ending; give .mp4, .webm, .gif or .png",
@@ -260,7 +274,10 @@ void probe(const RenderArguments& arguments) {
 std::string make(const RenderArguments& arguments) {
   probe(arguments);
   std::error_code ignored;
-  const Clip clip = fs::is_directory(arguments.scene, ignored) ? clip_of_run(arguments) : clip_of_scene(arguments);
+  const bool is_run = fs::is_directory(arguments.scene, ignored);
+  const Clip clip = is_run                  ? clip_of_run(arguments)
+                    : is_session(arguments) ? clip_of_session(arguments)
+                                            : clip_of_scene(arguments);
   if (was_interrupted()) throw_nothing_written();
   return arguments.sheet ? write_sheet(arguments, clip) : write_film(arguments, clip);
 }
@@ -287,7 +304,8 @@ void add_render_command(CLI::App& program, int& exit_code) {
   CLI::App* command =
       program.add_subcommand("render", "Make a picture or a film of a scene or a run, without a display");
   const auto arguments = std::make_shared<RenderArguments>();
-  add_scene_arguments(*command, *arguments, std::string(scene_or_run_help) + ", or a checkpoint (.pliant)");
+  add_scene_arguments(*command, *arguments,
+                      std::string(scene_or_run_help) + ", a checkpoint (.pliant) or a recorded session (.session)");
   command->add_option("--out", arguments->out, "Film (.mp4, .webm, .gif) or picture (.png)")
       ->type_name("FILE")
       ->required();

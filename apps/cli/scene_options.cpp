@@ -87,6 +87,20 @@ bool is_checkpoint(const SceneArguments& arguments) {
   return fs::path(arguments.scene).extension() == ".pliant";
 }
 
+bool is_session(const SceneArguments& arguments) {
+  return fs::path(arguments.scene).extension() == ".session";
+}
+
+void check_session(const SceneArguments& arguments) {
+  const pliant::SceneOverrides& overrides = arguments.overrides;
+  if (!is_session(arguments)) return;
+  if (overrides.set.empty() && !overrides.time_step && !overrides.iterations && !overrides.tolerance &&
+      !overrides.backend && !overrides.steps) {
+    return;
+  }
+  pliant::fail_input("--set, --steps and the like: a recorded session comes again as it was; leave them out");
+}
+
 void check_checkpoint(const SceneArguments& arguments, const std::string& remedy) {
   const pliant::SceneOverrides& overrides = arguments.overrides;
   if (!is_checkpoint(arguments)) return;

@@ -34,6 +34,11 @@ void check_import(const SceneArguments& arguments);
 /// Whether the scene is a mesh file, to be simulated by itself.
 bool is_mesh(const SceneArguments& arguments);
 
+/// Whether it is a session that the window has recorded.
+bool is_session(const SceneArguments& arguments);
+/// @throws pliant::Error (input): options that a session cannot follow
+void check_session(const SceneArguments& arguments);
+
 /// Whether the scene is a checkpoint, to go on from.
 bool is_checkpoint(const SceneArguments& arguments);
 

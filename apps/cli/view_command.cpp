@@ -38,6 +38,7 @@ struct ViewArguments : AppearanceArguments {
 
 void check(const ViewArguments& arguments) {
   check_import(arguments);
+  check_session(arguments);
   check_checkpoint(arguments, "change it in the window, or its scene file");
   if (arguments.overrides.steps) pliant::fail_input("--steps: a window goes on until it is closed; leave it out");
 }
@@ -99,13 +100,29 @@ Shown show_run(const ViewArguments& arguments) {
   return {arguments, std::move(playback)};
 }
 
+int threads_beside(const pliant_viewer::Window& window) {
+  return window.is_software() ? spare_threads() : 0;
+}
+
+Shown show_session(const ViewArguments& arguments, pliant_viewer::SessionRecord record, pliant_viewer::Window& window) {
+  const pliant_viewer::MakeScene make = [arguments, make = scene_maker_of(record, arguments.scene)] {
+    pliant::Scene scene = make();
+    apply_appearance(arguments, scene.view);
+    return scene;
+  };
+  const std::string greeting = fmt::format("a recorded session of {} steps; whatever you do takes over", record.steps);
+  return {arguments,
+          std::make_unique<pliant_viewer::LiveSource>(make, threads_beside(window), !arguments.is_paused,
+                                                      pliant_viewer::Window::wake, std::move(record)),
+          greeting};
+}
+
 Shown show_scene(const ViewArguments& arguments, std::shared_ptr<pliant::Scene> scene, pliant_viewer::Window& window) {
   std::string greeting = assumptions_text(arguments, *scene);
   while (greeting.ends_with('\n')) greeting.pop_back();
   return {arguments,
-          std::make_unique<pliant_viewer::LiveSource>(scene_maker(arguments, std::move(scene)),
-                                                      window.is_software() ? spare_threads() : 0, !arguments.is_paused,
-                                                      pliant_viewer::Window::wake),
+          std::make_unique<pliant_viewer::LiveSource>(scene_maker(arguments, std::move(scene)), threads_beside(window),
+                                                      !arguments.is_paused, pliant_viewer::Window::wake),
           std::move(greeting)};
 }
 
@@ -140,6 +157,10 @@ int show(pliant_viewer::Window& window, Shown shown, bool chooses_scene) {
       try {
         const ViewArguments arguments = arguments_for(what, shown.arguments);
         check(arguments);
+        if (is_session(arguments)) {
+          next = show_session(arguments, pliant_viewer::read_session_record(arguments.scene), window);
+          return "";
+        }
         next = is_run(arguments)
                    ? show_run(arguments)
                    : show_scene(arguments, std::make_shared<pliant::Scene>(make_scene(arguments)), window);
@@ -166,6 +187,13 @@ int view_run(const ViewArguments& arguments) {
   return show(window, std::move(shown), false);
 }
 
+int view_session(const ViewArguments& arguments) {
+  pliant_viewer::SessionRecord record = pliant_viewer::read_session_record(arguments.scene);
+  const pliant::ViewSettings view = scene_maker_of(record, arguments.scene)().view;
+  pliant_viewer::Window window("Pliant", view.size[0], view.size[1]);
+  return show(window, show_session(arguments, std::move(record), window), false);
+}
+
 int view_scene(const ViewArguments& given) {
   ViewArguments arguments = given;
   if (given.scene.empty()) arguments.scene = first_scene;
@@ -181,6 +209,7 @@ int view(const ViewArguments& arguments) {
   catch_interrupts();
   limit_software_driver();
   pliant_viewer::Window::require_display();  // before anyone waits for a scene to be read
+  if (is_session(arguments)) return view_session(arguments);
   return is_run(arguments) ? view_run(arguments) : view_scene(arguments);
 }
 
@@ -201,7 +230,7 @@ void add_view_command(CLI::App& program, int& exit_code) {
       "A file that ends in .obj, .ply, .off, .stl, .msh, .mesh, .vtu, .vtk, .node or .ele is a mesh, simulated as "
       "cloth, a\n"
       "skin or a solid; a folder is a run, played as it was recorded; .pliant is a checkpoint that the window has "
-      "saved. The key H shows what mouse and keys do.\n"
+      "saved, and .session a session that it has recorded, which is replayed. The key H shows what mouse and keys do.\n"
       "Other files are opened by dropping them onto the window, and the list of scenes by Ctrl + O.\n"
       "Examples:\n"
       "  pliant view\n"

@@ -18,14 +18,6 @@ using pliant::Real;
 
 constexpr std::int64_t most_bytes = std::int64_t{4} << 30U;
 
-void check_size(std::int64_t frames, Index vertices) {
-  const auto bytes = static_cast<std::int64_t>(sizeof(Vec3f) + sizeof(float));
-  if (vertices == 0 || frames <= most_bytes / bytes / vertices) return;
-  pliant::fail_input(
-      fmt::format("{} frames of {} vertices would take {} GB; film fewer steps, or fewer frames a second", frames,
-                  vertices, frames / 1'000'000 * vertices * bytes / 1000));
-}
-
 bool is_same(const RunAnnotations::Entry& a, const RunAnnotations::Entry& b) {
   if (a.markers != b.markers || a.held != b.held || a.wind.has_value() != b.wind.has_value()) return false;
   const auto is_alike = [](const DrawnCollider& one, const DrawnCollider& other) {
@@ -74,9 +66,17 @@ RunAnnotations at_times(RunAnnotations of_cache, const pliant::PointCache& cache
 
 }  // namespace
 
+void check_clip_size(std::int64_t frames, Index vertices) {
+  const auto bytes = static_cast<std::int64_t>(sizeof(Vec3f) + sizeof(float));
+  if (vertices == 0 || frames <= most_bytes / bytes / vertices) return;
+  pliant::fail_input(
+      fmt::format("{} frames of {} vertices would take {} GB; film fewer steps, or fewer frames a second", frames,
+                  vertices, frames / 1'000'000 * vertices * bytes / 1000));
+}
+
 Clip clip_from_scene(pliant::Scene& scene, std::int64_t every, const std::function<bool(std::int64_t)>& go_on) {
   Clip clip{make_render_mesh(scene), scene.view, {}};
-  check_size((scene.steps - scene.simulation.state().step) / every + 2, clip.render_mesh.vertex_count);
+  check_clip_size((scene.steps - scene.simulation.state().step) / every + 2, clip.render_mesh.vertex_count);
   ColliderSurfaces surfaces;
   const auto keep = [&] {
     clip.frames.push_back(capture_frame(scene.simulation, clip.render_mesh, scene.view.color, surfaces));
@@ -154,7 +154,7 @@ Clip clip_from_animation(pliant::Animation animation, const pliant::ViewSettings
                          RunAnnotations annotations) {
   const RunFrames frames(std::move(animation), std::move(annotations));
   Clip clip{frames.render_mesh(), appearance, {}};
-  check_size(static_cast<std::int64_t>(frames.count()), clip.render_mesh.vertex_count);
+  check_clip_size(static_cast<std::int64_t>(frames.count()), clip.render_mesh.vertex_count);
   for (std::size_t i = 0; i < frames.count(); ++i) clip.frames.push_back(frames.frame(i, appearance.color));
   return clip;
 }

@@ -17,6 +17,9 @@ struct Clip {
   std::vector<ClipFrame> frames;    ///< by time, ascending
 };
 
+/// @throws pliant::Error (input) if so many frames would take more than 4 GB.
+void check_clip_size(std::int64_t frames, pliant::Index vertices);
+
 /// Simulates the scene to its last step and keeps the start, every n-th step and the last; `go_on` gets the step and
 /// ends the clip by returning false.
 /// @throws pliant::Error (input) if the frames would take more than 4 GB.

@@ -19,7 +19,8 @@ bool is_same(const pliant_render::RenderMesh& a, const pliant_render::RenderMesh
 
 }  // namespace
 
-LiveScene::LiveScene(MakeScene make, Index threads, bool is_playing, std::function<void()> wake)
+LiveScene::LiveScene(MakeScene make, Index threads, bool is_playing, std::function<void()> wake,
+                     std::optional<SessionRecord> record)
     : session_(std::move(make)),
       context_{session_, pacer_, is_playing},
       threads_(threads),
@@ -30,6 +31,7 @@ LiveScene::LiveScene(MakeScene make, Index threads, bool is_playing, std::functi
   context_.color = appearance_.color;
   session_.set_stop([this] { return shall_give_up(); });
   set_thread_count();
+  if (record) session_.replay(std::move(*record));
   update_render_mesh();
   measure_start();
   publish();
@@ -138,13 +140,11 @@ void LiveScene::run_commands() {
     const bool was_playing = context_.is_playing;
     const double speed = pacer_.speed();
     const std::uint64_t restarts = session_.restarts();
+    const bool was_replaying = session_.is_replaying();
     try {
       context_.message.clear();
       command(context_);
-      if (!context_.message.empty()) {
-        message_ = context_.message;
-        ++messages_;
-      }
+      if (!context_.message.empty()) say(context_.message);
       if (session_.restarts() != restarts) note_.clear();
     } catch (const std::exception& error) {
       note_ = error.what();
@@ -154,10 +154,21 @@ void LiveScene::run_commands() {
       statistics_.clear();
       note_.clear();
     }
+    if (was_replaying && !session_.is_replaying()) say("you have taken over; from here on the session is yours");
     if (pacer_.speed() != speed) statistics_.clear();
     ++commands_done_;
     is_dirty_ = true;
   }
+  follow_session();
+}
+
+void LiveScene::say(std::string message) {
+  message_ = std::move(message);
+  ++messages_;
+}
+
+/// After what commands, or a replay, have done.
+void LiveScene::follow_session() {
   if (session_.rebuilds() != rebuilds_seen_) {
     rebuilds_seen_ = session_.rebuilds();
     update_render_mesh();
@@ -181,7 +192,13 @@ void LiveScene::step() {
   step_began_ = Clock::now().time_since_epoch().count();
   try {
     const double before = session_.simulation().state().time;
+    const bool was_replaying = session_.is_replaying();
     const pliant::StepReport report = session_.step();
+    follow_session();
+    if (was_replaying && !session_.is_replaying()) {
+      context_.is_playing = false;
+      say("the recorded session ends here; Space goes on from here");
+    }
     pacer_.took_step();
     context_.single_steps = std::max<std::int64_t>(context_.single_steps - 1, 0);
     is_at_start_ = false;
@@ -243,6 +260,8 @@ void LiveScene::publish() {
   back_.messages = messages_;
   back_.undone_next = session_.undone_next();
   back_.redone_next = session_.redone_next();
+  back_.is_replaying = session_.is_replaying();
+  back_.replayed = session_.replayed();
   back_.has_unsaved_changes = session_.has_unsaved_changes();
   back_.restarts = session_.restarts();
   back_.commands = commands_published_ = commands_done_;

@@ -38,6 +38,8 @@ struct Snapshot {
   std::string undone_next;     ///< what undo would take back, and redo do again; empty: nothing
   std::string redone_next;
   bool has_unsaved_changes = false;  ///< of the scene
+  bool is_replaying = false;         ///< a recorded session
+  ReplayReport replayed;             ///< how far that is
   std::uint64_t restarts = 0;        ///< number of restarts so far
   std::uint64_t commands = 0;        ///< number of commands that have taken effect
 };
@@ -69,7 +71,9 @@ class LiveScene {
   /// Makes the scene on the calling thread and lets its exceptions pass, then simulates on another thread, which calls
   /// `wake` whenever a new snapshot is ready. The simulation uses as many threads as the scene says, or at most
   /// `threads` where the scene leaves it open.
-  LiveScene(MakeScene make, Index threads, bool is_playing, std::function<void()> wake);
+  /// `record`: a session to be replayed, whose scene `make` makes.
+  LiveScene(MakeScene make, Index threads, bool is_playing, std::function<void()> wake,
+            std::optional<SessionRecord> record = {});
   ~LiveScene();
   LiveScene(const LiveScene&) = delete;
   LiveScene& operator=(const LiveScene&) = delete;
@@ -94,6 +98,8 @@ class LiveScene {
   void work();
   void turn();
   void run_commands();
+  void follow_session();
+  void say(std::string message);
   void wait_for_work();
   void step();
   void measure_start();

@@ -2,8 +2,11 @@
 
 namespace pliant_viewer {
 
-LiveSource::LiveSource(MakeScene make, Index threads, bool is_playing, std::function<void()> wake)
-    : scene_(std::move(make), threads, is_playing, std::move(wake)), history_(scene_.name()), is_playing_(is_playing) {
+LiveSource::LiveSource(MakeScene make, Index threads, bool is_playing, std::function<void()> wake,
+                       std::optional<SessionRecord> record)
+    : scene_(std::move(make), threads, is_playing, std::move(wake), std::move(record)),
+      history_(scene_.name()),
+      is_playing_(is_playing) {
   take_snapshot();
 }
 

@@ -9,7 +9,9 @@ namespace pliant_viewer {
 
 class LiveSource final : public ViewSource {
  public:
-  LiveSource(MakeScene make, Index threads, bool is_playing, std::function<void()> wake);
+  /// `record`: see LiveScene.
+  LiveSource(MakeScene make, Index threads, bool is_playing, std::function<void()> wake,
+             std::optional<SessionRecord> record = {});
 
   const std::string& name() const override { return scene_.name(); }
   const pliant::ViewSettings& appearance() const override { return scene_.appearance(); }

@@ -59,6 +59,8 @@ class Viewer {
   /// Saves the scene as it has been changed, and as it is shown, with a checkpoint unless it is at its start: to the
   /// file that was saved last, or the first time, and `as_new`, under the next free name like sheet-1.json.
   void save_scene(bool as_new = false);
+  /// Saves the session, all that was done since the scene was opened, under the next free name like sheet-1.session.
+  void save_session();
   /// Saves the picture without panels under the next free name like pliant-0001.png, and says so in the window.
   void save_picture() { wants_picture_ = true; }
 
@@ -94,6 +96,7 @@ class Viewer {
   void save_plots(PlotsPanel::Wish wish, const pliant_plot::MeasuredRun& run);
   void write_picture(int width, int height);
   void draw_edit_buttons(float width);
+  pliant::ViewSettings placed_appearance() const;
   void take_dropped_files();
   void open(const std::string& what);
   void open_what_waits();

@@ -1,4 +1,5 @@
 // What the window does with a scene as a whole: takes back, does again, saves, opens another one.
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -12,16 +13,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A name that a scene and its checkpoint can have: "sheet-1.json".
-fs::path free_name(const fs::path& folder, const std::string& scene) {
+/// The next free name like "sheet-1.json" for files with these extensions; it has the first of them.
+fs::path free_name(const fs::path& folder, const std::string& scene, std::initializer_list<const char*> extensions) {
   std::string base = fs::path(scene).filename().string();
   if (base.empty() || base == "." || base == "..") base = "scene";
-  fs::path file;
-  for (int number = 1; file.empty() || fs::exists(file) || fs::exists(fs::path(file).replace_extension(".pliant"));
-       ++number) {
-    file = folder / fmt::format("{}-{}.json", base, number);
+  for (int number = 1;; ++number) {
+    const auto file = [&](const char* extension) { return folder / fmt::format("{}-{}{}", base, number, extension); };
+    const auto is_taken = [&](const char* extension) { return fs::exists(file(extension)); };
+    if (std::ranges::none_of(extensions, is_taken)) return file(*extensions.begin());
   }
-  return file;
 }
 
 }  // namespace
@@ -46,17 +46,34 @@ void Viewer::redo() {
   }
 }
 
+/// As it is shown now.
+pliant::ViewSettings Viewer::placed_appearance() const {
+  pliant::ViewSettings view = appearance_;
+  if (!camera_.is_like(first_camera_)) view.camera = camera_.placed();
+  return view;
+}
+
 void Viewer::save_scene(bool as_new) {
   LiveScene* live = source_.live();
   if (live == nullptr) return say("this is a run; its scene is in the file it was made from");
-  pliant::ViewSettings view = appearance_;
-  if (!camera_.is_like(first_camera_)) view.camera = camera_.placed();
-  live->post(
-      [saved = saved_scene_, view, as_new, folder = picture_folder_, name = live->name()](CommandContext& context) {
-        const fs::path file = as_new || saved->empty() ? free_name(folder, name) : *saved;
-        context.message = "saved " + saved_names(context.session.save(file, view));
-        *saved = file;
-      });
+  live->post([saved = saved_scene_, view = placed_appearance(), as_new, folder = picture_folder_,
+              name = live->name()](CommandContext& context) {
+    const fs::path file = as_new || saved->empty() ? free_name(folder, name, {".json", ".pliant"}) : *saved;
+    context.message = "saved " + saved_names(context.session.save(file, view));
+    *saved = file;
+  });
+}
+
+void Viewer::save_session() {
+  LiveScene* live = source_.live();
+  if (live == nullptr) return say("this is a run; only what is simulated here can be saved as a session");
+  live->post([view = placed_appearance(), folder = picture_folder_, name = live->name()](CommandContext& context) {
+    const fs::path file = free_name(folder, name, {".session"});
+    const SessionRecord record = context.session.record(file, view);
+    write_session_record(file, record);
+    context.message = fmt::format("saved the session, {} steps and {} actions: {}", record.steps, record.actions.size(),
+                                  saved_names({file}));
+  });
 }
 
 void Viewer::take_dropped_files() {

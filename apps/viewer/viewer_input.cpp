@@ -130,6 +130,7 @@ void Viewer::take_control_key(char letter, bool has_shift, bool is_repeated) {
   if (letter == 'y') return redo();
   if (is_repeated) return;
   if (letter == 's') return save_scene(has_shift);
+  if (letter == 'r') return save_session();
   if (letter == 'o') scene_panel_.is_open = !scene_panel_.is_open && open_ != nullptr;
 }
 

@@ -1,4 +1,5 @@
 """pliant view, as its users meet it: what it says where there is no display, no OpenGL, no scene, and how it ends."""
+import json
 import os
 import pathlib
 import shutil
@@ -84,9 +85,9 @@ class WithDisplay(unittest.TestCase):
         self.refuse("flag", says=["OpenGL", "`pliant render`"],
                     environment=self.environment | {"MESA_GL_VERSION_OVERRIDE": "2.1"})
 
-    def start(self, *arguments):
+    def start(self, *arguments, cwd=None):
         return subprocess.Popen([PLIANT, "view", *map(str, arguments)], env=self.environment, stdout=subprocess.PIPE,
-                                stderr=subprocess.PIPE, text=True)
+                                stderr=subprocess.PIPE, text=True, cwd=cwd)
 
     def wait_for_window(self, process, name):
         while process.poll() is None:
@@ -112,6 +113,57 @@ class WithDisplay(unittest.TestCase):
             time.sleep(0.1)
         _, errors = process.communicate()
         self.assertEqual((process.returncode, errors), (0, ""))
+
+    @unittest.skipUnless(shutil.which("xdotool"), "xdotool is not installed")
+    def test_a_session_is_saved_replayed_shown_and_filmed(self):
+        process = self.start("curtain_wind", cwd=self.folder)
+        window = self.wait_for_window(process, "curtain_wind")
+        time.sleep(1)
+        keys = ["xdotool", "windowfocus", window, "key", "ctrl+r"]
+        subprocess.run(keys, env=self.environment, timeout=60, check=True)
+        session = self.folder / "curtain_wind-1.session"
+        deadline = time.monotonic() + 120
+        while not session.exists() and time.monotonic() < deadline:
+            time.sleep(0.1)
+        self.assertTrue(session.exists())
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=120)
+
+        def run(command, *arguments):
+            return subprocess.run([PLIANT, command, *map(str, arguments)], capture_output=True, text=True,
+                                  env=self.environment, timeout=600, check=False)
+
+        replayed = run("replay", session)
+        self.assertEqual(replayed.returncode, 0, replayed.stderr)
+        self.assertRegex(replayed.stdout, r"^curtain_wind: \d+ steps and 0 actions in .* s; the same bits as when")
+        content = json.loads(session.read_text())
+        content["checksums"][-1][1] ^= 1
+        wrong = self.folder / "wrong.session"
+        wrong.write_text(json.dumps(content))
+        replayed = run("replay", wrong, "--quiet")
+        self.assertEqual((replayed.returncode, replayed.stdout), (5, ""))
+        self.assertIn(f"error: at step {content['steps']}, or up to 59 before it, its bits are others",
+                      replayed.stderr)
+        content["start"] = content["start"][:-40]
+        wrong.write_text(json.dumps(content))
+        for command in ("replay", "view", "render"):
+            more = ["--out", self.folder / "wrong.png"] if command == "render" else []
+            result = run(command, wrong, *more)
+            self.assertEqual(result.returncode, 2, result.stderr)
+            self.assertIn("wrong.session", result.stderr)
+        picture = self.folder / "session.png"
+        result = run("render", session, "--out", picture, "--size", "160x120", "--samples", 1)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertTrue(picture.exists())
+        result = run("render", session, "--out", picture, "--steps", 3)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("a recorded session comes again as it was", result.stderr)
+
+        process = self.start(session, cwd=self.folder)
+        self.wait_for_window(process, "curtain_wind")
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=120)
+        self.assertEqual(process.returncode, 130)
 
     @unittest.skipUnless(shutil.which("xdotool"), "xdotool is not installed")
     def test_a_mesh_and_a_run_are_shown(self):

@@ -52,8 +52,9 @@ struct Desk {
   LiveSource source;
   Viewer viewer;
 
-  explicit Desk(MakeScene make = make_sheet, int samples = 1, std::function<std::string(const std::string&)> open = {})
-      : source(std::move(make), 1, true, Window::wake),
+  explicit Desk(MakeScene make = make_sheet, int samples = 1, std::function<std::string(const std::string&)> open = {},
+                std::optional<SessionRecord> record = {})
+      : source(std::move(make), 1, true, Window::wake, std::move(record)),
         viewer(window, source,
                {.appearance = source.appearance(),
                 .samples = samples,

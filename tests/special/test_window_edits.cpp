@@ -88,6 +88,77 @@ TEST_CASE("what keys and mouse have changed is undone and done again by keys") {
   CHECK(desk.shown().undone_next == "bend: stiffness");
 }
 
+TEST_CASE("a minute of drags, pins, sliders and undo, saved by a key, comes again bit for bit, and in a window") {
+  std::optional<SessionRecord> record;
+  std::vector<Vec3f> at_end;
+  {
+    Desk desk(read_sheet);
+    desk.source.live()->post([](CommandContext& context) { context.pacer.set_speed(Pacer::unlimited); });
+    const auto rect = desk.source.parameter_panel().place_of("group:stretch.stiffness").value();
+    const float y = (rect[1] + rect[3]) / 2, width = rect[2] - rect[0];
+    for (std::uint32_t round = 0; round < 6 || desk.shown().step < 3600; ++round) {
+      const std::uint32_t vertex = side * 3 + 2 + round % 8;
+      desk.drag(desk.place(vertex), desk.place(vertex) + Vec2f(50, -40));
+      desk.turns(10);
+      desk.release();
+      desk.click(desk.place(vertex));
+      desk.turns(5);
+      desk.drag({rect[0] + 0.3F * width, y}, {rect[0] + (round % 2 == 0 ? 0.6F : 0.5F) * width, y});
+      desk.release();
+      if (round % 3 == 1) desk.key("ctrl+z");
+      if (round % 4 == 2) desk.key("ctrl+z");
+      if (round % 4 == 3) desk.key("ctrl+s");
+      desk.turns(10);
+    }
+    desk.key("space");
+    desk.turn_until([&] { return !desk.shown().is_playing; });
+    desk.key("ctrl+r");
+    const auto file = desk.folder.path() / "sheet-1.session";
+    desk.turn_until([&] { return desk.viewer.message().starts_with("saved the session"); });
+    REQUIRE(std::filesystem::exists(file));
+    record = read_session_record(file);
+    CHECK(record->steps == desk.shown().step);
+    at_end.assign(desk.shown().frame.content.positions.begin(), desk.shown().frame.content.positions.end());
+  }
+  CHECK(record->steps >= 3600);
+  std::vector<std::size_t> counts(std::variant_size_v<Action>);
+  for (const TimedAction& timed : record->actions) ++counts.at(timed.action.index());
+  CHECK(counts.at(Action(action::Grab()).index()) >= 1);
+  CHECK(counts.at(Action(action::PullTo()).index()) >= 1);
+  CHECK(counts.at(Action(action::Set()).index()) >= 1);
+  CHECK(counts.at(Action(action::PinVertex()).index()) + counts.at(Action(action::Unpin()).index()) >= 1);
+  CHECK(counts.at(Action(action::Undo()).index()) >= 1);
+  CHECK(counts.at(Action(action::Save()).index()) >= 1);
+
+  Desk desk(scene_maker_of(*record, "again.session"), 1, {}, record);
+  CHECK(desk.shown().is_replaying);
+  desk.source.live()->post([](CommandContext& context) { context.pacer.set_speed(Pacer::unlimited); });
+  desk.turn_until([&] { return !desk.shown().is_replaying; });
+  desk.turn_until([&] { return desk.viewer.message().starts_with("the recorded session ends here"); });
+  CHECK(desk.shown().replayed.has_ended);
+  CHECK_FALSE(desk.shown().replayed.differs_from.has_value());
+  CHECK_FALSE(desk.shown().is_playing);
+  const auto& positions = desk.shown().frame.content.positions;
+  CHECK(std::ranges::equal(at_end, positions));
+  // It goes on from there, and so does undo.
+  const std::int64_t step = desk.shown().step;
+  desk.key("space");
+  desk.turn_until([&] { return desk.shown().step > step; });
+}
+
+TEST_CASE("whoever does something in a session that is replayed takes over from it") {
+  Session session(read_sheet);
+  for (int i = 0; i < 2000; ++i) session.step();
+  SessionRecord record = session.record("some.session", session.scene().view);
+  Desk desk(scene_maker_of(record, "some.session"), 1, {}, record);
+  desk.turn_until([&] { return desk.shown().step > 10; });
+  desk.click(desk.place(middle));
+  desk.turn_until([&] { return desk.is_pinned(middle); });
+  CHECK_FALSE(desk.shown().is_replaying);
+  desk.turn_until([&] { return desk.viewer.message().starts_with("you have taken over"); });
+  CHECK(desk.shown().is_playing);
+}
+
 TEST_CASE("a scene that is saved by a key has what was changed, and how it is seen") {
   Desk desk(read_sheet);
   desk.key("space");

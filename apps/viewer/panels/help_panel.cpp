@@ -24,9 +24,10 @@ constexpr std::array<Key, 5> camera_keys = {
 constexpr std::array<Key, 5> live_keys = {
     Key{"Space", "play or pause"}, Key{"S or →", "one step"}, Key{"R", "start over, with what was changed"},
     Key{"Shift + R", "start over, all as in the scene's file"}, Key{"+ and −", "stiffer or softer pull"}};
-constexpr std::array<Key, 4> scene_keys = {Key{"Ctrl + Z", "take back the last change"},
+constexpr std::array<Key, 5> scene_keys = {Key{"Ctrl + Z", "take back the last change"},
                                            Key{"Ctrl + Shift + Z", "do it again"},
                                            Key{"Ctrl + S", "save the scene; with Shift under a new name"},
+                                           Key{"Ctrl + R", "save the session: all that was done so far"},
                                            Key{"Ctrl + O, drop a file", "open a scene, a mesh or a run"}};
 constexpr std::array<Key, 3> run_keys = {Key{"Space", "play or pause"}, Key{"→ and ←", "one frame on or back"},
                                          Key{"R", "to the first frame"}};

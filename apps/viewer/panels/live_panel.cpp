@@ -52,6 +52,11 @@ void LiveSource::draw_panel() {
 void LiveSource::draw_pace() {
   const FrameStatistics::Means& statistics = snapshot_->statistics;
   row("time", fmt::format("{:.2f} s, step {}", snapshot_->frame.time, snapshot_->step));
+  if (snapshot_->is_replaying) {
+    const ReplayReport& replayed = snapshot_->replayed;
+    row("replay", fmt::format("step {} of {}", replayed.steps, replayed.wanted_steps),
+        "a recorded session is done again; whatever you do takes over from it");
+  }
   row("pace", pace_text(*snapshot_), "simulated seconds in a second; at most four steps behind the clock");
   row("steps", steps_text(*snapshot_), "means of the last second");
   const double rest = std::max(0.0, statistics.total - statistics.local - statistics.global - statistics.factor);
