@@ -40,7 +40,7 @@ ReplayReport check_replay(const Session& session, const fs::path& folder) {
 }
 
 Pull pull_at(const Session& session, std::uint32_t vertex) {
-  return {{{vertex, vertex + 1, vertex + 9}, {0.5F, 0.25F, 0.25F}}, place(session, vertex), 40};
+  return {{{vertex, vertex + 1, vertex + 9}, {0.5F, 0.25F, 0.25F}}, place(session, static_cast<Index>(vertex)), 40};
 }
 
 /// Pulls a vertex upwards while it takes so many steps.
