@@ -34,12 +34,12 @@ bool run_to_end(pliant_viewer::Session& session, const ReplayArguments& argument
   while (session.is_replaying()) {
     if (was_interrupted()) return false;
     try {
-      progress.update(session.replayed().steps, session.step().residual);
+      const double residual = session.step().residual;
+      progress.update(session.replayed().steps, residual);
     } catch (const pliant::Error& error) {
       if (error.kind() == pliant::ErrorKind::interrupted) return false;
       throw pliant::Error(error.kind(),
-                          fmt::format("{}: after step {}: {}", pliant::printable_place(arguments.file.string()),
-                                      session.replayed().steps, error.what()));
+                          fmt::format("{}: {}", pliant::printable_place(arguments.file.string()), error.what()));
     }
   }
   return true;
@@ -47,8 +47,13 @@ bool run_to_end(pliant_viewer::Session& session, const ReplayArguments& argument
 
 int replay(const ReplayArguments& arguments) {
   pliant_viewer::SessionRecord record = pliant_viewer::read_session_record(arguments.file);
-  pliant_viewer::Session session(scene_maker_of(record, arguments.file));
-  if (arguments.threads) session.set_threads(*arguments.threads);
+  pliant_viewer::Session session([make = scene_maker_of(record, arguments.file), threads = arguments.threads] {
+    pliant::Scene scene = make();
+    pliant::SolverSettings settings = scene.simulation.settings();
+    settings.threads = threads.value_or(settings.threads);
+    scene.simulation.set_settings(settings);
+    return scene;
+  });
   catch_interrupts();
   const std::size_t actions = record.actions.size();
   const std::string scene = record.scene;

@@ -95,7 +95,7 @@ void check_session(const SceneArguments& arguments) {
   const pliant::SceneOverrides& overrides = arguments.overrides;
   if (!is_session(arguments)) return;
   if (overrides.set.empty() && !overrides.time_step && !overrides.iterations && !overrides.tolerance &&
-      !overrides.backend && !overrides.steps) {
+      !overrides.backend && !overrides.steps && !overrides.threads) {
     return;
   }
   pliant::fail_input("--set, --steps and the like: a recorded session comes again as it was; leave them out");

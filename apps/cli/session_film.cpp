@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include "interrupts.h"
+#include "pliant/core/error.h"
+#include "pliant/core/printable.h"
 #include "terminal.h"
 
 namespace pliant_cli {
@@ -14,6 +16,18 @@ std::string difference_text(std::int64_t step) {
       "program and on processors with the same instructions",
       step, pliant_viewer::SessionLog::checksum_period - 1);
 }
+
+namespace {
+
+void take_step(pliant_viewer::Session& session, const std::filesystem::path& file) {
+  try {
+    session.step();
+  } catch (const pliant::Error& error) {
+    throw pliant::Error(error.kind(), fmt::format("{}: {}", pliant::printable_place(file.string()), error.what()));
+  }
+}
+
+}  // namespace
 
 pliant_render::Clip clip_from_session(const std::filesystem::path& file,
                                       const std::function<std::int64_t(pliant::Scene&)>& prepare,
@@ -40,7 +54,7 @@ pliant_render::Clip clip_from_session(const std::filesystem::path& file,
   // The restart itself comes with the step that follows it.
   if (first == 0) keep();
   for (std::int64_t step = 0; session.is_replaying() && go_on(step, steps);) {
-    session.step();
+    take_step(session, file);
     ++step;
     if (step > first && ((step - first) % every == 0 || step == steps || !clip)) keep();
   }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "pliant/core/error.h"
 
 namespace pliant_viewer {
@@ -31,7 +33,10 @@ LiveScene::LiveScene(MakeScene make, Index threads, bool is_playing, std::functi
   context_.color = appearance_.color;
   session_.set_stop([this] { return shall_give_up(); });
   set_thread_count();
-  if (record) session_.replay(std::move(*record));
+  if (record) {
+    session_.replay(std::move(*record));
+    if (!session_.is_replaying()) say_replay_ended();
+  }
   update_render_mesh();
   measure_start();
   publish();
@@ -154,7 +159,8 @@ void LiveScene::run_commands() {
       statistics_.clear();
       note_.clear();
     }
-    if (was_replaying && !session_.is_replaying()) say("you have taken over; from here on the session is yours");
+    if (was_replaying && !session_.is_replaying() && context_.message.empty())
+      say("you have taken over; from here on the session is yours");
     if (pacer_.speed() != speed) statistics_.clear();
     ++commands_done_;
     is_dirty_ = true;
@@ -165,6 +171,14 @@ void LiveScene::run_commands() {
 void LiveScene::say(std::string message) {
   message_ = std::move(message);
   ++messages_;
+}
+
+void LiveScene::say_replay_ended() {
+  context_.is_playing = false;
+  context_.single_steps = 0;
+  const auto differs_from = session_.replayed().differs_from;
+  say("the recorded session ends here; Space goes on from here" +
+      (differs_from ? fmt::format(" (from step {} on it has other bits than it had)", *differs_from) : ""));
 }
 
 /// After what commands, or a replay, have done.
@@ -195,12 +209,9 @@ void LiveScene::step() {
     const bool was_replaying = session_.is_replaying();
     const pliant::StepReport report = session_.step();
     follow_session();
-    if (was_replaying && !session_.is_replaying()) {
-      context_.is_playing = false;
-      say("the recorded session ends here; Space goes on from here");
-    }
-    pacer_.took_step();
     context_.single_steps = std::max<std::int64_t>(context_.single_steps - 1, 0);
+    if (was_replaying && !session_.is_replaying()) say_replay_ended();
+    pacer_.took_step();
     is_at_start_ = false;
     if (auto measured = session_.measure_step(measurer_, report, context_.measuring)) {
       measured_.push_back(std::move(*measured));

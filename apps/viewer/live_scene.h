@@ -100,6 +100,7 @@ class LiveScene {
   void run_commands();
   void follow_session();
   void say(std::string message);
+  void say_replay_ended();
   void wait_for_work();
   void step();
   void measure_start();

@@ -91,22 +91,25 @@ pliant::StepReport Session::step() {
     report = scene_.step();
   }
   log_.took_step(scene_.simulation);
-  check_replayed_step();
+  if (replay_) {
+    ++replayed_.steps;
+    check_replay();
+  }
   return report;
 }
 
 void Session::grab(const Pull& pull) {
-  const auto noted = note(action::Grab{pull});
   const pliant::BodyId body = body_of(static_cast<Index>(pull.point.vertices[0]));
-  let_go();
+  if (pull_group_) let_go();
+  const auto noted = note(action::Grab{pull});
   pull_group_ =
       scene_.simulation.add(body, drag_of(pull, scene_.simulation.body(body).first_vertex), std::string(pull_name));
   pull_ = pull;
 }
 
 void Session::pull_to(const Vec3f& target) {
-  const auto noted = note(action::PullTo{target});
   if (!pull_group_ || !target.allFinite()) return;
+  const auto noted = note(action::PullTo{target});
   scene_.simulation.set_target(*pull_group_, 0, target.cast<Real>());
   pull_->target = target;
 }
@@ -169,19 +172,19 @@ void Session::note_release(Index vertex, const pliant::Group& group, const Pin& 
 }
 
 void Session::move_pin(Index vertex, const Vec3f& target) {
-  const auto noted = note(action::MovePin{vertex, target});
   const auto pin = find_pin(vertex);
   if (!pin || !target.allFinite()) return;
+  const auto noted = note(action::MovePin{vertex, target});
   const pliant::Group& group = scene_.simulation.groups().at(pin->group);
   scene_.timeline.stop(scene_.simulation, pin->group, {group.points[static_cast<std::size_t>(pin->target)]});
   scene_.simulation.set_target(pin->group, pin->target, target.cast<Real>());
 }
 
 void Session::move_collider(pliant::ColliderId collider, const Vec3f& position) {
-  const auto noted = note(action::MoveCollider{static_cast<Index>(collider), position});
   pliant::Simulation& simulation = scene_.simulation;
   const auto found = simulation.colliders().find(collider);
   if (found == simulation.colliders().end() || !found->second.shape->is_bounded() || !position.allFinite()) return;
+  const auto noted = note(action::MoveCollider{static_cast<Index>(collider), position});
   scene_.timeline.leave_alone(simulation, collider);
   left_alone_.insert(collider);
   stop_collider(static_cast<pliant::BuiltinColliders*>(nullptr), simulation, collider);

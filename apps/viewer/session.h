@@ -121,7 +121,7 @@ class Session {
   SessionRecord record(const std::filesystem::path& file, const pliant::ViewSettings& view) const;
 
   /// From now on does with every step what was done then; of a session that was just made by scene_maker_of(). Whatever
-  /// else is done ends it, as does an action that fails, whose error step() throws.
+  /// else is done ends it, as does an action that fails: its error comes from here, or from step().
   void replay(SessionRecord record);
   bool is_replaying() const { return replay_.has_value(); }
   /// The last replay, or the one under way.
@@ -147,8 +147,7 @@ class Session {
   SessionLog::Scope note(Action action);
   void do_again(const Action& action);
   void do_what_is_due();
-  void check_replayed_step();
-  void end_replay();
+  void check_replay();
   void open(const pliant::Scene& scene);
   std::vector<std::filesystem::path> go_on_as_saved(const std::filesystem::path& file, const pliant::ViewSettings& view,
                                                     bool is_written);

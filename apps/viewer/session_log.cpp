@@ -42,6 +42,10 @@ void SessionLog::took_step(const pliant::Simulation& simulation) {
   if (steps_ % checksum_period == 0) checksums_.push_back({steps_, state_checksum(simulation)});
 }
 
+void SessionLog::make_room() {
+  if (actions_.size() == actions_.capacity()) actions_.reserve(2 * actions_.size() + 16);
+}
+
 void SessionLog::add(Action action) {
   // A hand that holds something moves many times between two steps, and for hours while time stands still.
   if (!actions_.empty() && actions_.back().step == steps_ && replaces(actions_.back().action, action)) {

@@ -19,7 +19,10 @@ class SessionLog {
   /// Notes an action when it ends, unless it throws, or is a part of another one.
   class Scope {
    public:
-    Scope(SessionLog& log, Action action) : log_(log), action_(std::move(action)) { ++log_.depth_; }
+    Scope(SessionLog& log, Action action) : log_(log), action_(std::move(action)) {
+      ++log_.depth_;
+      log_.make_room();
+    }
     ~Scope() {
       if (--log_.depth_ > 0) return;
       const bool is_forgotten = std::exchange(log_.forgets_this_, false);
@@ -43,7 +46,8 @@ class SessionLog {
   const std::vector<StepChecksum>& checksums() const { return checksums_; }
 
  private:
-  void add(Action action);
+  void make_room();
+  void add(Action action);  // there is room: it does not throw
 
   std::vector<TimedAction> actions_;
   std::vector<StepChecksum> checksums_;

@@ -57,7 +57,7 @@ Json json_of_field(const Value& value) {
 }
 
 Json json_of(const TimedAction& timed) {
-  Json json = {{"step", timed.step}, {"do", action_names.at(timed.action.index())}};
+  Json json = {{"step", timed.step}, {"do", action_name(timed.action)}};
   std::visit(
       [&](const auto& action) {
         visit_fields(action, [&](const char* name, const auto& value) { json[name] = json_of_field(value); });
@@ -164,17 +164,21 @@ void read_list(const Node& node, SessionRecord& record) {
     if (step < last || step > record.steps)
       actions.at(i).at("step").fail("steps must ascend, up to those of the session");
   }
-  step = 0;
+  step = -1;
   for (std::size_t i = 0; i < checksums.size(); ++i) {
     checksums.at(i).check_size(2);
     StepChecksum& checksum = record.checksums.emplace_back();
     checksum.step = checksums.at(i).at(std::size_t{0}).integer(record.steps);
     checksums.at(i).at(std::size_t{1}).read(checksum.crc32);
-    if (checksum.step <= std::exchange(step, checksum.step)) checksums.at(i).fail("steps must ascend from 1 on");
+    if (checksum.step <= std::exchange(step, checksum.step)) checksums.at(i).fail("steps must ascend");
   }
 }
 
 }  // namespace
+
+std::string_view action_name(const Action& action) {
+  return action_names.at(action.index());
+}
 
 std::int64_t SessionRecord::last_start() const {
   const auto found = std::find_if(actions.rbegin(), actions.rend(), [](const TimedAction& timed) {

@@ -3,12 +3,14 @@
 //
 //     write_session_record("silk.session", session.record("silk.session", view));
 //     const SessionRecord record = read_session_record("silk.session");
-//     Session again = replay_session(record, "silk.session");
+//     Session again(scene_maker_of(record, "silk.session"));
+//     again.replay(record);
 //     while (again.is_replaying()) again.step();
 #include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "pliant_io/scene/scene.h"
@@ -51,6 +53,9 @@ struct Replay {
   SessionRecord record;
   std::size_t next_action = 0, next_checksum = 0;
 };
+
+/// As the file has it: "move_pin".
+std::string_view action_name(const Action& action);
 
 /// @throws pliant::Error (output): the file cannot be written
 void write_session_record(const std::filesystem::path& file, const SessionRecord& record);

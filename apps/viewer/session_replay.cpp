@@ -1,4 +1,6 @@
 // A session's record: what it is made of, and how it is done again.
+#include <fmt/format.h>
+
 #include "pliant/core/error.h"
 #include "pliant_io/checkpoint/checkpoint.h"
 #include "viewer/session.h"
@@ -45,9 +47,9 @@ SessionRecord Session::record(const std::filesystem::path& file, const pliant::V
   record.steps = log_.steps();
   record.actions = log_.actions();
   record.checksums = log_.checksums();
-  if (record.steps > 0 && (record.checksums.empty() || record.checksums.back().step < record.steps)) {
-    record.checksums.push_back({record.steps, state_checksum(simulation())});
-  }
+  // That of the last step is of now: something may have been done since.
+  if (!record.checksums.empty() && record.checksums.back().step == record.steps) record.checksums.pop_back();
+  record.checksums.push_back({record.steps, state_checksum(simulation())});
   return record;
 }
 
@@ -59,11 +61,20 @@ SessionLog::Scope Session::note(Action action) {
 void Session::replay(SessionRecord record) {
   replayed_ = {.wanted_steps = record.steps};
   replay_ = Replay{std::move(record)};
-  if (replayed_.wanted_steps == 0) end_replay();
+  if (replayed_.wanted_steps == 0) check_replay();
 }
 
-void Session::end_replay() {
-  do_what_is_due();
+/// After a step: compares, and ends behind the last one, with what was done after that.
+void Session::check_replay() {
+  const bool is_end = replayed_.steps == replayed_.wanted_steps;
+  if (is_end) do_what_is_due();
+  const std::vector<StepChecksum>& checksums = replay_->record.checksums;
+  std::size_t& next = replay_->next_checksum;
+  if (next < checksums.size() && checksums[next].step == replayed_.steps) {
+    const bool is_same = checksums[next++].crc32 == state_checksum(simulation());
+    if (!is_same && !replayed_.differs_from) replayed_.differs_from = replayed_.steps;
+  }
+  if (!is_end) return;
   replay_.reset();
   replayed_.has_ended = true;
 }
@@ -77,6 +88,11 @@ void Session::do_what_is_due() {
     is_doing_again_ = true;
     try {
       do_again(timed.action);
+    } catch (const pliant::Error& error) {
+      is_doing_again_ = false;
+      replay_.reset();
+      throw pliant::Error(error.kind(),
+                          fmt::format("'{}' after step {}: {}", action_name(timed.action), timed.step, error.what()));
     } catch (...) {
       is_doing_again_ = false;
       replay_.reset();
@@ -107,19 +123,6 @@ void Session::do_again(const Action& action) {
                    go_on_as_saved("replayed.json", scene_.view, false);
                  }},
       action);
-}
-
-/// After a step.
-void Session::check_replayed_step() {
-  if (!replay_) return;
-  ++replayed_.steps;
-  const std::vector<StepChecksum>& checksums = replay_->record.checksums;
-  std::size_t& next = replay_->next_checksum;
-  if (next < checksums.size() && checksums[next].step == replayed_.steps) {
-    const bool is_same = checksums[next++].crc32 == state_checksum(simulation());
-    if (!is_same && !replayed_.differs_from) replayed_.differs_from = replayed_.steps;
-  }
-  if (replayed_.steps == replayed_.wanted_steps) end_replay();
 }
 
 }  // namespace pliant_viewer

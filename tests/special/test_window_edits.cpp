@@ -140,7 +140,6 @@ TEST_CASE("a minute of drags, pins, sliders and undo, saved by a key, comes agai
   CHECK_FALSE(desk.shown().is_playing);
   const auto& positions = desk.shown().frame.content.positions;
   CHECK(std::ranges::equal(at_end, positions));
-  // It goes on from there, and so does undo.
   const std::int64_t step = desk.shown().step;
   desk.key("space");
   desk.turn_until([&] { return desk.shown().step > step; });

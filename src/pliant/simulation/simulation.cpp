@@ -138,13 +138,18 @@ void Simulation::set_stop(std::function<bool()> stop) {
 }
 
 StepReport Simulation::step() {
-  if (settings_.iterations == automatic_iterations && finds_iterations(state_.step)) find_iterations(*this);
-  update_problem();
+  const auto iterations = state_.iterations;
   StepReport report;
   try {
+    if (settings_.iterations == automatic_iterations && finds_iterations(state_.step)) find_iterations(*this);
+    update_problem();
     report = solver_->step(state_);
   } catch (const Divergence& divergence) {
+    state_.iterations = iterations;
     throw Error(ErrorKind::diverged, message_of(divergence.cause(), *this));
+  } catch (...) {  // found anew with the next attempt
+    state_.iterations = iterations;
+    throw;
   }
   add_warnings(report);
   return report;
