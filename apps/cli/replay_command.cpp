@@ -34,12 +34,11 @@ bool run_to_end(pliant_viewer::Session& session, const ReplayArguments& argument
   while (session.is_replaying()) {
     if (was_interrupted()) return false;
     try {
-      const double residual = session.step().residual;
+      const double residual = replay_step(session, arguments.file).residual;
       progress.update(session.replayed().steps, residual);
     } catch (const pliant::Error& error) {
       if (error.kind() == pliant::ErrorKind::interrupted) return false;
-      throw pliant::Error(error.kind(),
-                          fmt::format("{}: {}", pliant::printable_place(arguments.file.string()), error.what()));
+      throw;
     }
   }
   return true;

@@ -12,22 +12,19 @@ namespace pliant_cli {
 
 std::string difference_text(std::int64_t step) {
   return fmt::format(
-      "at step {}, or up to {} before it, its bits are others than they were; they are the same by one build of the "
-      "program and on processors with the same instructions",
-      step, pliant_viewer::SessionLog::checksum_period - 1);
+      "the replay differs from the recording, from step {} on or a little before; bits are compared every {} steps, "
+      "and "
+      "only the same build of the program, on a processor with the same instructions, repeats them",
+      step, pliant_viewer::SessionLog::checksum_period);
 }
 
-namespace {
-
-void take_step(pliant_viewer::Session& session, const std::filesystem::path& file) {
+pliant::StepReport replay_step(pliant_viewer::Session& session, const std::filesystem::path& file) {
   try {
-    session.step();
+    return session.step();
   } catch (const pliant::Error& error) {
     throw pliant::Error(error.kind(), fmt::format("{}: {}", pliant::printable_place(file.string()), error.what()));
   }
 }
-
-}  // namespace
 
 pliant_render::Clip clip_from_session(const std::filesystem::path& file,
                                       const std::function<std::int64_t(pliant::Scene&)>& prepare,
@@ -54,7 +51,7 @@ pliant_render::Clip clip_from_session(const std::filesystem::path& file,
   // The restart itself comes with the step that follows it.
   if (first == 0) keep();
   for (std::int64_t step = 0; session.is_replaying() && go_on(step, steps);) {
-    take_step(session, file);
+    replay_step(session, file);
     ++step;
     if (step > first && ((step - first) % every == 0 || step == steps || !clip)) keep();
   }

@@ -15,6 +15,9 @@ pliant_render::Clip clip_from_session(const std::filesystem::path& file,
                                       const std::function<std::int64_t(pliant::Scene&)>& prepare,
                                       const std::function<bool(std::int64_t, std::int64_t)>& go_on);
 
+/// Takes a step of a replay. @throws as Session::step does, naming the file
+pliant::StepReport replay_step(pliant_viewer::Session& session, const std::filesystem::path& file);
+
 /// From which step on a replay differs from what was recorded, and why that may be.
 std::string difference_text(std::int64_t step);
 

@@ -104,17 +104,35 @@ int threads_beside(const pliant_viewer::Window& window) {
   return window.is_software() ? spare_threads() : 0;
 }
 
-Shown show_session(const ViewArguments& arguments, pliant_viewer::SessionRecord record, pliant_viewer::Window& window) {
-  const pliant_viewer::MakeScene make = [arguments, make = scene_maker_of(record, arguments.scene)] {
+/// A recorded session, and its scene as it was opened.
+struct OpenedSession {
+  pliant_viewer::SessionRecord record;
+  std::shared_ptr<pliant::Scene> first;
+  pliant_viewer::MakeScene make;  ///< it anew
+};
+
+OpenedSession open_session(const ViewArguments& arguments) {
+  OpenedSession session{pliant_viewer::read_session_record(arguments.scene), {}, {}};
+  session.make = [arguments, make = scene_maker_of(session.record, arguments.scene)] {
     pliant::Scene scene = make();
     apply_appearance(arguments, scene.view);
     return scene;
   };
-  const std::string greeting = fmt::format("a recorded session of {} steps; whatever you do takes over", record.steps);
+  session.first = std::make_shared<pliant::Scene>(session.make());
+  return session;
+}
+
+Shown show_session(const ViewArguments& arguments, OpenedSession session, pliant_viewer::Window& window) {
+  const auto make = [first = std::move(session.first), make = std::move(session.make)]() mutable {
+    if (const std::shared_ptr<pliant::Scene> ready = std::exchange(first, nullptr)) return std::move(*ready);
+    return make();
+  };
+  std::string greeting =
+      fmt::format("a recorded session of {} steps; whatever you do takes over", session.record.steps);
   return {arguments,
           std::make_unique<pliant_viewer::LiveSource>(make, threads_beside(window), !arguments.is_paused,
-                                                      pliant_viewer::Window::wake, std::move(record)),
-          greeting};
+                                                      pliant_viewer::Window::wake, std::move(session.record)),
+          std::move(greeting)};
 }
 
 Shown show_scene(const ViewArguments& arguments, std::shared_ptr<pliant::Scene> scene, pliant_viewer::Window& window) {
@@ -158,7 +176,7 @@ int show(pliant_viewer::Window& window, Shown shown, bool chooses_scene) {
         const ViewArguments arguments = arguments_for(what, shown.arguments);
         check(arguments);
         if (is_session(arguments)) {
-          next = show_session(arguments, pliant_viewer::read_session_record(arguments.scene), window);
+          next = show_session(arguments, open_session(arguments), window);
           return "";
         }
         next = is_run(arguments)
@@ -188,10 +206,10 @@ int view_run(const ViewArguments& arguments) {
 }
 
 int view_session(const ViewArguments& arguments) {
-  pliant_viewer::SessionRecord record = pliant_viewer::read_session_record(arguments.scene);
-  const pliant::ViewSettings view = scene_maker_of(record, arguments.scene)().view;
-  pliant_viewer::Window window("Pliant", view.size[0], view.size[1]);
-  return show(window, show_session(arguments, std::move(record), window), false);
+  OpenedSession session = open_session(arguments);
+  const std::array<pliant::Index, 2> size = session.first->view.size;
+  pliant_viewer::Window window("Pliant", size[0], size[1]);
+  return show(window, show_session(arguments, std::move(session), window), false);
 }
 
 int view_scene(const ViewArguments& given) {

@@ -178,7 +178,7 @@ void LiveScene::say_replay_ended() {
   context_.single_steps = 0;
   const auto differs_from = session_.replayed().differs_from;
   say("the recorded session ends here; Space goes on from here" +
-      (differs_from ? fmt::format(" (from step {} on it has other bits than it had)", *differs_from) : ""));
+      (differs_from ? fmt::format(" (its bits differ from the recorded ones since step {})", *differs_from) : ""));
 }
 
 /// After what commands, or a replay, have done.

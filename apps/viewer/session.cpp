@@ -64,7 +64,7 @@ Session::Session(MakeScene make)
       unchanged_(scene_.simulation.state().step == 0 ? UnchangedScene(scene_)
                                                      : UnchangedScene(parse_scene(scene_.source))),
       collider_speed_(suggest_collider_speed(scene_.simulation)) {
-  open(scene_);
+  begin_record(scene_);
 }
 
 void Session::set_stop(std::function<bool()> stop) {

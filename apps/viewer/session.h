@@ -124,8 +124,7 @@ class Session {
   /// else is done ends it, as does an action that fails: its error comes from here, or from step().
   void replay(SessionRecord record);
   bool is_replaying() const { return replay_.has_value(); }
-  /// The last replay, or the one under way.
-  const ReplayReport& replayed() const { return replayed_; }
+  const ReplayReport& replayed() const { return replayed_; }  ///< the last one, or the one under way
 
  private:
   /// Where a vertex is pinned: the group, and which of its targets that is.
@@ -140,17 +139,19 @@ class Session {
     std::map<std::string, pliant::Vec3> old_values{};  ///< of what `before` does not have
     std::map<Index, pliant::Vec3> held{};              ///< where the vertices are that it pins or lets go [m]
   };
+  /// A text with the changes, and the scene that it makes.
   struct Written {
     pliant::Scene scene;
     std::vector<std::string> unwritten;  ///< changes that a scene file has no key for
+    std::set<std::string> factors{};     ///< of stiffnesses, which the text has multiplied into its numbers
   };
   SessionLog::Scope note(Action action);
   void do_again(const Action& action);
   void do_what_is_due();
   void check_replay();
-  void open(const pliant::Scene& scene);
-  std::vector<std::filesystem::path> go_on_as_saved(const std::filesystem::path& file, const pliant::ViewSettings& view,
-                                                    bool is_written);
+  void begin_record(const pliant::Scene& scene);
+  Written prepare_save(const std::filesystem::path& file, const pliant::ViewSettings& view) const;
+  void go_on_as(Written written);
   Written write_text(const std::filesystem::path& file, const pliant::ViewSettings& view) const;
   std::optional<Pin> find_pin(Index vertex) const;
   pliant::Vec3 target_of(const Pin& pin) const { return scene_.simulation.target(pin.group, pin.target); }

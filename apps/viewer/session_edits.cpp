@@ -267,7 +267,7 @@ void Session::restart(bool keep_changes) {
   const bool is_as_opened = is_made_from(opened_, scene);
   const bool has_history = !changes_.is_empty() || !done_.empty() || !undone_.empty();
   const bool is_fresh = !keep_changes || (!has_history && saved_changes_.is_empty());
-  if (is_fresh) open(scene);
+  if (is_fresh) begin_record(scene);
   UnchangedScene unchanged(scene);
   const std::vector<Slider> at_start = list_sliders(scene.simulation);
   if (keep_changes && !changes_.is_empty()) {
@@ -319,39 +319,42 @@ std::string Session::text(const std::filesystem::path& file, const pliant::ViewS
   return write_text(file, view).scene.source.texts.at(0).text;
 }
 
-std::vector<std::filesystem::path> Session::save(const std::filesystem::path& file, const pliant::ViewSettings& view) {
-  const auto noted = note(action::Save{});
-  return go_on_as_saved(file, view, true);
+/// What save() writes to `file`, and its scene at this moment.
+Session::Written Session::prepare_save(const std::filesystem::path& file, const pliant::ViewSettings& view) const {
+  Written written = write_text(file, view);
+  for (const auto& [key, factor] : unchanged_.factors(changes_)) written.factors.insert(key);
+  carry_into(written.scene, changes_, written.factors);
+  return written;
 }
 
-/// With `is_written` false everything but the files.
-std::vector<std::filesystem::path> Session::go_on_as_saved(const std::filesystem::path& file,
-                                                           const pliant::ViewSettings& view, bool is_written) {
+/// Goes on with the bits of what was saved.
+void Session::go_on_as(Written written) {
+  if (!written.factors.empty()) {
+    written.scene = make_with(changes_, unchanged_);
+    carry_into(written.scene, changes_);
+  }
+  take(std::move(written.scene));
+  saved_changes_ = changes_;
+  if (!written.unwritten.empty()) {
+    note_ = "not saved: " + written.unwritten.front() + "; a scene file has no key for it";
+  }
+}
+
+std::vector<std::filesystem::path> Session::save(const std::filesystem::path& file, const pliant::ViewSettings& view) {
   namespace fs = std::filesystem;
-  auto [next, unwritten] = write_text(file, view);
-  const std::string text = next.source.texts.at(0).text;
-  std::set<std::string> factors;  // which the file has multiplied into its numbers
-  for (const auto& [key, factor] : unchanged_.factors(changes_)) factors.insert(key);
-  carry_into(next, changes_, factors);
+  const auto noted = note(action::Save{});
+  Written written = prepare_save(file, view);
   std::vector<fs::path> files = {file};
   const fs::path checkpoint = fs::path(file).replace_extension(".pliant");
   std::error_code ignored;
-  if (!is_written) {
-    files.clear();
-  } else if (simulation().state().step > 0) {
-    write_checkpoint(checkpoint, next);
+  if (simulation().state().step > 0) {
+    write_checkpoint(checkpoint, written.scene);
     files.push_back(checkpoint);
   } else {
     fs::remove(checkpoint, ignored);  // of what the file was before
   }
-  if (is_written) pliant::write_file_atomically(file, text);
-  if (!factors.empty()) {
-    next = make_with(changes_, unchanged_);
-    carry_into(next, changes_);
-  }
-  take(std::move(next));
-  saved_changes_ = changes_;
-  if (!unwritten.empty()) note_ = "not saved: " + unwritten.front() + "; a scene file has no key for it";
+  pliant::write_file_atomically(file, written.scene.source.texts.at(0).text);
+  go_on_as(std::move(written));
   return files;
 }
 

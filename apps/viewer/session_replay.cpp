@@ -19,7 +19,7 @@ Overloaded(Cases...) -> Overloaded<Cases...>;
 }  // namespace
 
 /// Begins a new record with this scene.
-void Session::open(const pliant::Scene& scene) {
+void Session::begin_record(const pliant::Scene& scene) {
   opened_ = {scene.source, scene.files, {}};
   // Of one that goes on from a checkpoint the source tells the start alone.
   if (scene.simulation.state().step > 0) opened_.checkpoint = pliant::checkpoint_bytes(scene, {});
@@ -120,7 +120,7 @@ void Session::do_again(const Action& action) {
                  [&](const action::Restart& restarted) { restart(restarted.keep_changes); },
                  [&](const action::Save&) {
                    const auto noted = note(action::Save{});
-                   go_on_as_saved("replayed.json", scene_.view, false);
+                   go_on_as(prepare_save("replayed.json", scene_.view));
                  }},
       action);
 }

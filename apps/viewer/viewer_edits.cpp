@@ -119,7 +119,8 @@ void Viewer::draw_edit_buttons(float width) {
   ImGui::SameLine();
   if (button("Save", true,
              "Ctrl + S: the scene with its changes and this view, and a checkpoint of this moment;\n"
-             "Ctrl + Shift + S: under a new name")) {
+             "Ctrl + Shift + S: under a new name\n"
+             "Ctrl + R: the session, all that was done so far, to be replayed or filmed")) {
     save_scene();
   }
 }

@@ -142,7 +142,7 @@ class WithDisplay(unittest.TestCase):
         wrong.write_text(json.dumps(content))
         replayed = run("replay", wrong, "--quiet")
         self.assertEqual((replayed.returncode, replayed.stdout), (5, ""))
-        self.assertIn(f"error: at step {content['steps']}, or up to 59 before it, its bits are others",
+        self.assertIn(f"error: the replay differs from the recording, from step {content['steps']} on",
                       replayed.stderr)
         content["start"] = content["start"][:-40]
         wrong.write_text(json.dumps(content))

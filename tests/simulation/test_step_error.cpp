@@ -199,6 +199,28 @@ TEST_CASE("automatic iterations give the bits of the same numbers of iterations,
   CHECK(same_bits(automatic.simulation.state(), end));
 }
 
+TEST_CASE("a step of automatic iterations that is given up at any moment is taken as if it had not been begun") {
+  Cloth whole(lively(automatic_iterations), true), broken(lively(automatic_iterations), true);
+  for (int i = 0; i < 12; ++i) {
+    whole.simulation.step();
+    // Broken off ever later, past the search for the number of iterations, until it is taken.
+    bool is_taken = false;
+    for (int most = 0; !is_taken; most += 7) {
+      const Index before = broken.simulation.state().iterations;
+      broken.simulation.set_stop([left = most]() mutable { return left-- <= 0; });
+      try {
+        broken.simulation.step();
+        is_taken = true;
+      } catch (const Error& error) {
+        REQUIRE(error.kind() == ErrorKind::interrupted);
+        REQUIRE(broken.simulation.state().iterations == before);
+      }
+    }
+    broken.simulation.set_stop({});
+    REQUIRE(same_bits(broken.simulation.state(), whole.simulation.state()));
+  }
+}
+
 TEST_CASE("iterations that are neither a number of them nor automatic are refused") {
   for (const Index wrong : {0, -2}) {
     CHECK_THROWS_WITH_AS(Simulation({.iterations = wrong}), doctest::Contains("or `automatic`"), Error);
