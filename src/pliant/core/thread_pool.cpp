@@ -8,6 +8,13 @@
 #include "pliant/core/processors.h"
 
 namespace pliant {
+namespace {
+
+/// How long threads look for the next loop of a step before they sleep: longer than what lies between most loops, as
+/// long as it takes the system to wake a dozen of them. Those that have a processor to themselves only.
+constexpr auto patience = std::chrono::microseconds(50);
+
+}  // namespace
 
 ThreadPool::ThreadPool(int threads) {
   if (threads < 0) {
@@ -17,6 +24,7 @@ ThreadPool::ThreadPool(int threads) {
   workers_ = std::vector<Worker>(static_cast<std::size_t>(threads - 1));
   shares_ = std::vector<Share>(static_cast<std::size_t>(threads));
   active_ = threads;
+  patience_ = threads <= processor_count() ? patience : WaitedCount::Patience::zero();
   int started = 1;
   try {
     for (; started < threads; ++started) {
@@ -37,10 +45,14 @@ void ThreadPool::stop() {
   stop_ = true;
   for (Worker& worker : workers_) {
     if (!worker.thread.joinable()) continue;
-    worker.calls.fetch_add(1, std::memory_order_release);
-    worker.calls.notify_one();
+    summon(worker);
     worker.thread.join();
   }
+}
+
+void ThreadPool::summon(Worker& worker) {
+  worker.calls.value.fetch_add(1);
+  worker.calls.wake();
 }
 
 void ThreadPool::run(Index count, void* context, Call call) {
@@ -52,16 +64,14 @@ void ThreadPool::run(Index count, void* context, Call call) {
     share.next.store(static_cast<Index>(std::int64_t{count} * t / sharing_), std::memory_order_relaxed);
     share.end = static_cast<Index>(std::int64_t{count} * (t + 1) / sharing_);
   }
-  gate_.store(is_open, std::memory_order_release);
+  gate_.value.store(is_open, std::memory_order_release);
   for (int t = 1; t < sharing_; ++t) {
-    Worker& worker = workers_[static_cast<std::size_t>(t - 1)];
-    worker.calls.fetch_add(1, std::memory_order_release);
-    worker.calls.notify_one();
+    summon(workers_[static_cast<std::size_t>(t - 1)]);
   }
   take_iterations(0);
   // All iterations are taken: whoever comes now stays out, and who is inside is waited for.
-  std::uint32_t inside = gate_.fetch_and(~is_open, std::memory_order_acq_rel) & ~is_open;
-  for (; inside != 0; inside = gate_.load(std::memory_order_acquire)) gate_.wait(inside, std::memory_order_acquire);
+  std::uint32_t inside = gate_.value.fetch_and(~is_open) & ~is_open;
+  while (inside != 0) inside = gate_.wait_while(inside, patience_);
   if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
 }
 
@@ -84,23 +94,23 @@ void ThreadPool::take_iterations(int thread) {
 
 /// Whether there is a loop that may be entered; then leave() must follow.
 bool ThreadPool::enter() {
-  std::uint32_t gate = gate_.load(std::memory_order_acquire);
+  std::uint32_t gate = gate_.value.load(std::memory_order_acquire);
   while ((gate & is_open) != 0) {
-    if (gate_.compare_exchange_weak(gate, gate + 1, std::memory_order_acq_rel, std::memory_order_acquire)) return true;
+    if (gate_.value.compare_exchange_weak(gate, gate + 1, std::memory_order_acq_rel, std::memory_order_acquire))
+      return true;
   }
   return false;
 }
 
 void ThreadPool::leave() {
-  if (gate_.fetch_sub(1, std::memory_order_acq_rel) == 1) gate_.notify_one();  // closed, and nobody is left inside
+  if (gate_.value.fetch_sub(1) == 1) gate_.wake();  // closed, and nobody is left inside
 }
 
 void ThreadPool::work(int thread) {
-  std::atomic<std::uint32_t>& calls = workers_[static_cast<std::size_t>(thread - 1)].calls;
+  WaitedCount& calls = workers_[static_cast<std::size_t>(thread - 1)].calls;
   std::uint32_t seen = 0;
   for (;;) {
-    calls.wait(seen, std::memory_order_acquire);
-    seen = calls.load(std::memory_order_acquire);
+    seen = calls.wait_while(seen, patience_);
     if (stop_) return;
     if (!enter()) continue;
     // A loop with fewer threads may have come since this one was called: it has no share then.

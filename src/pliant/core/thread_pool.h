@@ -5,6 +5,8 @@
 //
 // A loop ends when its iterations are done, not when every thread has looked for one: a thread that the system does not
 // run, because other programs want the processor, holds nobody up unless it is in the middle of an iteration.
+//
+// Between loops threads look for the next one for a while, and give way to others as they do, before they sleep.
 #include <atomic>
 #include <exception>
 #include <mutex>
@@ -13,6 +15,7 @@
 #include <vector>
 
 #include "pliant/core/types.h"
+#include "pliant/core/waited_count.h"
 
 namespace pliant {
 
@@ -52,8 +55,8 @@ class ThreadPool {
     Index end = 0;
   };
   /// One thread besides the caller's.
-  struct alignas(64) Worker {
-    std::atomic<std::uint32_t> calls{0};  // one more for every loop it is called to, and once more to stop
+  struct Worker {
+    WaitedCount calls;  // one more for every loop it is called to, and once more to stop
     std::thread thread;
   };
 
@@ -67,6 +70,7 @@ class ThreadPool {
   }
 
   void stop();
+  static void summon(Worker& worker);
   void run(Index count, void* context, Call call);
   void take_iterations(int thread);
   void work(int thread);
@@ -78,8 +82,9 @@ class ThreadPool {
 
   std::vector<Worker> workers_;
   std::vector<Share> shares_;
-  std::atomic<std::uint32_t> gate_{0};
+  WaitedCount gate_;
   std::atomic<bool> stop_{false};
+  WaitedCount::Patience patience_{};  // of threads that wait for a loop, or for its end
   int active_ = 1;
   int sharing_ = 1;  // threads of the loop under way; this and the rest are written while the gate is closed and empty
   void* context_ = nullptr;
