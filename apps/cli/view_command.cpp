@@ -1,4 +1,5 @@
 // pliant view: a window in which a scene is simulated, or a run played.
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -17,6 +18,7 @@
 #include "pliant/core/printable.h"
 #include "pliant_io/checkpoint/checkpoint.h"
 #include "pliant_io/scene/builtin_scenes.h"
+#include "recent_files.h"
 #include "render/scalar_fields.h"
 #include "sweep/measurement_table.h"
 #include "viewer/live_source.h"
@@ -144,12 +146,36 @@ Shown show_scene(const ViewArguments& arguments, std::shared_ptr<pliant::Scene> 
           std::move(greeting)};
 }
 
-std::vector<pliant_viewer::OpenableScene> openable_scenes() {
+/// The folder of a file, with ~ for one's own.
+std::string shown_folder(const fs::path& file) {
+  const std::string folder = file.parent_path().string();
+  const char* home = std::getenv("HOME");
+  if (home == nullptr || home[0] == '\0' || !folder.starts_with(home)) return pliant::printable(folder);
+  const std::string rest = folder.substr(std::string(home).size());
+  return pliant::printable(rest.empty() || rest[0] == '/' ? "~" + rest : folder);
+}
+
+/// What was opened of late, but for what is shown, then the built-in scenes.
+std::vector<pliant_viewer::OpenableScene> openable_scenes(const ViewArguments& shown) {
   std::vector<pliant_viewer::OpenableScene> scenes;
+  for (const fs::path& file : read_recent_files(recent_files_path())) {
+    if (std::error_code ignored; fs::equivalent(file, shown.scene, ignored)) continue;
+    scenes.push_back({pliant::printable(file.filename().string()), shown_folder(file), file.string()});
+  }
+  const auto first = scenes.size();
   for (const pliant::BuiltinScene& scene : pliant::builtin_scenes()) {
     scenes.push_back({std::string(scene.name), pliant::scene_description(scene.text, scene.name)});
   }
+  if (first > 0) {
+    scenes.front().heading = "Opened before";
+    scenes[first].heading = "Built in";
+  }
   return scenes;
+}
+
+void remember(const ViewArguments& shown) {
+  const bool is_builtin = std::ranges::count(pliant::builtin_scenes(), shown.scene, &pliant::BuiltinScene::name) > 0;
+  if (!is_builtin) remember_file(recent_files_path(), shown.scene);
 }
 
 /// As it was asked for on the command line, for what was chosen in the window: no option of the scene's own holds.
@@ -164,13 +190,15 @@ ViewArguments arguments_for(const std::string& what, const ViewArguments& first)
 /// Shows one thing after another, until the window is closed.
 int show(pliant_viewer::Window& window, Shown shown, bool chooses_scene) {
   while (true) {
+    remember(shown.arguments);
     std::optional<Shown> next;
     pliant_viewer::ViewerOptions options;
     options.appearance = shown.source->appearance();
     if (shown.arguments.samples) options.samples = static_cast<int>(*shown.arguments.samples);
-    options.scenes = openable_scenes();
+    options.scenes = openable_scenes(shown.arguments);
     options.chooses_scene = std::exchange(chooses_scene, false);
     options.greeting = shown.greeting;
+    options.saved = [](const fs::path& file) { remember_file(recent_files_path(), file); };
     options.open = [&](const std::string& what) -> std::string {
       try {
         const ViewArguments arguments = arguments_for(what, shown.arguments);

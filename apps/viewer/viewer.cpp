@@ -69,6 +69,7 @@ Viewer::Viewer(Window& window, ViewSource& source, ViewerOptions options)
       interaction_(source.live() != nullptr ? source.live()->suggested_pull() : 1),
       frame_interval_(1 / most_frames_a_second),
       open_(std::move(options.open)),
+      saved_(std::move(options.saved)),
       scene_panel_(std::move(options.scenes), options.chooses_scene) {
   if (!source.knows(appearance_.color)) appearance_.color = pliant::ColorBy::none;
   if (appearance_.color != source.appearance().color) source_.show(appearance_.color);

@@ -28,6 +28,8 @@ struct ViewerOptions {
   /// Opens what was dropped onto the window, typed, or chosen, a file, a folder of a run or the name of a scene, to be
   /// shown once run() has returned; returns "", or what is wrong with it. None: nothing can be opened.
   std::function<std::string(const std::string&)> open = {};
+  /// Told of every scene and session that was saved, on the thread of the scene.
+  std::function<void(const std::filesystem::path&)> saved = {};
   std::vector<OpenableScene> scenes = {};  ///< to choose from
   bool chooses_scene = false;              ///< begin with the list of them
   std::string greeting = {};               ///< shown at first
@@ -142,6 +144,7 @@ class Viewer {
   bool is_help_open_ = false;
   bool wants_picture_ = false;
   std::function<std::string(const std::string&)> open_;
+  std::function<void(const std::filesystem::path&)> saved_;
   ScenePanel scene_panel_;
   PlotsPanel plots_panel_;
   std::string waits_;     // to be opened once the picture has said so; empty: nothing

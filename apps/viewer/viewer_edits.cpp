@@ -56,23 +56,26 @@ pliant::ViewSettings Viewer::placed_appearance() const {
 void Viewer::save_scene(bool as_new) {
   LiveScene* live = source_.live();
   if (live == nullptr) return say("this is a run; its scene is in the file it was made from");
-  live->post([saved = saved_scene_, view = placed_appearance(), as_new, folder = picture_folder_,
-              name = live->name()](CommandContext& context) {
+  live->post([saved = saved_scene_, view = placed_appearance(), as_new, folder = picture_folder_, name = live->name(),
+              tell = saved_](CommandContext& context) {
     const fs::path file = as_new || saved->empty() ? free_name(folder, name, {".json", ".pliant"}) : *saved;
     context.message = "saved " + saved_names(context.session.save(file, view));
     *saved = file;
+    if (tell) tell(file);
   });
 }
 
 void Viewer::save_session() {
   LiveScene* live = source_.live();
   if (live == nullptr) return say("this is a run; only what is simulated here can be saved as a session");
-  live->post([view = placed_appearance(), folder = picture_folder_, name = live->name()](CommandContext& context) {
+  live->post([view = placed_appearance(), folder = picture_folder_, name = live->name(),
+              tell = saved_](CommandContext& context) {
     const fs::path file = free_name(folder, name, {".session"});
     const SessionRecord record = context.session.record(file, view);
     write_session_record(file, record);
     context.message = fmt::format("saved the session, {} steps and {} actions: {}", record.steps, record.actions.size(),
                                   saved_names({file}));
+    if (tell) tell(file);
   });
 }
 

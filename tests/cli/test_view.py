@@ -47,8 +47,8 @@ class WithDisplay(unittest.TestCase):
         os.close(write_end)
         with os.fdopen(read_end) as pipe:
             number = pipe.readline().strip()
-        cls.environment = WITHOUT_DISPLAY | {"DISPLAY": ":" + number}
-        cls.folder = pathlib.Path(tempfile.mkdtemp())
+        cls.folder = pathlib.Path(tempfile.mkdtemp()).resolve()
+        cls.environment = WITHOUT_DISPLAY | {"DISPLAY": ":" + number, "XDG_STATE_HOME": str(cls.folder / "state")}
 
     @classmethod
     def tearDownClass(cls):
@@ -114,6 +114,51 @@ class WithDisplay(unittest.TestCase):
         _, errors = process.communicate()
         self.assertEqual((process.returncode, errors), (0, ""))
 
+    def open_and_close(self, what, title):
+        process = self.start(what, "--paused")
+        self.wait_for_window(process, title)
+        process.send_signal(signal.SIGTERM)
+        _, errors = process.communicate(timeout=120)
+        self.assertEqual((process.returncode, errors), (130, ""))
+
+    @unittest.skipUnless(shutil.which("xdotool"), "xdotool is not installed")
+    def test_what_was_opened_is_remembered_newest_first(self):
+        recent = self.folder / "state" / "pliant" / "recent.json"
+        recent.unlink(missing_ok=True)
+        one, two, gone = (self.folder / name for name in ("one.obj", "two.obj", "gone.obj"))
+        for mesh in (one, two, gone):
+            mesh.write_text(QUAD)
+
+        def remembered():
+            return json.loads(recent.read_text())
+
+        self.open_and_close(one, "one")
+        self.open_and_close("flag", "flag")  # a built-in scene is in the list anyway
+        self.assertEqual(remembered(), [str(one)])
+        self.open_and_close(gone, "gone")
+        gone.unlink()
+        self.open_and_close(two, "two")
+        self.open_and_close(os.path.relpath(one), "one")
+        self.assertEqual(remembered(), [str(one), str(two), str(gone)])  # gone with a disk, perhaps
+        for nonsense in ("", "[[[", '{"a": 1}', '[1, null, ["x"], "/nowhere"]', "\xff\0"):
+            recent.write_text(nonsense, encoding="latin-1")
+            self.open_and_close(two, "two")
+            self.assertEqual(remembered()[0], str(two))
+
+    @unittest.skipUnless(shutil.which("xdotool"), "xdotool is not installed")
+    def test_where_nothing_can_be_remembered_all_works(self):
+        occupied = self.folder / "occupied"
+        occupied.write_text("a file where a folder would be")
+        mesh = self.folder / "quad.obj"
+        mesh.write_text(QUAD)
+        before = self.environment
+        try:
+            type(self).environment = before | {"XDG_STATE_HOME": str(occupied)}
+            self.open_and_close(mesh, "quad")
+        finally:
+            type(self).environment = before
+        self.assertEqual(occupied.read_text(), "a file where a folder would be")
+
     @unittest.skipUnless(shutil.which("xdotool"), "xdotool is not installed")
     def test_a_session_is_saved_replayed_shown_and_filmed(self):
         process = self.start("curtain_wind", cwd=self.folder)
@@ -126,6 +171,10 @@ class WithDisplay(unittest.TestCase):
         while not session.exists() and time.monotonic() < deadline:
             time.sleep(0.1)
         self.assertTrue(session.exists())
+        recent = self.folder / "state" / "pliant" / "recent.json"
+        while not (recent.exists() and str(session) in recent.read_text()) and time.monotonic() < deadline:
+            time.sleep(0.1)
+        self.assertEqual(json.loads(recent.read_text())[0], str(session))
         process.send_signal(signal.SIGINT)
         process.communicate(timeout=120)
 

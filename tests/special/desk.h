@@ -60,7 +60,9 @@ struct Desk {
                 .samples = samples,
                 .picture_folder = folder.path(),
                 .open = std::move(open),
-                .scenes = {{"flag", "A flag"}, {"towel", "A towel over a rail"}}}) {
+                .scenes = {{"flag", "A flag"},
+                           {"towel", "A towel over a rail"},
+                           {"shirt.obj", "~/meshes", "/home/meshes/shirt.obj", "Opened before"}}}) {
     turn_until([&] { return viewer.frame_count() > 3; });
     xdotool("search --sync --name 'Pliant test' windowfocus");
     turns(3);

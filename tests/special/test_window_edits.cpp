@@ -235,12 +235,16 @@ TEST_CASE("a scene is chosen from the list, or its name typed") {
   desk.click({(rect[0] + rect[2]) / 2, (rect[1] + rect[3]) / 2});
   desk.turn_until([&] { return desk.viewer.message() == "not now"; });
   CHECK(opened == std::vector<std::string>{"towel"});
+  const auto shirt = desk.viewer.scene_panel().place_of("shirt.obj").value();
+  desk.click({(shirt[0] + shirt[2]) / 2, (shirt[1] + shirt[3]) / 2});
+  desk.turn_until([&] { return opened.size() == 2; });
+  CHECK(opened.back() == "/home/meshes/shirt.obj");  // not the name that is shown
   const auto first = desk.viewer.scene_panel().place_of("flag").value();
   desk.click({(first[0] + first[2]) / 2, first[1] - 22});  // the field above the list
   xdotool("type my_mesh.obj");
   desk.turns(4);
   desk.key("Return");
-  desk.turn_until([&] { return opened.size() == 2; });
+  desk.turn_until([&] { return opened.size() == 3; });
   CHECK(opened.back() == "my_mesh.obj");
   // Keys that are typed there are none of the window's.
   CHECK(desk.shown().is_playing);

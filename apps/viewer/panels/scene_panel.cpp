@@ -14,6 +14,35 @@ std::optional<std::array<float, 4>> ScenePanel::place_of(const std::string& scen
   return places_[number];
 }
 
+/// Returns whether the row was clicked.
+bool ScenePanel::draw_row(const OpenableScene& scene, float column) {
+  if (!scene.heading.empty()) {
+    if (!places_.empty()) ImGui::Spacing();
+    ImGui::TextUnformatted(scene.heading.c_str());
+    ImGui::Spacing();
+  }
+  ImGui::PushID(static_cast<int>(places_.size()));
+  const float top = ImGui::GetCursorPosY();
+  const float name_left = ImGui::GetCursorPosX();
+  const float wrap = ImGui::GetContentRegionMax().x;
+  // a long name pushes what is said of it aside
+  const float left = name_left + std::max(column, ImGui::CalcTextSize((scene.name + "  ").c_str()).x);
+  const float text_height = ImGui::CalcTextSize(scene.description.c_str(), nullptr, false, wrap - left).y;
+  const bool is_clicked = ImGui::Selectable("##open", false, 0, {0, std::max(text_height, ImGui::GetTextLineHeight())});
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  places_.push_back({low.x, low.y, high.x, high.y});
+  const float below = ImGui::GetCursorPosY();
+  ImGui::SetCursorPosY(top);
+  ImGui::TextUnformatted(scene.name.c_str());
+  ImGui::SetCursorPos({left, top});
+  ImGui::PushTextWrapPos(wrap);
+  ImGui::TextDisabled("%s", scene.description.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::SetCursorPosY(below);
+  ImGui::PopID();
+  return is_clicked;
+}
+
 std::optional<std::string> ScenePanel::draw(const Vec2f& picture, const PanelStyle& style) {
   std::optional<std::string> chosen;
   places_.clear();
@@ -44,23 +73,7 @@ std::optional<std::string> ScenePanel::draw(const Vec2f& picture, const PanelSty
   ImGui::BeginChild("list");
   const float column = 150 * style.unit;
   for (const OpenableScene& scene : scenes_) {
-    ImGui::PushID(scene.name.c_str());
-    const float top = ImGui::GetCursorPosY();
-    const float left = ImGui::GetCursorPosX() + column;
-    const float wrap = ImGui::GetContentRegionMax().x;
-    const float text_height = ImGui::CalcTextSize(scene.description.c_str(), nullptr, false, wrap - left).y;
-    if (ImGui::Selectable("##open", false, 0, {0, text_height})) chosen = scene.name;
-    const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
-    places_.push_back({low.x, low.y, high.x, high.y});
-    const float below = ImGui::GetCursorPosY();
-    ImGui::SetCursorPosY(top);
-    ImGui::TextUnformatted(scene.name.c_str());
-    ImGui::SetCursorPos({left, top});
-    ImGui::PushTextWrapPos(wrap);
-    ImGui::TextDisabled("%s", scene.description.c_str());
-    ImGui::PopTextWrapPos();
-    ImGui::SetCursorPosY(below);
-    ImGui::PopID();
+    if (draw_row(scene, column)) chosen = scene.opens.empty() ? scene.name : scene.opens;
   }
   ImGui::EndChild();
   ImGui::End();

@@ -14,6 +14,8 @@ namespace pliant_viewer {
 struct OpenableScene {
   std::string name;
   std::string description;
+  std::string opens = {};    ///< what is asked for; empty: the name
+  std::string heading = {};  ///< of the part of the list that begins here; empty: none
 };
 
 class ScenePanel {
@@ -29,6 +31,8 @@ class ScenePanel {
   bool is_open = false;
 
  private:
+  bool draw_row(const OpenableScene& scene, float column);
+
   std::vector<OpenableScene> scenes_;
   std::vector<std::array<float, 4>> places_;
   std::array<char, 1024> typed_{};
