@@ -1,6 +1,7 @@
 #include "recent_files.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 #include <exception>
 #include <string>
@@ -16,7 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t most_files = 10;
-constexpr std::size_t most_remembered = 30;  // those on a disk that is away come back with it
+constexpr std::uintmax_t most_bytes = 1 << 20;  // of the list
+constexpr std::size_t most_remembered = 30;     // those on a disk that is away come back with it
 
 bool is_there(const fs::path& file) {
   std::error_code ignored;
@@ -25,7 +27,8 @@ bool is_there(const fs::path& file) {
 
 std::vector<fs::path> read_all(const fs::path& list) {
   std::vector<fs::path> files;
-  if (!is_there(list)) return files;
+  std::error_code ignored;
+  if (const auto size = fs::file_size(list, ignored); ignored || size > most_bytes) return files;
   try {
     for (const auto& name : nlohmann::json::parse(pliant::read_file(list))) {
       if (name.is_string() && files.size() < most_remembered) files.emplace_back(name.get<std::string>());
@@ -56,7 +59,7 @@ std::vector<fs::path> read_recent_files(const fs::path& list) {
 void remember_file(const fs::path& list, const fs::path& file) {
   if (list.empty() || !is_there(file)) return;
   try {
-    fs::path whole = fs::canonical(file);
+    fs::path whole = fs::absolute(file).lexically_normal();  // a link stays one: a scene's meshes lie beside it
     if (!whole.has_filename()) whole = whole.parent_path();  // out/flag/
     std::vector<fs::path> files = read_all(list);
     std::erase(files, whole);

@@ -30,6 +30,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::size_t longest_name = 48;             // in the list of scenes [bytes]
 constexpr const char* first_scene = "curtain_wind";  // behind the list of scenes
 
 struct ViewArguments : AppearanceArguments {
@@ -150,9 +151,9 @@ Shown show_scene(const ViewArguments& arguments, std::shared_ptr<pliant::Scene> 
 std::string shown_folder(const fs::path& file) {
   const std::string folder = file.parent_path().string();
   const char* home = std::getenv("HOME");
-  if (home == nullptr || home[0] == '\0' || !folder.starts_with(home)) return pliant::printable(folder);
+  if (home == nullptr || home[0] == '\0' || !folder.starts_with(home)) return pliant::printable_place(folder);
   const std::string rest = folder.substr(std::string(home).size());
-  return pliant::printable(rest.empty() || rest[0] == '/' ? "~" + rest : folder);
+  return pliant::printable_place(rest.empty() || rest[0] == '/' ? "~" + rest : folder);
 }
 
 /// What was opened of late, but for what is shown, then the built-in scenes.
@@ -160,14 +161,15 @@ std::vector<pliant_viewer::OpenableScene> openable_scenes(const ViewArguments& s
   std::vector<pliant_viewer::OpenableScene> scenes;
   for (const fs::path& file : read_recent_files(recent_files_path())) {
     if (std::error_code ignored; fs::equivalent(file, shown.scene, ignored)) continue;
-    scenes.push_back({pliant::printable(file.filename().string()), shown_folder(file), file.string()});
+    scenes.push_back(
+        {pliant::printable_place(file.filename().string(), longest_name), shown_folder(file), file.string()});
   }
   const auto first = scenes.size();
   for (const pliant::BuiltinScene& scene : pliant::builtin_scenes()) {
     scenes.push_back({std::string(scene.name), pliant::scene_description(scene.text, scene.name)});
   }
   if (first > 0) {
-    scenes.front().heading = "Opened before";
+    scenes.front().heading = "Recent";
     scenes[first].heading = "Built in";
   }
   return scenes;

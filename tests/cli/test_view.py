@@ -140,6 +140,11 @@ class WithDisplay(unittest.TestCase):
         self.open_and_close(two, "two")
         self.open_and_close(os.path.relpath(one), "one")
         self.assertEqual(remembered(), [str(one), str(two), str(gone)])  # gone with a disk, perhaps
+        link = self.folder / "elsewhere" / "link.obj"
+        link.parent.mkdir(exist_ok=True)
+        link.symlink_to(two)
+        self.open_and_close(link, "link")
+        self.assertEqual(remembered()[0], str(link))  # a scene looks for its files beside the link
         for nonsense in ("", "[[[", '{"a": 1}', '[1, null, ["x"], "/nowhere"]', "\xff\0"):
             recent.write_text(nonsense, encoding="latin-1")
             self.open_and_close(two, "two")

@@ -62,7 +62,7 @@ struct Desk {
                 .open = std::move(open),
                 .scenes = {{"flag", "A flag"},
                            {"towel", "A towel over a rail"},
-                           {"shirt.obj", "~/meshes", "/home/meshes/shirt.obj", "Opened before"}}}) {
+                           {"shirt.obj", "~/meshes", "/home/meshes/shirt.obj", "Recent"}}}) {
     turn_until([&] { return viewer.frame_count() > 3; });
     xdotool("search --sync --name 'Pliant test' windowfocus");
     turns(3);

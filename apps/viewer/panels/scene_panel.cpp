@@ -26,7 +26,8 @@ bool ScenePanel::draw_row(const OpenableScene& scene, float column) {
   const float name_left = ImGui::GetCursorPosX();
   const float wrap = ImGui::GetContentRegionMax().x;
   // a long name pushes what is said of it aside
-  const float left = name_left + std::max(column, ImGui::CalcTextSize((scene.name + "  ").c_str()).x);
+  const float name_width = ImGui::CalcTextSize((scene.name + "  ").c_str()).x;
+  const float left = name_left + std::clamp(name_width, column, std::max(column, 0.7F * (wrap - name_left)));
   const float text_height = ImGui::CalcTextSize(scene.description.c_str(), nullptr, false, wrap - left).y;
   const bool is_clicked = ImGui::Selectable("##open", false, 0, {0, std::max(text_height, ImGui::GetTextLineHeight())});
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();

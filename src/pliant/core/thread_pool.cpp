@@ -10,8 +10,8 @@
 namespace pliant {
 namespace {
 
-/// How long threads look for the next loop of a step before they sleep: longer than what lies between most loops, as
-/// long as it takes the system to wake a dozen of them. Those that have a processor to themselves only.
+/// How long threads look for the next loop of a step before they sleep: longer than what lies between most loops. None
+/// look where a pool has more threads than the machine has processors.
 constexpr auto patience = std::chrono::microseconds(50);
 
 }  // namespace

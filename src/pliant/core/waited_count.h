@@ -13,7 +13,7 @@ class alignas(64) WaitedCount {
 
   std::atomic<std::uint32_t> value{0};
 
-  /// Waits until the value is another than `old`, and returns it. Only one thread may wait at a time.
+  /// Waits until the value differs from `old`, and returns it. Only one thread may wait at a time.
   std::uint32_t wait_while(std::uint32_t old, Patience patience);
   /// To be called after the value was changed: costs nothing unless the thread that waits has gone to sleep.
   void wake() {
