@@ -12,7 +12,7 @@ namespace {
 
 /// How long threads look for the next loop of a step before they sleep: longer than what lies between most loops. None
 /// look where a pool has more threads than the machine has processors.
-constexpr auto patience = std::chrono::microseconds(50);
+constexpr auto time_to_look = std::chrono::microseconds(50);
 
 }  // namespace
 
@@ -24,7 +24,7 @@ ThreadPool::ThreadPool(int threads) {
   workers_ = std::vector<Worker>(static_cast<std::size_t>(threads - 1));
   shares_ = std::vector<Share>(static_cast<std::size_t>(threads));
   active_ = threads;
-  patience_ = threads <= processor_count() ? patience : WaitedCount::Patience::zero();
+  patience_ = threads <= processor_count() ? time_to_look : WaitedCount::Patience::zero();
   int started = 1;
   try {
     for (; started < threads; ++started) {
