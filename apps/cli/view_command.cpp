@@ -18,11 +18,11 @@
 #include "pliant/core/printable.h"
 #include "pliant_io/checkpoint/checkpoint.h"
 #include "pliant_io/scene/builtin_scenes.h"
-#include "recent_files.h"
 #include "render/scalar_fields.h"
 #include "sweep/measurement_table.h"
 #include "viewer/live_source.h"
 #include "viewer/playback.h"
+#include "viewer/recent_files.h"
 #include "viewer/viewer.h"
 
 namespace pliant_cli {
@@ -159,7 +159,7 @@ std::string shown_folder(const fs::path& file) {
 /// What was opened of late, but for what is shown, then the built-in scenes.
 std::vector<pliant_viewer::OpenableScene> openable_scenes(const ViewArguments& shown) {
   std::vector<pliant_viewer::OpenableScene> scenes;
-  for (const fs::path& file : read_recent_files(recent_files_path())) {
+  for (const fs::path& file : pliant_viewer::read_recent_files(pliant_viewer::recent_files_path())) {
     if (std::error_code ignored; fs::equivalent(file, shown.scene, ignored)) continue;
     scenes.push_back(
         {pliant::printable_place(file.filename().string(), longest_name), shown_folder(file), file.string()});
@@ -175,9 +175,13 @@ std::vector<pliant_viewer::OpenableScene> openable_scenes(const ViewArguments& s
   return scenes;
 }
 
+void remember_file(const fs::path& file) {
+  pliant_viewer::remember_file(pliant_viewer::recent_files_path(), file);
+}
+
 void remember(const ViewArguments& shown) {
   const bool is_builtin = std::ranges::count(pliant::builtin_scenes(), shown.scene, &pliant::BuiltinScene::name) > 0;
-  if (!is_builtin) remember_file(recent_files_path(), shown.scene);
+  if (!is_builtin) remember_file(shown.scene);
 }
 
 /// As it was asked for on the command line, for what was chosen in the window: no option of the scene's own holds.
@@ -200,7 +204,7 @@ int show(pliant_viewer::Window& window, Shown shown, bool chooses_scene) {
     options.scenes = openable_scenes(shown.arguments);
     options.chooses_scene = std::exchange(chooses_scene, false);
     options.greeting = shown.greeting;
-    options.saved = [](const fs::path& file) { remember_file(recent_files_path(), file); };
+    options.saved = remember_file;
     options.open = [&](const std::string& what) -> std::string {
       try {
         const ViewArguments arguments = arguments_for(what, shown.arguments);

@@ -4,7 +4,7 @@
 set(PLIANT_LEFT_OUT_IN_NODE
   core/test_atomic_file         # locks, links and limits of a file system, which node's files are without
   core/test_thread_pool         # starts threads
-  core/test_waited_count       # starts threads
+  core/test_waited_count        # starts threads
   determinism/test_threads      # the same
   files/test_atomic_folder      # locks of folders
   materials/test_hung_material  # Bessel functions, which libc++ does not have

@@ -10,8 +10,8 @@
 namespace pliant {
 namespace {
 
-/// How long threads look for the next loop of a step before they sleep: longer than what lies between most loops. None
-/// look where a pool has more threads than the machine has processors.
+/// How long threads look for the next loop of a step before they sleep; what more or less gives is in
+/// benchmarks/NOTES.md. None look where a pool has more threads than the machine has processors.
 constexpr auto time_to_look = std::chrono::microseconds(50);
 
 }  // namespace

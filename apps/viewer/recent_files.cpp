@@ -1,4 +1,4 @@
-#include "recent_files.h"
+#include "viewer/recent_files.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -11,7 +11,7 @@
 #include "pliant_io/files/atomic_file.h"
 #include "pliant_io/files/read_file.h"
 
-namespace pliant_cli {
+namespace pliant_viewer {
 namespace {
 
 namespace fs = std::filesystem;
@@ -75,4 +75,4 @@ void remember_file(const fs::path& list, const fs::path& file) {
   }
 }
 
-}  // namespace pliant_cli
+}  // namespace pliant_viewer

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-namespace pliant_cli {
+namespace pliant_viewer {
 
 /// Where the list is kept; empty where the environment names no folder.
 std::filesystem::path recent_files_path();
@@ -15,4 +15,4 @@ std::vector<std::filesystem::path> read_recent_files(const std::filesystem::path
 /// Puts a file or folder, made absolute, at the head of the list. What does not exist is not taken: a built-in scene.
 void remember_file(const std::filesystem::path& list, const std::filesystem::path& file);
 
-}  // namespace pliant_cli
+}  // namespace pliant_viewer
