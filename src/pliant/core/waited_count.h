@@ -1,6 +1,6 @@
 #pragma once
-// A count on which one thread waits while others change it. It looks for a while before it sleeps: to wake a thread
-// takes the system 5 to 50 µs, as long as many loops of a step take themselves.
+// A count on which one thread waits while others change it. It looks for a while before it sleeps: to wake many threads
+// takes the system as long as many loops of a step take themselves.
 #include <atomic>
 #include <chrono>
 #include <cstdint>
