@@ -9,6 +9,8 @@
 namespace pliant_render {
 namespace {
 
+const Vec3f lit_tone(0.76F, 0.81F, 0.88F);  // of a collider that the mouse is over
+
 constexpr float floor_tone = 0.86F;  // of the background, as of the ground
 constexpr int plane_rings = 24;
 constexpr int plane_sectors = 48;
@@ -88,24 +90,29 @@ Bounds ColliderPainter::bounds_in(const Mat4f& frame, const Vec3f& light) const 
 }
 
 void ColliderPainter::draw_triangles(const Program& program, const Mat4f& frame) const {
-  for (const DrawnCollider& each : colliders_) {
-    const auto solid = solids_.find(each.surface.get());
-    if (solid == solids_.end()) continue;
-    program.set("place", Mat4f(frame * matrix_of(each.pose)));
-    glBindVertexArray(solid->second->array.id());
-    glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(each.surface->corners.size()));
-  }
+  for (const DrawnCollider& each : colliders_) draw_triangles_of(each, program, frame);
 }
 
-void ColliderPainter::draw_solids(const Projection& projection, const SceneLight& light) const {
+void ColliderPainter::draw_triangles_of(const DrawnCollider& each, const Program& program, const Mat4f& frame) const {
+  const auto solid = solids_.find(each.surface.get());
+  if (solid == solids_.end()) return;
+  program.set("place", Mat4f(frame * matrix_of(each.pose)));
+  glBindVertexArray(solid->second->array.id());
+  glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(each.surface->corners.size()));
+}
+
+void ColliderPainter::draw_solids(const Projection& projection, const SceneLight& light,
+                                  std::optional<pliant::Index> lit) const {
   if (solids_.empty()) return;
   solid_.use();
   solid_.set("camera", projection.camera);
   solid_.set("setback", projection.setback);
   light.set(solid_);
-  solid_.set("held", solid_tone);
   solid_.set("is_colored", 0);
-  draw_triangles(solid_, Mat4f::Identity());
+  for (const DrawnCollider& each : colliders_) {
+    solid_.set("held", each.number == lit ? lit_tone : solid_tone);
+    draw_triangles_of(each, solid_, Mat4f::Identity());
+  }
 }
 
 void ColliderPainter::draw_plane(const Mat4f& plane, const PlaneLook& look, const ShadowArea& shadow,

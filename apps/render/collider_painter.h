@@ -2,6 +2,7 @@
 // Draws the colliders of a frame: solid surfaces, and planes with a shadow on them.
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "pliant_io/scene/view_settings.h"
@@ -36,7 +37,8 @@ class ColliderPainter {
 
   /// Draws the triangles of all solids with a program that takes the place of each as its uniform `place`.
   void draw_triangles(const Program& program, const Mat4f& frame) const;
-  void draw_solids(const Projection& projection, const SceneLight& light) const;
+  /// `lit`: the number of one that is drawn brighter.
+  void draw_solids(const Projection& projection, const SceneLight& light, std::optional<pliant::Index> lit) const;
   /// A plane that fades from the middle of the scene outward; the texture bound last is the mask of its shadow.
   struct PlaneLook {
     Vec3f middle;  ///< of the scene [m]
@@ -48,6 +50,8 @@ class ColliderPainter {
                   const Vec3f& to_light) const;
 
  private:
+  void draw_triangles_of(const DrawnCollider& each, const Program& program, const Mat4f& frame) const;
+
   struct Solid {
     std::shared_ptr<const ColliderSurface> surface;
     VertexArray array;

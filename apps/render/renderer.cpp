@@ -15,6 +15,9 @@ constexpr float rope_shadow_width = 1.5F;  // texels of the mask
 constexpr float edge_width = 1.0F;
 constexpr float marker_radius = 3.4F;
 constexpr float least_marker_radius = 2.2F;  // of the picture as it is
+constexpr float selected_radius = 4.6F;
+constexpr float least_selected_radius = 3.0F;
+const Vec3f selected_color(1.0F, 0.70F, 0.12F);
 const Vec3f pin_color(0.98F, 0.98F, 0.97F);  // and of vertices under a test force; no body has it
 const Vec3f edge_color(0.10F, 0.11F, 0.14F);
 constexpr int ground_rings = 24;
@@ -108,6 +111,7 @@ Renderer::Renderer(RenderMesh render_mesh)
   set_up(ropes_array_, ropes_, render_mesh_.ropes);
   set_up(edges_array_, edges_, render_mesh_.edges);
   set_up(markers_array_, markers_, {});
+  set_up(selected_array_, selected_, {});
   glBindVertexArray(0);
   set_up_mask(mask_, mask_target_);
   set_up_mask(half_blurred_, half_blurred_target_);
@@ -195,10 +199,11 @@ void Renderer::draw(const pliant::ViewSettings& appearance, const DrawOptions& o
   glEnable(GL_BLEND);
   light_.shade_floors();
   glEnable(GL_DEPTH_TEST);
-  colliders_.draw_solids(projection(options), light_);
+  colliders_.draw_solids(projection(options), light_, options.lit_collider);
   draw_surface(appearance, options, camera);
   draw_lines(appearance, options, camera, picture);
   draw_markers(options, camera, picture);
+  draw_selection(options, camera, picture);
   glDisable(GL_BLEND);
   glDisable(GL_DEPTH_TEST);
   glBindVertexArray(0);
@@ -437,16 +442,37 @@ void Renderer::draw_lines(const pliant::ViewSettings& appearance, const DrawOpti
   }
 }
 
-void Renderer::draw_markers(const DrawOptions& options, const Mat4f& camera, const Vec2f& picture) const {
-  if (marker_count_ == 0 || !options.markers) return;
+void Renderer::set_selection(const std::vector<std::uint32_t>& vertices) {
+  glBindVertexArray(selected_array_.id());
+  upload(selected_, GL_ELEMENT_ARRAY_BUFFER, vertices, GL_DYNAMIC_DRAW);
+  glBindVertexArray(0);
+  selected_count_ = count_of(vertices);
+}
+
+void Renderer::set_up_markers(const DrawOptions& options, const Mat4f& camera, const Vec2f& picture) const {
   marker_.use();
   marker_.set("camera", camera);
   marker_.set("picture", picture);
   marker_.set("lift", depth_shift(options.viewpoint, bounds_, 4 * lift * bounds_.radius()));
+}
+
+void Renderer::draw_markers(const DrawOptions& options, const Mat4f& camera, const Vec2f& picture) const {
+  if (marker_count_ == 0 || !options.markers) return;
+  set_up_markers(options, camera, picture);
   marker_.set("radius", std::max(marker_radius * options.scale, least_marker_radius * options.pixel));
   marker_.set("tone", pin_color);
   glBindVertexArray(markers_array_.id());
   glDrawElements(GL_POINTS, marker_count_, GL_UNSIGNED_INT, nullptr);
+}
+
+/// Behind the marks of pins, which are smaller, as rings around them.
+void Renderer::draw_selection(const DrawOptions& options, const Mat4f& camera, const Vec2f& picture) const {
+  if (selected_count_ == 0 || !options.selection) return;
+  set_up_markers(options, camera, picture);
+  marker_.set("radius", std::max(selected_radius * options.scale, least_selected_radius * options.pixel));
+  marker_.set("tone", selected_color);
+  glBindVertexArray(selected_array_.id());
+  glDrawElements(GL_POINTS, selected_count_, GL_UNSIGNED_INT, nullptr);
 }
 
 }  // namespace pliant_render

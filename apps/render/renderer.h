@@ -1,5 +1,7 @@
 #pragma once
 // Draws frames of one render mesh with OpenGL 3.3 core, with or without a window.
+#include <optional>
+
 #include "render/collider_painter.h"
 #include "render/gl_objects.h"
 #include "render/render_mesh.h"
@@ -14,6 +16,8 @@ struct DrawOptions {
   float scale = 1;                      ///< of line widths and markers: pixels per pixel of a picture of 720 rows
   float pixel = 1;                      ///< pixels drawn for a pixel of the picture, along a side
   bool markers = true;                  ///< on pinned vertices and those under a test force
+  bool selection = false;               ///< marks on selected vertices
+  std::optional<pliant::Index> lit_collider{};      ///< the number of one that is drawn brighter
   pliant::Quality quality = pliant::Quality::high;  ///< `automatic` is `high` here
 };
 
@@ -25,6 +29,8 @@ class Renderer {
   const RenderMesh& render_mesh() const { return render_mesh_; }
   /// Uploads the positions, values and markers of a frame.
   void set_frame(const FrameContent& frame, pliant::ColorBy color);
+  /// Vertices that are marked as selected in all frames from now on.
+  void set_selection(const std::vector<std::uint32_t>& vertices);
   /// Clears the bound framebuffer of this size [pixels] and draws the frame.
   void draw(const pliant::ViewSettings& appearance, const DrawOptions& options, int width, int height);
 
@@ -54,6 +60,8 @@ class Renderer {
   void draw_lines(const pliant::ViewSettings& appearance, const DrawOptions& options, const Mat4f& camera,
                   const Vec2f& picture) const;
   void draw_markers(const DrawOptions& options, const Mat4f& camera, const Vec2f& picture) const;
+  void draw_selection(const DrawOptions& options, const Mat4f& camera, const Vec2f& picture) const;
+  void set_up_markers(const DrawOptions& options, const Mat4f& camera, const Vec2f& picture) const;
 
   RenderMesh render_mesh_;
   ColliderPainter colliders_;
@@ -63,11 +71,11 @@ class Renderer {
   Vec2f size_ = {1, 1};  // of the picture [pixels]
   bool has_values_ = false;
   pliant::ColorBy map_of_ = pliant::ColorBy::none;
-  GLsizei marker_count_ = 0;
+  GLsizei marker_count_ = 0, selected_count_ = 0;
   std::vector<Vertex> vertices_;
   Program surface_, flat_surface_, line_, marker_, flatten_, flatten_ropes_, blur_, ground_, shadow_;
-  VertexArray triangles_array_, ropes_array_, edges_array_, markers_array_, empty_array_;
-  Buffer vertex_buffer_, looks_, triangles_, ropes_, edges_, markers_;
+  VertexArray triangles_array_, ropes_array_, edges_array_, markers_array_, selected_array_, empty_array_;
+  Buffer vertex_buffer_, looks_, triangles_, ropes_, edges_, markers_, selected_;
   Texture map_, mask_, half_blurred_;
   Framebuffer mask_target_, half_blurred_target_;
 };

@@ -4,9 +4,11 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "pliant/core/types.h"
 #include "viewer/picking.h"
+#include "viewer/rigid_motion.h"
 
 namespace pliant_viewer {
 
@@ -66,12 +68,26 @@ struct Restart {
   bool keep_changes = true;
 };
 struct Save {};
+struct PinVertices {
+  std::vector<Index> vertices;
+};
+struct UnpinVertices {
+  std::vector<Index> vertices;
+};
+struct HoldPins {
+  std::vector<Index> vertices;
+};
+struct MoveHeld {
+  RigidMotion motion;
+};
+struct DropHeld {};
 }  // namespace action
 
 using Action =
     std::variant<action::Grab, action::PullTo, action::PullStiffness, action::LetGo, action::PinVertex, action::Unpin,
                  action::MovePin, action::DropPin, action::MoveCollider, action::DropCollider, action::Set,
-                 action::SetMaterial, action::Undo, action::Redo, action::Restart, action::Save>;
+                 action::SetMaterial, action::Undo, action::Redo, action::Restart, action::Save, action::PinVertices,
+                 action::UnpinVertices, action::HoldPins, action::MoveHeld, action::DropHeld>;
 
 /// An action, and how many steps the session had taken before it.
 struct TimedAction {

@@ -3,19 +3,13 @@
 #include <algorithm>
 #include <vector>
 
-#include <imgui.h>
+#include "viewer/drawing.h"
 
 namespace pliant_viewer {
 namespace {
 
-constexpr ImU32 ink = IM_COL32(40, 44, 52, 255);
-constexpr ImU32 halo = IM_COL32(255, 255, 255, 170);
 constexpr ImU32 red = IM_COL32(219, 26, 33, 255);
 constexpr int half_windings = 18;
-
-ImVec2 to_imgui(const Vec2f& p) {
-  return {p.x(), p.y()};
-}
 
 /// A zigzag between two short straight ends; a straight line where the spring is too short.
 std::vector<ImVec2> coil(const Vec2f& from, const Vec2f& to, float unit) {
@@ -61,6 +55,22 @@ void draw_ring(const Screen& screen, const Vec3f& point, float unit, ImDrawList&
   if (!place) return;
   list.AddCircle(to_imgui(*place), 8.5F * unit, halo, 0, 4 * unit);
   list.AddCircle(to_imgui(*place), 8.5F * unit, red, 0, 1.8F * unit);
+}
+
+void draw_grip(const Screen& screen, const Vec3f& point, float unit, ImDrawList& list) {
+  const auto place = screen.place_of(point);
+  if (!place) return;
+  list.AddCircleFilled(to_imgui(*place), 5.2F * unit, halo);
+  list.AddCircleFilled(to_imgui(*place), 3.6F * unit, amber);
+}
+
+void draw_outline(const Outline& outline, float unit, ImDrawList& list) {
+  if (outline.size() < 2) return;
+  std::vector<ImVec2> line;
+  for (const Vec2f& place : outline) line.push_back(to_imgui(place));
+  const auto count = static_cast<int>(line.size());
+  list.AddPolyline(line.data(), count, halo, ImDrawFlags_Closed, 3.6F * unit);
+  list.AddPolyline(line.data(), count, ink, ImDrawFlags_Closed, 1.4F * unit);
 }
 
 }  // namespace pliant_viewer

@@ -253,6 +253,7 @@ void LiveScene::publish() {
   back_.frame = pliant_render::capture_frame(simulation, *render_mesh_, context_.color, surfaces_);
   back_.color = context_.color;
   back_.pins = pliant_render::pinned_vertices(simulation);
+  back_.movable_pins = session_.pinned_vertices();
   back_.pull = session_.pull();
   update_sliders();
   back_.sliders = sliders_;

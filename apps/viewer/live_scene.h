@@ -21,6 +21,7 @@ struct Snapshot {
   pliant_render::ClipFrame frame;
   pliant::ColorBy color = pliant::ColorBy::none;  ///< what the values of the frame mean
   std::vector<std::uint32_t> pins;                ///< pinned vertices, which can be grabbed, ascending
+  std::vector<PinnedVertex> movable_pins;         ///< those and what else was pinned by hand, ascending
   std::optional<Pull> pull;
   std::shared_ptr<const std::vector<Slider>> sliders;
   std::shared_ptr<const std::vector<BodyMaterial>> materials;

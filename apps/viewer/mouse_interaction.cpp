@@ -12,7 +12,8 @@ constexpr float pin_reach = 9;    // units around a pin that count as the pin
 constexpr float rope_reach = 7;   // units around a rope that count as the rope
 constexpr float zoom_a_notch = 0.88F;
 
-/// Posts an action on the scene that is shown. It is dropped after a restart, since the mesh may be another one then.
+}  // namespace
+
 std::uint64_t post(const MouseInteraction::View& view, LiveScene::Kind kind, std::function<void(Session&)> act) {
   return view.live->post(
       [act = std::move(act), restarts = view.snapshot->restarts](CommandContext& context) {
@@ -20,8 +21,6 @@ std::uint64_t post(const MouseInteraction::View& view, LiveScene::Kind kind, std
       },
       kind);
 }
-
-}  // namespace
 
 void MouseInteraction::handle(const MouseEvent& event, const View& view) {
   switch (event.kind) {

@@ -1,5 +1,6 @@
 #pragma once
 // What the mouse does in the picture: moves the camera, pulls at bodies, sets pins and moves them, moves colliders.
+#include <functional>
 #include <vector>
 
 #include "viewer/live_scene.h"
@@ -86,5 +87,8 @@ class MouseInteraction {
   bool has_moved_ = false;  // since the last flush
   std::vector<Pending> pending_;
 };
+
+/// Posts an action on the scene that is shown. It is dropped after a restart, since the mesh may be another one then.
+std::uint64_t post(const MouseInteraction::View& view, LiveScene::Kind kind, std::function<void(Session&)> act);
 
 }  // namespace pliant_viewer

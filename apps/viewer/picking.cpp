@@ -1,5 +1,6 @@
 #include "viewer/picking.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Geometry>
@@ -8,31 +9,6 @@ namespace pliant_viewer {
 namespace {
 
 using Ray = Screen::Ray;
-
-/// Distance along the ray and barycentric coordinates where it meets the triangle, after Möller and Trumbore (1997);
-/// in double precision, so that it falls through no seam.
-struct Hit {
-  double distance;
-  double v, w;
-};
-std::optional<Hit> meet(const Ray& ray, const Vec3f& a, const Vec3f& b, const Vec3f& c) {
-  constexpr double slack = 1e-9;
-  using Vec3d = Eigen::Vector3d;
-  const Vec3d along = ray.direction.cast<double>();
-  const Vec3d ab = (b - a).cast<double>(), ac = (c - a).cast<double>();
-  const Vec3d normal = along.cross(ac);
-  const double determinant = ab.dot(normal);
-  if (!(std::abs(determinant) > 0)) return {};
-  const Vec3d from_a = (ray.origin - a).cast<double>();
-  const double v = from_a.dot(normal) / determinant;
-  if (!(v >= -slack && v <= 1 + slack)) return {};
-  const Vec3d other = from_a.cross(ab);
-  const double w = along.dot(other) / determinant;
-  if (!(w >= -slack && v + w <= 1 + slack)) return {};
-  const double distance = ac.dot(other) / determinant;
-  if (!(distance > 0)) return {};
-  return Hit{distance, v, w};
-}
 
 /// The share of the way from a to b where the segment is seen nearest to the place, and how near that is.
 struct Nearest {
@@ -70,6 +46,30 @@ std::optional<double> reach(const pliant::ColliderShape& shape, const pliant::Ve
 }
 
 }  // namespace
+
+/// After Möller and Trumbore (1997), in double precision, so that it falls through no seam.
+std::optional<TriangleHit> meet(const Ray& ray, const Vec3f& a, const Vec3f& b, const Vec3f& c) {
+  constexpr double slack = 1e-9;
+  using Vec3d = Eigen::Vector3d;
+  const Vec3d along = ray.direction.cast<double>();
+  const Vec3d ab = (b - a).cast<double>(), ac = (c - a).cast<double>();
+  const Vec3d normal = along.cross(ac);
+  const double determinant = ab.dot(normal);
+  if (!(std::abs(determinant) > 0)) return {};
+  const Vec3d from_a = (ray.origin - a).cast<double>();
+  const double v = from_a.dot(normal) / determinant;
+  if (!(v >= -slack && v <= 1 + slack)) return {};
+  const Vec3d other = from_a.cross(ab);
+  const double w = along.dot(other) / determinant;
+  if (!(w >= -slack && v + w <= 1 + slack)) return {};
+  const double distance = ac.dot(other) / determinant;
+  if (!(distance > 0)) return {};
+  return TriangleHit{distance, v, w};
+}
+
+float distance_to_segment(const Vec2f& a, const Vec2f& b, const Vec2f& place) {
+  return nearest_on(a, b, place).distance;
+}
 
 Screen::Ray Screen::ray(const Vec2f& place) const {
   const float half = std::tan(viewpoint.field_of_view / 2);
@@ -121,8 +121,8 @@ std::optional<SurfacePoint> pick_surface(const pliant_render::RenderMesh& render
     const std::uint32_t a = render_mesh.triangles[t], b = render_mesh.triangles[t + 1],
                         c = render_mesh.triangles[t + 2];
     const auto hit = meet(ray, positions[a], positions[b], positions[c]);
-    if (!hit || hit->distance >= foremost) continue;
-    foremost = hit->distance;
+    if (!hit || hit->depth >= foremost) continue;
+    foremost = hit->depth;
     const double v = std::clamp(hit->v, 0.0, 1.0);
     const double w = std::clamp(hit->w, 0.0, 1.0 - v);
     picked = SurfacePoint{{a, b, c}, Eigen::Vector3d(1 - v - w, v, w).cast<float>()};
@@ -158,6 +158,18 @@ std::optional<ColliderPoint> pick_collider(std::span<const pliant_render::DrawnC
     picked = ColliderPoint{each.number, (eye + *way * along).cast<float>()};
   }
   return picked;
+}
+
+bool is_behind_collider(std::span<const pliant_render::DrawnCollider> colliders, const Screen& screen,
+                        const Vec3f& point) {
+  constexpr double slack = 2e-3;  // of the way: what touches a collider is seen
+  const pliant::Vec3 eye = screen.viewpoint.eye.cast<double>(), along = point.cast<double>() - eye;
+  const double way = (1 - slack) * along.norm();
+  return std::ranges::any_of(colliders, [&](const pliant_render::DrawnCollider& each) {
+    return reach(*each.surface->shape, each.pose.to_frame(eye), each.pose.rotation.conjugate() * along.normalized(),
+                 way)
+        .has_value();
+  });
 }
 
 std::optional<std::uint32_t> pick_vertex(std::span<const std::uint32_t> vertices, std::span<const Vec3f> positions,

@@ -32,6 +32,13 @@ struct Screen {
   Vec3f point_at(const Vec2f& place, float depth) const;
 };
 
+/// How deep [m] a ray meets a triangle, and the weights of its second and third vertex there.
+struct TriangleHit {
+  double depth;
+  double v, w;
+};
+std::optional<TriangleHit> meet(const Screen::Ray& ray, const Vec3f& a, const Vec3f& b, const Vec3f& c);
+
 /// A point on a triangle, or on an edge, whose third weight is 0.
 struct SurfacePoint {
   std::array<std::uint32_t, 3> vertices{};
@@ -41,6 +48,9 @@ struct SurfacePoint {
   /// The nearest of its vertices.
   std::uint32_t nearest_vertex(std::span<const Vec3f> positions) const;
 };
+
+/// How near a place comes to a line between two others.
+float distance_to_segment(const Vec2f& a, const Vec2f& b, const Vec2f& place);
 
 /// The frontmost point of a triangle or a rope at a place; ropes are hit within `reach` of it.
 std::optional<SurfacePoint> pick_surface(const pliant_render::RenderMesh& render_mesh, std::span<const Vec3f> positions,
@@ -59,5 +69,9 @@ struct ColliderPoint {
 /// The frontmost point of a collider at a place, of those that have an end.
 std::optional<ColliderPoint> pick_collider(std::span<const pliant_render::DrawnCollider> colliders,
                                            const Screen& screen, const Vec2f& place);
+
+/// Whether a collider, planes too, stands between the eye and a point.
+bool is_behind_collider(std::span<const pliant_render::DrawnCollider> colliders, const Screen& screen,
+                        const Vec3f& point);
 
 }  // namespace pliant_viewer

@@ -5,15 +5,12 @@
 
 #include "pliant/collision/colliders/builtin.h"
 #include "pliant/constraints/drag.h"
-#include "pliant/constraints/position.h"
 #include "pliant/core/error.h"
-#include "pliant/simulation/held.h"
 
 namespace pliant_viewer {
 namespace {
 
 constexpr std::string_view pull_name = "mouse";
-constexpr std::string_view pin_name = "pinned by hand";  // until the scene is made anew
 
 /// The constraint that draws at a point of a body whose first vertex has this index.
 pliant::Drag drag_of(const Pull& pull, Index first_vertex) {
@@ -35,12 +32,6 @@ pliant::Drag drag_of(const Pull& pull, Index first_vertex) {
   drag.stiffness = pull.stiffness;
   drag.targets = pliant::Points(pull.target.cast<Real>().eval());
   return drag;
-}
-
-/// The diagonal of the box around all bodies [m].
-Real size_of(const pliant::Simulation& simulation) {
-  const pliant::Positions& x = simulation.state().positions;
-  return x.rows() == 0 ? 0 : (x.colwise().maxCoeff() - x.colwise().minCoeff()).norm();
 }
 
 /// Ends what a collider does by itself.
@@ -128,58 +119,6 @@ void Session::let_go() {
   pull_.reset();
 }
 
-void Session::pin(Index vertex) {
-  const auto noted = note(action::PinVertex{vertex});
-  if (is_pinned(vertex)) return;
-  const pliant::BodyId body = body_of(vertex);
-  Edit edit{.what = "pin", .before = changes_};
-  pliant::Position position;
-  position.on = pliant::Selection({vertex - scene_.simulation.body(body).first_vertex});
-  of_hand_.insert(scene_.simulation.add(body, position, std::string(pin_name)));
-  changes_.pins[vertex] = std::nullopt;
-  edit.held[vertex] = target_of(*find_pin(vertex));
-  remember(std::move(edit));
-}
-
-void Session::unpin(Index vertex) {
-  const auto noted = note(action::Unpin{vertex});
-  if (!is_pinned(vertex)) return;
-  Edit edit{.what = "unpin", .before = changes_};
-  edit.held[vertex] = target_of(*find_pin(vertex));
-  // One vertex may have soft pins of several groups.
-  while (const auto pin = find_pin(vertex)) {
-    const pliant::Group& group = scene_.simulation.groups().at(pin->group);
-    const bool is_of_hand = of_hand_.contains(pin->group);
-    if (!is_of_hand) note_release(vertex, group, *pin);
-    if (is_of_hand && scene_.simulation.target_count(pin->group) == 1) {
-      of_hand_.erase(pin->group);
-      scene_.simulation.remove(pin->group);
-    } else {  // stays, if only as an empty one: events may name it
-      const Index of_body = vertex - scene_.simulation.body(group.body).first_vertex;
-      scene_.simulation.release(pin->group, std::span(&of_body, 1));
-    }
-  }
-  changes_.pins.erase(vertex);
-  changes_.moved.erase(vertex);
-  remember(std::move(edit));
-}
-
-void Session::note_release(Index vertex, const pliant::Group& group, const Pin& pin) {
-  ReleasedPin& released = changes_.released[vertex];
-  if (std::ranges::find(released.groups, group.name) != released.groups.end()) return;
-  if (released.groups.empty()) released.number = group.points[static_cast<std::size_t>(pin.target)];
-  released.groups.push_back(group.name);
-}
-
-void Session::move_pin(Index vertex, const Vec3f& target) {
-  const auto pin = find_pin(vertex);
-  if (!pin || !target.allFinite()) return;
-  const auto noted = note(action::MovePin{vertex, target});
-  const pliant::Group& group = scene_.simulation.groups().at(pin->group);
-  scene_.timeline.stop(scene_.simulation, pin->group, {group.points[static_cast<std::size_t>(pin->target)]});
-  scene_.simulation.set_target(pin->group, pin->target, target.cast<Real>());
-}
-
 void Session::move_collider(pliant::ColliderId collider, const Vec3f& position) {
   pliant::Simulation& simulation = scene_.simulation;
   const auto found = simulation.colliders().find(collider);
@@ -216,16 +155,6 @@ std::vector<Slider> Session::sliders() const {
   return list_sliders(simulation(), [this](pliant::GroupId id) { return is_hidden(id); });
 }
 
-std::optional<Session::Pin> Session::find_pin(Index vertex) const {
-  for (const auto& [id, group] : scene_.simulation.groups()) {
-    if (group.type != pliant::Position::info.name) continue;
-    const std::vector<Index> vertices = vertices_of_pins(group);
-    const auto found = std::ranges::find(vertices, vertex);
-    if (found != vertices.end()) return Pin{id, static_cast<Index>(found - vertices.begin())};
-  }
-  return {};
-}
-
 pliant::BodyId Session::body_of(Index vertex) const {
   const std::vector<pliant::Body>& bodies = scene_.simulation.bodies();
   for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -233,21 +162,6 @@ pliant::BodyId Session::body_of(Index vertex) const {
     if (vertex >= bodies[i].first_vertex && vertex < last) return pliant::BodyId{static_cast<Index>(i)};
   }
   pliant::fail_input("there is no vertex " + std::to_string(vertex));
-}
-
-Real suggest_pull_stiffness(const pliant::Simulation& simulation) {
-  constexpr Real weight_at_stretch = 3 * 9.81;  // [m/s²]: the spring holds three times the weight
-  constexpr Real stretch = 0.1;                 // of the bodies' size
-  Real mass = 0;
-  for (const Real of_vertex : simulation.state().masses) mass += of_vertex;
-  if (mass == 0) return 1;
-  const Real size = size_of(simulation);
-  return std::clamp<Real>(mass * weight_at_stretch / (stretch * std::max<Real>(size, 1e-3)), 1e-3, 1e9);
-}
-
-Real suggest_collider_speed(const pliant::Simulation& simulation) {
-  constexpr Real sizes_in_a_second = 3;
-  return sizes_in_a_second * std::max<Real>(size_of(simulation), 1e-3);
 }
 
 }  // namespace pliant_viewer

@@ -11,11 +11,13 @@
 
 #include "pliant_io/scene/scene.h"
 #include "viewer/body_materials.h"
+#include "viewer/edit.h"
 #include "viewer/history.h"
 #include "viewer/scene_changes.h"
 #include "viewer/session_log.h"
 #include "viewer/session_record.h"
 #include "viewer/sliders.h"
+#include "viewer/suggestions.h"
 
 namespace pliant_viewer {
 
@@ -63,9 +65,18 @@ class Session {
   void pin(Index vertex);
   /// Releases the vertex, whichever group its pin belongs to.
   void unpin(Index vertex);
+  /// The same with many, as one change for undo(). @throws pliant::Error (input): there is no such vertex.
+  void pin(const std::vector<Index>& vertices);
+  void unpin(const std::vector<Index>& vertices);
   bool is_pinned(Index vertex) const { return find_pin(vertex).has_value(); }
+  /// By vertex, each once, but for bodies that the scene holds as a whole.
+  std::vector<PinnedVertex> pinned_vertices() const;
   /// Moves a pin to `target` [m]; motions of the scene that are under way no longer move it.
   void move_pin(Index vertex, const Vec3f& target);
+  /// Takes the pins of these vertices in hand, to be moved together; vertices that are not pinned are left out.
+  void hold_pins(const std::vector<Index>& vertices);
+  /// Moves them from where they were then; the last motion counts. Does nothing without such pins.
+  void move_held(const RigidMotion& motion);
 
   /// Takes a collider there in the steps to come, no faster than three times the size of the bodies in a second, and
   /// leaves it at rest. It is the user's until the scene starts over: velocities of its own end, and motions of the
@@ -75,6 +86,7 @@ class Session {
   /// What is moved has been let go. Before the first step the scene begins with it there from now on; later that is
   /// one of the things that happened, which a restart forgets.
   void drop_pin(Index vertex);
+  void drop_held();
   void drop_collider(pliant::ColliderId collider);
 
   /// Of the scene's settings, groups, forces and colliders, and of contact and its bodies; the pull and pins that were
@@ -127,18 +139,6 @@ class Session {
   const ReplayReport& replayed() const { return replayed_; }  ///< the last one, or the one under way
 
  private:
-  /// Where a vertex is pinned: the group, and which of its targets that is.
-  struct Pin {
-    pliant::GroupId group{};
-    Index target = 0;
-  };
-  /// A change for undo().
-  struct Edit {
-    std::string what;
-    SceneChanges before{}, after{};
-    std::map<std::string, pliant::Vec3> old_values{};  ///< of what `before` does not have
-    std::map<Index, pliant::Vec3> held{};              ///< where the vertices are that it pins or lets go [m]
-  };
   /// A text with the changes, and the scene that it makes.
   struct Written {
     pliant::Scene scene;
@@ -154,6 +154,8 @@ class Session {
   void go_on_as(Written written);
   Written write_text(const std::filesystem::path& file, const pliant::ViewSettings& view) const;
   std::optional<Pin> find_pin(Index vertex) const;
+  std::map<Index, std::vector<Pin>> find_pins(const std::vector<Index>& vertices) const;
+  void note_moved(Index vertex, const Pin& pin);
   pliant::Vec3 target_of(const Pin& pin) const { return scene_.simulation.target(pin.group, pin.target); }
   pliant::BodyId body_of(Index vertex) const;
   void steer_colliders();
@@ -185,15 +187,10 @@ class Session {
   bool is_doing_again_ = false;
   std::optional<Pull> pull_;
   std::optional<pliant::GroupId> pull_group_;
+  std::map<Index, pliant::Vec3> held_pins_;  // that are moved together, and where they were when they were taken [m]
   std::map<pliant::ColliderId, pliant::Vec3> collider_goals_;  // of those that are on their way [m]
   Real collider_speed_ = 1;                                    // the most by which they go there [m/s]
   std::string note_;
 };
-
-/// A stiffness [N/m] with which the mouse can lift the scene's bodies while the spring stretches little.
-Real suggest_pull_stiffness(const pliant::Simulation& simulation);
-
-/// The most by which the mouse moves a collider [m/s].
-Real suggest_collider_speed(const pliant::Simulation& simulation);
 
 }  // namespace pliant_viewer

@@ -102,21 +102,6 @@ void Session::set_material(const std::string& body, const std::string& material)
   note_ = coarseness(scene_.materials.at(*id), simulation().body(*id).mesh);
 }
 
-void Session::drop_pin(Index vertex) {
-  const auto noted = note(action::DropPin{vertex});
-  const auto pin = find_pin(vertex);
-  if (!pin || simulation().state().step > 0) return;
-  Edit edit{.what = "move a pin", .before = changes_};
-  const pliant::Group& group = simulation().groups().at(pin->group);
-  const pliant::Vec3 target = target_of(*pin);
-  if (changes_.pins.contains(vertex)) {
-    changes_.pins[vertex] = target;
-  } else {
-    changes_.moved[vertex] = {group.name, group.points[static_cast<std::size_t>(pin->target)], target};
-  }
-  remember(std::move(edit));
-}
-
 void Session::drop_collider(pliant::ColliderId collider) {
   const auto noted = note(action::DropCollider{static_cast<Index>(collider)});
   const auto goal = collider_goals_.find(collider);
@@ -286,6 +271,7 @@ void Session::restart(bool keep_changes) {
   }
   unchanged_ = std::move(unchanged);
   pull_.reset();
+  held_pins_.clear();
   collider_goals_.clear();
   left_alone_.clear();
   collider_speed_ = suggest_collider_speed(scene.simulation);

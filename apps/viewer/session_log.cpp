@@ -8,6 +8,7 @@ namespace {
 /// Whether the second one makes the first one, just before it, as if it had not been.
 bool replaces(const Action& first, const Action& second) {
   if (std::holds_alternative<action::PullTo>(second)) return std::holds_alternative<action::PullTo>(first);
+  if (std::holds_alternative<action::MoveHeld>(second)) return std::holds_alternative<action::MoveHeld>(first);
   if (const auto* pin = std::get_if<action::MovePin>(&second)) {
     const auto* before = std::get_if<action::MovePin>(&first);
     return before != nullptr && before->vertex == pin->vertex;

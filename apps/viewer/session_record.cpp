@@ -23,8 +23,10 @@ constexpr int format_version = 1;
 
 /// In the order of Action.
 constexpr std::array<std::string_view, std::variant_size_v<Action>> action_names = {
-    "grab",          "pull_to", "pull_stiffness", "let_go", "pin",  "unpin",   "move_pin", "drop_pin", "move_collider",
-    "drop_collider", "set",     "set_material",   "undo",   "redo", "restart", "save"};
+    "grab",      "pull_to",   "pull_stiffness", "let_go",        "pin",          "unpin",
+    "move_pin",  "drop_pin",  "move_collider",  "drop_collider", "set",          "set_material",
+    "undo",      "redo",      "restart",        "save",          "pin_vertices", "unpin_vertices",
+    "hold_pins", "move_held", "drop_held"};
 
 /// Calls field(name, value) with what an action has.
 template <class Action, class Field>
@@ -35,6 +37,12 @@ void visit_fields(Action& action, const Field& field) {
     field("target", action.pull.target);
     field("stiffness", action.pull.stiffness);
   }
+  if constexpr (requires { action.motion; }) {
+    field("center", action.motion.center);
+    field("rotation", action.motion.rotation);
+    field("translation", action.motion.translation);
+  }
+  if constexpr (requires { action.vertices; }) field("vertices", action.vertices);
   if constexpr (requires { action.vertex; }) field("vertex", action.vertex);
   if constexpr (requires { action.collider; }) field("collider", action.collider);
   if constexpr (requires { action.target; }) field("target", action.target);
@@ -114,6 +122,10 @@ class Node {
   void read(std::array<std::uint32_t, 3>& values) const {
     check_size(3);
     for (std::size_t i = 0; i < 3; ++i) at(i).read(values[i]);
+  }
+  void read(std::vector<Index>& values) const {
+    values.resize(size());
+    for (std::size_t i = 0; i < values.size(); ++i) at(i).read(values[i]);
   }
   template <class Number>
   void read(Eigen::Matrix<Number, 3, 1>& vector) const {

@@ -114,6 +114,8 @@ bool Viewer::turn(double most_wait) {
   if (source_.restarts() != restarts_) {
     restarts_ = source_.restarts();
     interaction_.cancel();
+    gizmo_.cancel();
+    select_.restart(source_.frame().content.positions.size());
     has_ground_ = false;
   }
   if (!is_frame_new_ && draws_left_ == 0 && !wants_picture_) return false;
@@ -136,6 +138,7 @@ void Viewer::update_render_mesh() {
   if (source_.render_mesh() == render_mesh_) return;
   render_mesh_ = source_.render_mesh();
   renderer_.emplace(*render_mesh_);
+  select_.restart(static_cast<std::size_t>(render_mesh_->vertex_count));
   quality_.forget();
   is_frame_new_ = true;
 }
@@ -200,13 +203,14 @@ void Viewer::draw() {
     shown_colliders_ = appearance_.colliders;
   }
   place_screen();
+  update_selection();
   const auto [full_width, height] = window_.framebuffer_size();
   const int width =
       static_cast<int>(std::lround(static_cast<float>(full_width) * screen_.size.x() / window_.size().x()));
   if (width <= 0 || height <= 0) return;
   if (wants_picture_) write_picture(width, height);
   ui_.begin();
-  draw_annotations();
+  draw_annotations(true);
   draw_panels();
   draw_measured_picture(width, height);
   fill_panel(width, full_width - width, height);
@@ -222,6 +226,8 @@ pliant_render::DrawOptions Viewer::draw_options(int height) const {
           .ground_height = ground_height_,
           .scale = static_cast<float>(height) / 720,
           .markers = appearance_.markers.value_or(true),
+          .selection = true,
+          .lit_collider = lit_collider_,
           .quality = quality_.choose(appearance_.quality)};
 }
 
@@ -276,46 +282,32 @@ void Viewer::fill_panel(int left, int width, int height) const {
   glViewport(0, 0, left + width, height);
 }
 
-void Viewer::draw_annotations() {
+/// `has_hand`: also what the mouse would take hold of, and what is selected.
+void Viewer::draw_annotations(bool has_hand) {
   const pliant_render::AnnotationCanvas canvas = ui_.canvas(screen_.size);
   const auto legend =
       pliant_render::make_legend(appearance_, range_, static_cast<int>(canvas.width), static_cast<int>(canvas.height));
   canvas.list.PushClipRect({0, 0}, {canvas.width, canvas.height});
-  draw_gizmos(canvas);
+  if (interaction_.pull()) {
+    const std::vector<Vec3f>& positions = source_.frame().content.positions;
+    draw_spring(screen_, interaction_.pull()->point.position(positions), interaction_.pull()->target, ui_.style().unit,
+                canvas.list);
+  }
+  if (has_hand) draw_hand(canvas);
   canvas.list.PopClipRect();
   if (legend) draw_legend(*legend, canvas);
   if (source_.frame().wind && appearance_.wind_arrow) draw_wind(*source_.frame().wind, screen_.viewpoint, canvas);
-}
-
-/// Marks what the mouse holds or would grab, and pins that are about to change.
-void Viewer::draw_gizmos(const pliant_render::AnnotationCanvas& canvas) {
-  LiveScene* live = source_.live();
-  if (live == nullptr) return;
-  const std::vector<Vec3f>& positions = source_.frame().content.positions;
-  const float unit = ui_.style().unit;
-  if (interaction_.pull()) {
-    draw_spring(screen_, interaction_.pull()->point.position(positions), interaction_.pull()->target, unit,
-                canvas.list);
-  }
-  if (const auto held = interaction_.grabbed_pin()) draw_ring(screen_, held->target, unit, canvas.list);
-  if (const auto goal = interaction_.collider_goal()) draw_ring(screen_, *goal, unit, canvas.list);
-  for (const std::uint32_t vertex : interaction_.pending(live->shown())) {
-    draw_ring(screen_, positions[vertex], unit, canvas.list);
-  }
-  const Vec2f mouse = ui_.mouse();
-  const bool is_in_picture = (mouse.array() >= 0).all() && mouse.x() <= screen_.size.x() && !ui_.has_panel_at(mouse);
-  if (interaction_.is_busy() || !is_in_picture) return;
-  const MouseInteraction::PickTarget under = MouseInteraction::pick(mouse, mouse_view());
-  if (under.pin) draw_ring(screen_, positions[*under.pin], unit, canvas.list);
-  if (under.pin || under.point || under.collider) Ui::show_hand();
 }
 
 /// Draws the picture and its annotations without panels, and saves it.
 void Viewer::write_picture(int width, int height) {
   wants_picture_ = false;
   ui_.begin();
-  draw_annotations();
-  draw_picture(draw_options(height), width, height);
+  draw_annotations(false);
+  pliant_render::DrawOptions options = draw_options(height);
+  options.selection = false;
+  options.lit_collider.reset();
+  draw_picture(options, width, height);
   ui_.end();
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   glReadBuffer(GL_BACK);

@@ -15,7 +15,9 @@
 #include "viewer/mouse_interaction.h"
 #include "viewer/panels/plots_panel.h"
 #include "viewer/panels/scene_panel.h"
+#include "viewer/pin_gizmo.h"
 #include "viewer/quality_chooser.h"
+#include "viewer/select_tool.h"
 #include "viewer/ui.h"
 #include "viewer/view_source.h"
 
@@ -48,6 +50,10 @@ class Viewer {
   /// The picture as last drawn, in units of the mouse.
   const Screen& screen() const { return screen_; }
   const MouseInteraction& interaction() const { return interaction_; }
+  const SelectTool& selection() const { return select_; }
+  const PinGizmo& gizmo() const { return gizmo_; }
+  /// As the mouse sees it now.
+  MouseInteraction::View mouse_view();
   const pliant::ViewSettings& appearance() const { return appearance_; }
   /// Number of pictures drawn so far.
   std::uint64_t frame_count() const { return frame_count_; }
@@ -71,12 +77,19 @@ class Viewer {
   void take_input();
   void take_keys();
   void take_key(const KeyEvent& event);
-  MouseInteraction::View mouse_view();
   void take_control_key(char letter, bool has_shift, bool is_repeated);
   void toggle_color();
   void change_color();
   void frame_everything();
   void view_as_at_first();
+
+  // viewer_selection.cpp
+  void toggle_pins();
+  void pin_selected(bool shall_pin);
+  void change_select_shape();
+  void update_selection();
+  void draw_selection_rows(float width);
+  void draw_hand(const pliant_render::AnnotationCanvas& canvas);
 
   void draw();
   void update_render_mesh();
@@ -89,8 +102,7 @@ class Viewer {
   pliant_render::DrawOptions draw_options(int height) const;
   void draw_picture(const pliant_render::DrawOptions& options, int width, int height);
   void draw_measured_picture(int width, int height);
-  void draw_annotations();
-  void draw_gizmos(const pliant_render::AnnotationCanvas& canvas);
+  void draw_annotations(bool has_hand);
   void draw_panels();
   void draw_main_panel();
   void draw_message();
@@ -117,7 +129,11 @@ class Viewer {
   OrbitCamera camera_;
   OrbitCamera first_camera_;
   MouseInteraction interaction_;
-  std::deque<KeyEvent> keys_;  // that the panels and the shortcuts have not taken yet
+  SelectTool select_;
+  PinGizmo gizmo_;
+  std::optional<std::uint64_t> drawn_selection_;  // its version
+  std::optional<Index> lit_collider_;             // that the mouse would take
+  std::deque<KeyEvent> keys_;                     // that the panels and the shortcuts have not taken yet
   AutoRange auto_range_;
   QualityChooser quality_;
   std::array<int, 2> measured_size_ = {0, 0};  // that quality_ knows about [pixels]

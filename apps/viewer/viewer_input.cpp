@@ -44,11 +44,15 @@ void Viewer::take_input() {
   take_keys();
   for (const MouseEvent& event : window_.take_mouse_events()) {
     const bool begins = event.kind == MouseEvent::Kind::press || event.kind == MouseEvent::Kind::wheel;
-    if (begins && !interaction_.is_busy() && (ui_.has_panel_at(event.place) || ui_.holds_mouse())) continue;
-    interaction_.handle(event, mouse_view());
+    const bool is_busy = interaction_.is_busy() || gizmo_.is_busy() || select_.is_busy();
+    if (begins && !is_busy && (ui_.has_panel_at(event.place) || ui_.holds_mouse())) continue;
+    const MouseInteraction::View view = mouse_view();
+    const bool is_taken = !interaction_.is_busy() && (gizmo_.handle(event, view) || select_.handle(event, view));
+    if (!is_taken) interaction_.handle(event, view);
     screen_.viewpoint = camera_.viewpoint(bounds_, screen_.viewpoint.inset);
   }
   interaction_.flush(mouse_view());
+  gizmo_.flush(mouse_view());
 }
 
 /// Gives each key to a field that is being typed into, or else to the shortcuts, in order: what follows the Enter that
@@ -107,6 +111,10 @@ void Viewer::take_key(const KeyEvent& event) {
     case GLFW_KEY_G:
       plots_panel_.is_open = !plots_panel_.is_open;
       return;
+    case GLFW_KEY_N:
+      return toggle_pins();
+    case GLFW_KEY_B:
+      return change_select_shape();
     case GLFW_KEY_P:
       return save_picture();
     case GLFW_KEY_TAB:
@@ -117,6 +125,7 @@ void Viewer::take_key(const KeyEvent& event) {
       is_help_open_ = !is_help_open_;
       return;
     case GLFW_KEY_ESCAPE:
+      if (!is_help_open_ && !scene_panel_.is_open) select_.clear();
       is_help_open_ = false;
       scene_panel_.is_open = false;
       return;
@@ -131,6 +140,7 @@ void Viewer::take_control_key(char letter, bool has_shift, bool is_repeated) {
   if (is_repeated) return;
   if (letter == 's') return save_scene(has_shift);
   if (letter == 'r') return save_session();
+  if (letter == 'a' && render_mesh_ != nullptr && source_.live() != nullptr) select_.select_all(*render_mesh_);
   if (letter == 'o') scene_panel_.is_open = !scene_panel_.is_open && open_ != nullptr;
 }
 

@@ -59,6 +59,7 @@ void Viewer::draw_main_panel() {
       interaction_.set_stiffness(stiffness, *live);
     }
   }
+  draw_selection_rows(third);
   source_.draw_panel();
   if (section_header("Picture") &&
       draw_appearance_panel(appearance_, samples_, quality_.choose(appearance_.quality), source_))

@@ -38,10 +38,9 @@ bool is_shift_down(GLFWwindow* handle) {
          glfwGetKey(handle, GLFW_KEY_RIGHT_SHIFT) == GLFW_PRESS;
 }
 
-Vec2f cursor_of(GLFWwindow* handle) {
-  double x = 0, y = 0;
-  glfwGetCursorPos(handle, &x, &y);
-  return {static_cast<float>(x), static_cast<float>(y)};
+bool is_control_down(GLFWwindow* handle) {
+  return glfwGetKey(handle, GLFW_KEY_LEFT_CONTROL) == GLFW_PRESS ||
+         glfwGetKey(handle, GLFW_KEY_RIGHT_CONTROL) == GLFW_PRESS;
 }
 
 }  // namespace
@@ -84,16 +83,22 @@ Window::~Window() {
   glfwTerminate();
 }
 
+/// Where the mouse was when an event came that does not say so.
+Vec2f Window::cursor() const {
+  if (cursor_) return *cursor_;
+  double x = 0, y = 0;
+  glfwGetCursorPos(window_, &x, &y);
+  return {static_cast<float>(x), static_cast<float>(y)};
+}
+
 void Window::install_callbacks() {
   glfwSetWindowUserPointer(window_, this);
   glfwSetCursorPosCallback(window_, [](GLFWwindow* handle, double x, double y) {
     Window& window = window_of(handle);
     window.touched_ = true;
-    window.mouse_.push_back({MouseEvent::Kind::move,
-                             MouseButton::left,
-                             {static_cast<float>(x), static_cast<float>(y)},
-                             0,
-                             is_shift_down(handle)});
+    window.cursor_ = Vec2f(static_cast<float>(x), static_cast<float>(y));
+    window.mouse_.push_back({MouseEvent::Kind::move, MouseButton::left, *window.cursor_, 0, is_shift_down(handle),
+                             is_control_down(handle)});
   });
   glfwSetMouseButtonCallback(window_, [](GLFWwindow* handle, int button, int action, int modifiers) {
     Window& window = window_of(handle);
@@ -103,13 +108,14 @@ void Window::install_callbacks() {
                        : button == GLFW_MOUSE_BUTTON_RIGHT ? MouseButton::right
                                                            : MouseButton::middle;
     window.mouse_.push_back({action == GLFW_PRESS ? MouseEvent::Kind::press : MouseEvent::Kind::release, which,
-                             cursor_of(handle), 0, (modifiers & GLFW_MOD_SHIFT) != 0});
+                             window.cursor(), 0, (modifiers & GLFW_MOD_SHIFT) != 0,
+                             (modifiers & GLFW_MOD_CONTROL) != 0});
   });
   glfwSetScrollCallback(window_, [](GLFWwindow* handle, double, double y) {
     Window& window = window_of(handle);
     window.touched_ = true;
-    window.mouse_.push_back(
-        {MouseEvent::Kind::wheel, MouseButton::left, cursor_of(handle), static_cast<float>(y), is_shift_down(handle)});
+    window.mouse_.push_back({MouseEvent::Kind::wheel, MouseButton::left, window.cursor(), static_cast<float>(y),
+                             is_shift_down(handle), is_control_down(handle)});
   });
   install_key_callbacks();
   glfwSetDropCallback(window_, [](GLFWwindow* handle, int count, const char** files) {

@@ -1,6 +1,7 @@
 #pragma once
 // A desktop window with OpenGL, and the input events it receives.
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct MouseEvent {
   Vec2f place = {0, 0};                    ///< from the upper left corner, in window units
   float wheel = 0;                         ///< notches, positive away from the user
   bool shift = false;
+  bool control = false;
 };
 
 /// What happened at the keyboard, in the order in which it did. A key that writes something is followed by a character.
@@ -77,10 +79,12 @@ class Window {
 
  private:
   void install_callbacks();
+  Vec2f cursor() const;
 
   GLFWwindow* window_ = nullptr;
   std::string driver_;
   std::vector<MouseEvent> mouse_;
+  std::optional<Vec2f> cursor_;  // by the last event: it may be elsewhere by now
   std::vector<KeyEvent> keys_;
   std::vector<std::string> dropped_;
   bool touched_ = true;

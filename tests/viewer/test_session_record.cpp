@@ -87,6 +87,35 @@ TEST_CASE("a minute of pulls, pins, colliders, values, materials, undo, saving a
   CHECK(taken == 3650);
 }
 
+TEST_CASE("pins that were set, turned and let go together come again, bit for bit") {
+  const TemporaryFolder folder;
+  Session session(make_scene);
+  session.pin({40, 41, 49, 50});
+  session.hold_pins({40, 41, 49, 50, 72});
+  session.move_held({.translation = {0.1F, 0, 0}});
+  session.drop_held();
+  steps(session, 20);
+  session.pin({54, 55, 56, 85});
+  session.hold_pins({54, 55, 56});
+  for (int i = 1; i <= 30; ++i) {
+    const float share = static_cast<float>(i) / 30;
+    session.move_held({.translation = {9, 9, 9}});  // the mouse may move more often than time goes on
+    session.move_held(
+        {.center = {0.1F, 0, 0.2F}, .rotation = {0, 0.3F * share, share}, .translation = {0, 0.1F, share}});
+    session.step();
+  }
+  session.undo();  // while they are held
+  session.move_held({.translation = {1, 1, 1}});
+  steps(session, 10);
+  session.redo();
+  session.drop_held();
+  session.unpin({40, 54, 80});
+  steps(session, 30);
+  session.restart(true);
+  steps(session, 30);
+  check_replay(session, folder.path());
+}
+
 TEST_CASE("a restart without changes begins the record anew, one with changes goes on with it") {
   const TemporaryFolder folder;
   Session session(make_scene);

@@ -1,0 +1,138 @@
+// What the window does with selected vertices, and what it draws of the hand: what it holds and would take hold of.
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "viewer/gizmos.h"
+#include "viewer/viewer.h"
+
+namespace pliant_viewer {
+namespace {
+
+constexpr std::array shape_names = {"box", "lasso"};
+
+std::vector<Index> indices(const std::vector<std::uint32_t>& vertices) {
+  return {vertices.begin(), vertices.end()};
+}
+
+std::size_t count_pinned(const std::vector<std::uint32_t>& selected, const Snapshot& snapshot) {
+  return static_cast<std::size_t>(std::ranges::count_if(snapshot.movable_pins, [&](const PinnedVertex& pin) {
+    return std::ranges::binary_search(selected, pin.vertex);
+  }));
+}
+
+/// "24 vertices, 3 pinned"
+std::string text_of(const std::vector<std::uint32_t>& selected, std::size_t pinned) {
+  const std::string count = selected.size() == 1 ? "1 vertex" : fmt::format("{} vertices", selected.size());
+  if (pinned == 0) return count;
+  return pinned == selected.size() ? count + ", pinned" : fmt::format("{}, {} pinned", count, pinned);
+}
+
+}  // namespace
+
+/// Pins what is selected; where all of it is pinned already, lets it go.
+void Viewer::toggle_pins() {
+  const LiveScene* live = source_.live();
+  if (live == nullptr) return;
+  if (select_.selected().empty()) return say("nothing is selected: Ctrl + drag a box around vertices");
+  pin_selected(count_pinned(select_.selected(), live->shown()) < select_.selected().size());
+}
+
+void Viewer::pin_selected(bool shall_pin) {
+  post(mouse_view(), LiveScene::Kind::changes, [shall_pin, vertices = indices(select_.selected())](Session& session) {
+    if (shall_pin) {
+      session.pin(vertices);
+    } else {
+      session.unpin(vertices);
+    }
+  });
+}
+
+void Viewer::change_select_shape() {
+  select_.draws_lasso = !select_.draws_lasso;
+  say(select_.draws_lasso ? "Ctrl + drag draws a lasso" : "Ctrl + drag draws a box");
+}
+
+/// Before a picture: vertices may be gone, pins may have moved.
+void Viewer::update_selection() {
+  if (const std::string message = select_.take_message(); !message.empty()) say(message);
+  if (drawn_selection_ != select_.version()) {
+    renderer_->set_selection(select_.selected());
+    drawn_selection_ = select_.version();
+  }
+  if (const LiveScene* live = source_.live()) gizmo_.follow(select_.selected(), live->shown());
+}
+
+void Viewer::draw_selection_rows(float width) {
+  const LiveScene* live = source_.live();
+  if (live == nullptr || render_mesh_ == nullptr) return;
+  row_label("select",
+            "Ctrl + drag: what is inside a box or a lasso (B)\n"
+            "Ctrl + click: a vertex; twice: its border, or the rope\n"
+            "with Shift they are taken out again");
+  const float tick_width = ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x +
+                           ImGui::CalcTextSize("hidden too").x + ImGui::GetStyle().ItemSpacing.x;
+  ImGui::SetNextItemWidth(-tick_width);
+  int shape = select_.draws_lasso ? 1 : 0;
+  if (ImGui::Combo("##select", &shape, shape_names.data(), static_cast<int>(shape_names.size()))) {
+    select_.draws_lasso = shape == 1;
+  }
+  ImGui::SameLine();
+  ImGui::Checkbox("hidden too", &select_.sees_through);
+  explain("boxes and lassos also select what is behind a surface or a collider");
+  const std::vector<std::uint32_t>& selected = select_.selected();
+  if (selected.empty()) return;
+  const std::size_t pinned = count_pinned(selected, live->shown());
+  row_label("selected", "arrows and rings move and turn what is pinned of it");
+  wrapped_text(text_of(selected, pinned));
+  const auto button = [width](const char* label, bool is_enabled, const char* help) {
+    ImGui::BeginDisabled(!is_enabled);
+    const bool is_pressed = ImGui::Button(label, {width, 0});
+    ImGui::EndDisabled();
+    explain(help);
+    return is_pressed;
+  };
+  if (button("Pin", pinned < selected.size(), "N: hold these vertices where they are, to be moved together")) {
+    pin_selected(true);
+  }
+  ImGui::SameLine();
+  if (button("Unpin", pinned > 0, "N: let go of what is pinned of them")) pin_selected(false);
+  ImGui::SameLine();
+  if (button("Grow", true, "select the vertices beside them, too")) select_.grow(*render_mesh_);
+}
+
+/// What the mouse holds or would grab, and pins that are about to change.
+void Viewer::draw_hand(const pliant_render::AnnotationCanvas& canvas) {
+  lit_collider_.reset();
+  LiveScene* live = source_.live();
+  if (live == nullptr) return;
+  const std::vector<Vec3f>& positions = source_.frame().content.positions;
+  const float unit = ui_.style().unit;
+  if (const auto held = interaction_.grabbed_pin()) draw_ring(screen_, held->target, unit, canvas.list);
+  if (const auto goal = interaction_.collider_goal()) draw_ring(screen_, *goal, unit, canvas.list);
+  for (const std::uint32_t vertex : interaction_.pending(live->shown())) {
+    draw_ring(screen_, positions[vertex], unit, canvas.list);
+  }
+  draw_outline(select_.outline(), unit, canvas.list);
+  const MouseInteraction::View view = mouse_view();
+  const Vec2f mouse = ui_.mouse();
+  const bool is_in_picture = (mouse.array() >= 0).all() && mouse.x() <= screen_.size.x() && !ui_.has_panel_at(mouse);
+  const bool is_free = is_in_picture && !interaction_.is_busy() && !gizmo_.is_busy() && !select_.is_busy();
+  const PinGizmo::Part part = is_free ? gizmo_.part_at(mouse, view) : PinGizmo::Part::none;
+  gizmo_.draw(view, part, canvas.list);
+  if (part != PinGizmo::Part::none) return Ui::show_hand();
+  if (!is_free) return;
+  const MouseInteraction::PickTarget under = MouseInteraction::pick(mouse, view);
+  if (under.pin) {
+    draw_ring(screen_, positions[*under.pin], unit, canvas.list);
+  } else if (under.point) {
+    draw_grip(screen_, positions[under.point->nearest_vertex(positions)], unit, canvas.list);
+  } else if (under.collider) {
+    lit_collider_ = under.collider->number;
+  }
+  if (under.pin || under.point || under.collider) Ui::show_hand();
+}
+
+}  // namespace pliant_viewer
