@@ -15,8 +15,8 @@ constexpr float rope_shadow_width = 1.5F;  // texels of the mask
 constexpr float edge_width = 1.0F;
 constexpr float marker_radius = 3.4F;
 constexpr float least_marker_radius = 2.2F;  // of the picture as it is
-constexpr float selected_radius = 4.6F;
-constexpr float least_selected_radius = 3.0F;
+constexpr float selected_radius = 6.0F;
+constexpr float least_selected_radius = 4.0F;
 const Vec3f selected_color(1.0F, 0.70F, 0.12F);
 const Vec3f pin_color(0.98F, 0.98F, 0.97F);  // and of vertices under a test force; no body has it
 const Vec3f edge_color(0.10F, 0.11F, 0.14F);
@@ -459,7 +459,9 @@ void Renderer::set_up_markers(const DrawOptions& options, const Mat4f& camera, c
 void Renderer::draw_markers(const DrawOptions& options, const Mat4f& camera, const Vec2f& picture) const {
   if (marker_count_ == 0 || !options.markers) return;
   set_up_markers(options, camera, picture);
-  marker_.set("radius", std::max(marker_radius * options.scale, least_marker_radius * options.pixel));
+  const float radius = std::max(marker_radius * options.scale, least_marker_radius * options.pixel);
+  marker_.set("radius", radius);
+  marker_.set("core_radius", std::min(0.7F * radius, radius - 0.8F));
   marker_.set("tone", pin_color);
   glBindVertexArray(markers_array_.id());
   glDrawElements(GL_POINTS, marker_count_, GL_UNSIGNED_INT, nullptr);
@@ -469,7 +471,9 @@ void Renderer::draw_markers(const DrawOptions& options, const Mat4f& camera, con
 void Renderer::draw_selection(const DrawOptions& options, const Mat4f& camera, const Vec2f& picture) const {
   if (selected_count_ == 0 || !options.selection) return;
   set_up_markers(options, camera, picture);
-  marker_.set("radius", std::max(selected_radius * options.scale, least_selected_radius * options.pixel));
+  const float radius = std::max(selected_radius * options.scale, least_selected_radius * options.pixel);
+  marker_.set("radius", radius);
+  marker_.set("core_radius", radius - 0.8F * options.scale);
   marker_.set("tone", selected_color);
   glBindVertexArray(selected_array_.id());
   glDrawElements(GL_POINTS, selected_count_, GL_UNSIGNED_INT, nullptr);

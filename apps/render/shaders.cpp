@@ -230,14 +230,14 @@ void main() {
 
 const std::string_view marker_fragment = R"(#version 330 core
 in vec2 at;
-uniform float radius;
+uniform float radius, core_radius;
 uniform vec3 tone;
 out vec4 color;
 void main() {
   float distance = length(at);
   float inside = clamp(radius + 0.5 - distance, 0.0, 1.0);
   if (inside < 0.01) discard;
-  float core = clamp(min(0.7 * radius, radius - 0.8) + 0.5 - distance, 0.0, 1.0);
+  float core = clamp(core_radius + 0.5 - distance, 0.0, 1.0);
   color = vec4(mix(vec3(0.13, 0.15, 0.18), tone, core), inside);
 })";
 

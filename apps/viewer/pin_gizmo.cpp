@@ -12,7 +12,7 @@ namespace {
 using Part = PinGizmo::Part;
 using View = MouseInteraction::View;
 
-constexpr float ring_radius = 64;                                  // units
+constexpr float ring_radius = 70;                                  // units
 constexpr float stem = 1.1F, tip = 1.5F;                           // of an arrow, in radii of the rings
 constexpr float plane_reach = 9, arrow_reach = 8, ring_reach = 6;  // units around a part that count as the part
 constexpr int ring_points = 72;
