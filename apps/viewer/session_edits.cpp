@@ -211,8 +211,10 @@ void Session::go(const Edit& edit, const SceneChanges& from, const SceneChanges&
   changes_ = to;
   if (simulation().state().step == 0) return;
   for (const auto& [id, start] : starts) collider_goals_[id] = start;
-  for (const auto& [vertex, target] : edit.held) {
-    if (const auto pin = find_pin(vertex)) scene_.simulation.set_target(pin->group, pin->target, target);
+  std::vector<Index> held;
+  for (const auto& [vertex, target] : edit.held) held.push_back(vertex);
+  for (const auto& [vertex, pins] : find_pins(held)) {
+    scene_.simulation.set_target(pins.front().group, pins.front().target, edit.held.at(vertex));
   }
 }
 

@@ -16,6 +16,9 @@ using Neighbors = std::map<std::uint32_t, std::vector<std::uint32_t>>;
 class HidingTriangles {
  public:
   explicit HidingTriangles(const Sight& sight) : sight_(sight) {
+    const Vec2f& size = sight.screen.size;
+    const auto count = static_cast<float>(std::max<std::size_t>(sight.render_mesh.triangles.size() / 3, 1));
+    tile_size_ = std::clamp(std::sqrt(triangles_a_tile * size.x() * size.y() / count), 2.0F, 64.0F);
     columns_ = tiles_along(sight.screen.size.x());
     rows_ = tiles_along(sight.screen.size.y());
     tiles_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
@@ -38,11 +41,11 @@ class HidingTriangles {
   }
 
  private:
-  static constexpr float tile_size = 16;  // units of the mouse
+  static constexpr float triangles_a_tile = 4;  // if they filled the picture evenly
 
-  static int tiles_along(float size) { return std::max(1, static_cast<int>(std::ceil(size / tile_size))); }
-  static int tile(float place, int count) {
-    return static_cast<int>(std::clamp(std::floor(place / tile_size), 0.0F, static_cast<float>(count - 1)));
+  int tiles_along(float size) const { return std::max(1, static_cast<int>(std::ceil(size / tile_size_))); }
+  int tile(float place, int count) const {
+    return static_cast<int>(std::clamp(std::floor(place / tile_size_), 0.0F, static_cast<float>(count - 1)));
   }
   const std::vector<std::size_t>& at(int column, int row) const {
     return tiles_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
@@ -72,6 +75,7 @@ class HidingTriangles {
   }
 
   Sight sight_;
+  float tile_size_ = 16;  // units of the mouse
   int columns_ = 1, rows_ = 1;
   std::vector<std::vector<std::size_t>> tiles_;  // first corners of triangles
   std::vector<std::size_t> everywhere_;

@@ -18,6 +18,14 @@ constexpr std::array<Key, 5> body_keys = {Key{"drag a body", "pull at it by a sp
                                           Key{"click a body", "pin the nearest vertex"},
                                           Key{"click a pin", "let it go"}, Key{"drag a pin", "move it"},
                                           Key{"drag a collider", "move it; it stays where you leave it"}};
+constexpr std::array<Key, 7> selection_keys = {
+    Key{"Ctrl + drag", "select what is inside a box, or a lasso"},
+    Key{"Ctrl + click", "select a vertex; twice: its border, or the rope"},
+    Key{"with Shift", "take out of the selection"},
+    Key{"Ctrl + A, Esc", "select everything, nothing"},
+    Key{"B", "a lasso in place of a box, and back"},
+    Key{"N", "pin what is selected; if it is pinned, let it go"},
+    Key{"drag an arrow or a ring", "turn or move the selected pins (Ctrl: 15°)"}};
 constexpr std::array<Key, 5> camera_keys = {
     Key{"drag beside, right drag", "turn about the middle"}, Key{"middle or Shift drag", "move sideways"},
     Key{"wheel", "nearer or further away"}, Key{"F", "everything in the picture"}, Key{"Shift + F", "as at the start"}};
@@ -40,22 +48,41 @@ constexpr std::array<Key, 8> appearance_keys = {Key{"C", "color by the next quan
                                                 Key{"Tab", "hide or show the panel"},
                                                 Key{"H or F1", "this help"}};
 
-/// What a key does stands in a column that begins at `column` and ends at `right`, as all text does.
-void draw_keys(const char* title, std::span<const Key> keys, float column, float right) {
+/// Where keys and what they do stand from left to right.
+struct Column {
+  float left, what, right;
+};
+
+void draw_keys(const char* title, std::span<const Key> keys, const Column& column) {
   ImGui::Spacing();
+  ImGui::SetCursorPosX(column.left);
   ImGui::TextDisabled("%s", title);
   for (const Key& key : keys) {
     const float top = ImGui::GetCursorPosY();
-    ImGui::PushTextWrapPos(column);
+    ImGui::SetCursorPosX(column.left);
+    ImGui::PushTextWrapPos(column.what - ImGui::GetStyle().ItemSpacing.x);
     ImGui::TextUnformatted(key.key);
     ImGui::PopTextWrapPos();
     const float below = ImGui::GetCursorPosY();
-    ImGui::SetCursorPos({column + ImGui::GetStyle().ItemSpacing.x, top});
-    ImGui::PushTextWrapPos(right);
+    ImGui::SetCursorPos({column.what, top});
+    ImGui::PushTextWrapPos(column.right);
     ImGui::TextUnformatted(key.what);
     ImGui::PopTextWrapPos();
     ImGui::SetCursorPosY(std::max(below, ImGui::GetCursorPosY()));
   }
+}
+
+void draw_hand_keys(bool is_live, const Column& column) {
+  if (is_live) draw_keys("bodies and colliders", body_keys, column);
+  if (is_live) draw_keys("many vertices", selection_keys, column);
+  draw_keys("the camera", camera_keys, column);
+}
+
+void draw_other_keys(bool is_live, const Column& column) {
+  draw_keys("time", is_live ? std::span<const Key>(live_keys) : std::span<const Key>(run_keys), column);
+  if (is_live) draw_keys("the scene", scene_keys, column);
+  draw_keys("the picture", appearance_keys, column);
+  draw_keys("the program", std::array{Key{"Ctrl + Q", "end it"}}, column);
 }
 
 }  // namespace
@@ -70,14 +97,21 @@ bool draw_help(bool is_live, const Vec2f& picture, const PanelStyle& style) {
                ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoNav);
   const ImGuiStyle& spaces = ImGui::GetStyle();
-  const float right = picture.x() - spaces.WindowPadding.x - spaces.ScrollbarSize;
-  const float column = std::min(182 * style.unit, 0.4F * right);
-  if (is_live) draw_keys("bodies and colliders", body_keys, column, right);
-  draw_keys("the camera", camera_keys, column, right);
-  draw_keys("time", is_live ? std::span<const Key>(live_keys) : std::span<const Key>(run_keys), column, right);
-  if (is_live) draw_keys("the scene", scene_keys, column, right);
-  draw_keys("the picture", appearance_keys, column, right);
-  draw_keys("the program", std::array{Key{"Ctrl + Q", "end it"}}, column, right);
+  const float left = spaces.WindowPadding.x, right = picture.x() - spaces.WindowPadding.x - spaces.ScrollbarSize;
+  const float keys_width = 160 * style.unit, width = 450 * style.unit;
+  const bool is_wide = left + 2 * width <= right;  // in two columns all is seen at once
+  const float top = ImGui::GetCursorPosY();
+  const float first_right = is_wide ? left + width - 16 * style.unit : right;
+  const Column first{left, left + std::min(keys_width, 0.4F * right), first_right};
+  draw_hand_keys(is_live, first);
+  if (is_wide) {
+    const float below = ImGui::GetCursorPosY();
+    ImGui::SetCursorPosY(top);
+    draw_other_keys(is_live, {left + width, left + width + keys_width, left + 2 * width});
+    ImGui::SetCursorPosY(std::max(below, ImGui::GetCursorPosY()));
+  } else {
+    draw_other_keys(is_live, first);
+  }
   ImGui::Spacing();
   if (ImGui::Button("Close")) is_open = false;
   ImGui::End();
