@@ -234,6 +234,9 @@ void LiveScene::update_render_mesh() {
   auto render_mesh =
       std::make_shared<const pliant_render::RenderMesh>(pliant_render::make_render_mesh(session_.scene()));
   if (render_mesh_ == nullptr || !is_same(*render_mesh, *render_mesh_)) render_mesh_ = std::move(render_mesh);
+  std::vector<std::string> names;
+  for (const pliant::Body& body : session_.simulation().bodies()) names.push_back(body.name);
+  body_names_ = std::make_shared<const std::vector<std::string>>(std::move(names));
 }
 
 /// Lists parameters and materials anew after commands, and a few times a second since the scene's own events change
@@ -250,10 +253,12 @@ void LiveScene::update_sliders() {
 void LiveScene::publish() {
   const pliant::Simulation& simulation = session_.simulation();
   back_.render_mesh = render_mesh_;
+  back_.body_names = body_names_;
   back_.frame = pliant_render::capture_frame(simulation, *render_mesh_, context_.color, surfaces_);
   back_.color = context_.color;
-  back_.pins = pliant_render::pinned_vertices(simulation);
   back_.movable_pins = session_.pinned_vertices();
+  back_.pins.clear();
+  for (const PinnedVertex& pin : back_.movable_pins) back_.pins.push_back(pin.vertex);
   back_.pull = session_.pull();
   update_sliders();
   back_.sliders = sliders_;

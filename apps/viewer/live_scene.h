@@ -18,10 +18,11 @@ namespace pliant_viewer {
 /// Everything the window shows of one moment.
 struct Snapshot {
   std::shared_ptr<const pliant_render::RenderMesh> render_mesh;
+  std::shared_ptr<const std::vector<std::string>> body_names;
   pliant_render::ClipFrame frame;
   pliant::ColorBy color = pliant::ColorBy::none;  ///< what the values of the frame mean
   std::vector<std::uint32_t> pins;                ///< pinned vertices, which can be grabbed, ascending
-  std::vector<PinnedVertex> movable_pins;         ///< those and what else was pinned by hand, ascending
+  std::vector<PinnedVertex> movable_pins;         ///< the same, with where they are held
   std::optional<Pull> pull;
   std::shared_ptr<const std::vector<Slider>> sliders;
   std::shared_ptr<const std::vector<BodyMaterial>> materials;
@@ -127,6 +128,7 @@ class LiveScene {
   std::vector<MeasuredStep> measured_;  // not in a snapshot yet
   bool is_at_start_ = true;             // no step since the scene was made or began anew
   std::shared_ptr<const pliant_render::RenderMesh> render_mesh_;
+  std::shared_ptr<const std::vector<std::string>> body_names_;
   pliant_render::ColliderSurfaces surfaces_;
   std::string note_;
   Clock::time_point published_{};

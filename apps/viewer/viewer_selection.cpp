@@ -6,6 +6,7 @@
 #include <imgui.h>
 
 #include "viewer/gizmos.h"
+#include "viewer/measure_selection.h"
 #include "viewer/viewer.h"
 
 namespace pliant_viewer {
@@ -23,11 +24,37 @@ std::size_t count_pinned(const std::vector<std::uint32_t>& selected, const Snaps
   }));
 }
 
-/// "24 vertices, 3 pinned"
-std::string text_of(const std::vector<std::uint32_t>& selected, std::size_t pinned) {
-  const std::string count = selected.size() == 1 ? "1 vertex" : fmt::format("{} vertices", selected.size());
+/// "24 vertices, 3 pinned", "65 of cloth"
+std::string text_of(const std::vector<std::uint32_t>& selected, std::size_t pinned, const Snapshot& snapshot) {
+  std::string count = fmt::format("{} vertices", selected.size());
+  if (selected.size() == 1) {
+    const VertexName name = name_of(selected[0], *snapshot.render_mesh);
+    count = fmt::format("{} of {}", name.number, snapshot.body_names->at(name.body));
+  }
   if (pinned == 0) return count;
   return pinned == selected.size() ? count + ", pinned" : fmt::format("{}, {} pinned", count, pinned);
+}
+
+/// Of the picture as it is shown.
+void draw_measures(const std::vector<std::uint32_t>& selected, const Snapshot& snapshot) {
+  const SelectionMeasures measures =
+      measure_selection(selected, *snapshot.render_mesh, snapshot.frame.content.positions);
+  if (measures.position) {
+    row_label("place", "where it is");
+    wrapped_text(fmt::format("{:.3f}, {:.3f}, {:.3f} m", measures.position->x(), measures.position->y(),
+                             measures.position->z()));
+  }
+  if (measures.between) {
+    row_label("distance", "from one to the other, straight, and along x, y and z");
+    wrapped_text(fmt::format("{:.4f} m ({:.3f}, {:.3f}, {:.3f})", measures.between->norm(), measures.between->x(),
+                             measures.between->y(), measures.between->z()));
+  }
+  if (measures.stretch) {
+    row_label("stretch", selected.size() == 1 ? "of the edges at it: their lengths, by those at rest"
+                                              : "of the edges between them: their lengths, by those at rest");
+    const auto [least, most] = *measures.stretch;
+    wrapped_text(fmt::format("{:.3f}", least) + (most > least ? fmt::format(" to {:.3f}", most) : ""));
+  }
 }
 
 }  // namespace
@@ -86,7 +113,8 @@ void Viewer::draw_selection_rows(float width) {
   if (selected.empty()) return;
   const std::size_t pinned = count_pinned(selected, live->shown());
   row_label("selected", "arrows and rings move and turn what is pinned of it");
-  wrapped_text(text_of(selected, pinned));
+  wrapped_text(text_of(selected, pinned, live->shown()));
+  draw_measures(selected, live->shown());
   const auto button = [width](const char* label, bool is_enabled, const char* help) {
     ImGui::BeginDisabled(!is_enabled);
     const bool is_pressed = ImGui::Button(label, {width, 0});
@@ -101,6 +129,12 @@ void Viewer::draw_selection_rows(float width) {
   if (button("Unpin", pinned > 0, "N: let go of what is pinned of them")) pin_selected(false);
   ImGui::SameLine();
   if (button("Grow", true, "select the vertices beside them, too")) select_.grow(*render_mesh_);
+  if (button("Copy", true, "their numbers, as a scene file has them behind \"on\", to be pasted there")) {
+    ImGui::SetClipboardText(scene_text_of(selected, *live->shown().render_mesh, *live->shown().body_names).c_str());
+    say(selected.size() == 1 ? "copied its number" : fmt::format("copied {} numbers", selected.size()));
+  }
+  ImGui::SameLine();
+  if (button("Clear", true, "Esc: select nothing")) select_.clear();
 }
 
 /// What the mouse holds or would grab, and pins that are about to change.
