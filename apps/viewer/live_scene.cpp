@@ -1,6 +1,7 @@
 #include "viewer/live_scene.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -17,6 +18,15 @@ constexpr std::size_t most_measured = 16'384;  // steps that a window which take
 bool is_same(const pliant_render::RenderMesh& a, const pliant_render::RenderMesh& b) {
   return a.vertex_count == b.vertex_count && a.triangles == b.triangles && a.ropes == b.ropes && a.edges == b.edges &&
          a.springs == b.springs && a.rest_lengths == b.rest_lengths && a.tones == b.tones && a.looks == b.looks;
+}
+
+/// A body whose last vertices were pinned by hand looks as before, with marks.
+void show_pins_of_hand(const std::vector<std::uint32_t>& pins, const std::vector<char>& is_figure,
+                       const pliant_render::RenderMesh& render_mesh, pliant_render::FrameContent& content) {
+  std::erase_if(content.held, [&](std::uint32_t vertex) { return is_figure[render_mesh.bodies[vertex]] == 0; });
+  std::vector<std::uint32_t> marked;
+  std::ranges::set_union(pins, content.markers, std::back_inserter(marked));
+  content.markers = std::move(marked);
 }
 
 }  // namespace
@@ -259,6 +269,8 @@ void LiveScene::publish() {
   back_.movable_pins = session_.pinned_vertices();
   back_.pins.clear();
   for (const PinnedVertex& pin : back_.movable_pins) back_.pins.push_back(pin.vertex);
+  back_.is_figure = session_.figures();
+  show_pins_of_hand(back_.pins, back_.is_figure, *render_mesh_, back_.frame.content);
   back_.pull = session_.pull();
   update_sliders();
   back_.sliders = sliders_;

@@ -18,6 +18,7 @@ constexpr float plane_reach = 9, arrow_reach = 8, ring_reach = 6;  // units arou
 constexpr int ring_points = 72;
 constexpr float from_the_end = 0.97F;  // cosine of the angle from which on an arrow is seen from its end
 constexpr float from_the_edge = 0.2F;  // of that below which a ring is seen from its edge
+constexpr float click_way = 4;         // units the mouse may move during a click
 constexpr float snap = std::numbers::pi_v<float> / 12;
 
 constexpr std::array<ImU32, 3> axis_colors = {IM_COL32(222, 58, 62, 255), IM_COL32(92, 168, 50, 255),
@@ -42,12 +43,17 @@ Part ring_part(int axis) {
 /// Where on a line through a point along an axis of length 1 it comes nearest to a ray [m]; none where both are almost
 /// parallel.
 std::optional<float> nearest_on_axis(const Vec3f& point, const Vec3f& axis, const Screen::Ray& ray) {
-  constexpr float least_angle = 1e-4F;  // of the square of its sine
+  constexpr float least_angle = 7.6e-3F;  // of the square of its sine: 5°
   const Vec3f direction = ray.direction.normalized(), from_eye = point - ray.origin;
   const float across = axis.dot(direction);
   const float determinant = 1 - across * across;
   if (determinant < least_angle) return {};
-  return (across * direction.dot(from_eye) - axis.dot(from_eye)) / determinant;
+  const float along = (across * direction.dot(from_eye) - axis.dot(from_eye)) / determinant;
+  // Beyond the point where the axis vanishes the nearest point is behind the eye, before it far away.
+  constexpr float farthest = 5;  // of the way to the point
+  const float way = direction.dot(from_eye + along * axis);
+  if (!(way > 0) || way > farthest * from_eye.norm()) return {};
+  return along;
 }
 
 Vec3f toward_eye(const Vec3f& point, const View& view) {
@@ -114,7 +120,7 @@ std::optional<Vec2f> PinGizmo::place_of(Part part, const View& view) const {
 Part PinGizmo::part_at(const Vec2f& at, const View& view) const {
   if (!is_shown() || !(view.screen.depth_of(middle()) > 0)) return Part::none;
   const auto center = view.screen.place_of(middle());
-  if (center && (*center - at).norm() <= plane_reach * view.unit) return Part::plane;
+  if (has_dot() && center && (*center - at).norm() <= plane_reach * view.unit) return Part::plane;
   const Vec3f to_eye = toward_eye(middle(), view);
   for (int axis = 0; axis < 3; ++axis) {
     if (std::abs(to_eye[axis]) > from_the_end) continue;
@@ -141,13 +147,15 @@ bool PinGizmo::handle(const MouseEvent& event, const View& view) {
   switch (event.kind) {
     case MouseEvent::Kind::press: {
       if (is_busy()) return true;
-      const Part part = is_left && !event.shift ? part_at(event.place, view) : Part::none;
+      const Part part = is_left && !event.shift && !event.control ? part_at(event.place, view) : Part::none;
       if (part == Part::none || view.live == nullptr) return false;
       begin(part, event.place, view);
       return true;
     }
     case MouseEvent::Kind::move:
       if (!is_busy()) return false;
+      if (!is_held_ && (event.place - pressed_).norm() <= click_way * view.unit) return true;
+      if (!is_held_) hold(view);
       drag(event.place, view);
       if (is_ring(held_) && event.control) {
         motion_.rotation = std::round(turned_ / snap) * snap * Vec3f::Unit(axis_of(held_));
@@ -155,8 +163,9 @@ bool PinGizmo::handle(const MouseEvent& event, const View& view) {
       return true;
     case MouseEvent::Kind::release:
       if (!is_busy() || !is_left) return is_busy();
-      flush(view);
+      if (has_moved_) send(view);
       held_ = Part::none;
+      if (!is_held_) return true;
       command_ = post(view, LiveScene::Kind::changes, [](Session& session) { session.drop_held(); });
       return true;
     case MouseEvent::Kind::wheel:
@@ -166,9 +175,14 @@ bool PinGizmo::handle(const MouseEvent& event, const View& view) {
 }
 
 void PinGizmo::begin(Part part, const Vec2f& at, const View& view) {
+  // The scene may not have come to the last motion yet: this one begins where that ended.
+  for (Vec3f& target : targets_) target = motion_(target.cast<double>()).cast<float>();
+  motion_ = {.center = middle()};
   held_ = part;
-  last_ = at;
+  is_held_ = has_moved_ = false;
+  pressed_ = last_ = at;
   turned_ = 0;
+  last_angle_.reset();
   grip_ = middle() - view.screen.point_at(at, view.screen.depth_of(middle()));
   if (is_arrow(part)) {
     along_ = nearest_on_axis(middle(), Vec3f::Unit(axis_of(part)), view.screen.ray(at)).value_or(0);
@@ -185,9 +199,14 @@ void PinGizmo::begin(Part part, const Vec2f& at, const View& view) {
       const Vec3f on = taken + small_angle * Vec3f::Unit(axis_of(part)).cross(taken - middle());
       const auto from = view.screen.place_of(taken), to = view.screen.place_of(on);
       const Vec2f way = from && to ? Vec2f((*to - *from) / small_angle) : Vec2f(1, 0);
-      tangent_ = way / std::max(way.squaredNorm(), 1e-6F);
+      const float least = 0.3F * ring_radius * view.unit;  // where the ring goes away from the eye it seems to stand
+      tangent_ = way / std::max(way.squaredNorm(), least * least);
     }
   }
+}
+
+void PinGizmo::hold(const View& view) {
+  is_held_ = true;
   post(view, LiveScene::Kind::changes, [pins = pins_](Session& session) { session.hold_pins(pins); });
 }
 
@@ -197,7 +216,7 @@ std::optional<float> PinGizmo::angle_at(const Vec2f& at, const View& view) const
   if (std::abs(toward_eye(middle(), view)[axis]) < from_the_edge) return {};
   const Screen::Ray ray = view.screen.ray(at);
   const float way = (middle() - ray.origin)[axis] / ray.direction[axis];
-  if (!(way > 0)) return {};
+  if (!(way > 0) || !std::isfinite(way)) return {};
   const Vec3f from_middle = ray.origin + way * ray.direction - middle();
   return std::atan2(from_middle[(axis + 2) % 3], from_middle[(axis + 1) % 3]);
 }
@@ -226,8 +245,14 @@ void PinGizmo::drag(const Vec2f& to, const View& view) {
 }
 
 void PinGizmo::flush(const View& view) {
-  if (!is_busy() || !std::exchange(has_moved_, false)) return;
-  post(view, LiveScene::Kind::steers, [motion = motion_](Session& session) { session.move_held(motion); });
+  // Many pins take a while, and only the last motion counts.
+  if (is_busy() && has_moved_ && view.snapshot->commands >= motion_command_) send(view);
+}
+
+void PinGizmo::send(const View& view) {
+  has_moved_ = false;
+  motion_command_ =
+      post(view, LiveScene::Kind::steers, [motion = motion_](Session& session) { session.move_held(motion); });
 }
 
 void PinGizmo::draw_arrow(int axis, const View& view, bool is_lit, ImDrawList& list) const {
@@ -258,6 +283,7 @@ void PinGizmo::draw_ring_of(int axis, const View& view, bool is_lit, ImDrawList&
   draw_line(line, color, (is_lit ? 3.8F : 2.6F) * view.unit, list);
 }
 
+/// Dots where pins will be with the next step, while time stands still.
 void PinGizmo::draw_targets(const View& view, ImDrawList& list) const {
   constexpr std::size_t most = 5000;  // more would slow the window down
   if (view.snapshot->is_playing || pins_.size() > most) return;
@@ -284,7 +310,7 @@ void PinGizmo::draw(const View& view, Part hovered, ImDrawList& list) const {
     if (is_drawn(arrow(axis))) draw_arrow(axis, view, lit == arrow(axis), list);
   }
   const auto center = view.screen.place_of(middle());
-  if (!center) return;
+  if (!center || !has_dot()) return;
   list.AddCircleFilled(to_imgui(*center), 7 * view.unit, halo);
   list.AddCircleFilled(to_imgui(*center), 5.2F * view.unit, lit == Part::plane ? amber : ink);
 }

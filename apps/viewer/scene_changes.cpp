@@ -144,13 +144,17 @@ void UnchangedScene::apply(const SceneChanges& changes, pliant::Scene& scene) co
         if (const auto found = simulation.find_group(group)) simulation.release(*found, std::span(&of_body, 1));
       }
     }
+    std::vector<Index> held;
     for (const auto& [vertex, target] : changes.pins) {
       const Index of_body = vertex - body.first_vertex;
       if (of_body < 0 || of_body >= body.vertex_count) continue;
-      pliant::Position pin{.on = {of_body}};
-      if (target) pin.targets = *target;
-      simulation.add(id, pin, target ? body.moved_pins : body.pins);
+      if (!target) {
+        held.push_back(of_body);
+        continue;
+      }
+      simulation.add(id, pliant::Position{.on = {of_body}, .targets = *target}, body.moved_pins);
     }
+    if (!held.empty()) simulation.add(id, pliant::Position{.on = pliant::Selection(std::move(held))}, body.pins);
   }
   for (const auto& [vertex, pin] : changes.moved) {
     const auto group = simulation.find_group(pin.group);
@@ -310,8 +314,13 @@ void UnchangedScene::write_pins(const SceneChanges& changes, SceneDocument& docu
   }
   std::map<std::string, Json> released;
   const auto is_there = [this](const std::string& group) { return as_read_.places.contains(group); };
+  struct Moves {
+    Json numbers = Json::array(), targets = Json::array();
+  };
+  std::map<std::string, Moves> moves;  // by group: one event each
   const auto move = [&](const std::string& group, Index number, const Vec3& target) {
-    if (is_there(group)) append_event(document, "move", group, {{"index", number}, {"target", json_of(target)}});
+    moves[group].numbers.push_back(number);
+    moves[group].targets.push_back(json_of(target));
   };
   for (const auto& [vertex, pin] : changes.released) {
     const auto body = std::ranges::find_if(bodies_, [v = vertex](const BodyPart& each) {
@@ -324,6 +333,13 @@ void UnchangedScene::write_pins(const SceneChanges& changes, SceneDocument& docu
   }
   for (const auto& [vertex, pin] : changes.moved) {
     if (!changes.released.contains(vertex)) move(pin.group, pin.number, pin.target);
+  }
+  for (auto& [group, of_group] : moves) {
+    if (!is_there(group)) continue;
+    const bool is_one = of_group.numbers.size() == 1;
+    append_event(document, "move", group,
+                 {{"index", is_one ? of_group.numbers[0] : of_group.numbers},
+                  {"target", is_one ? of_group.targets[0] : of_group.targets}});
   }
   for (const auto& [group, vertices] : released) {
     if (is_there(group)) append_event(document, "release", group, {{"vertices", vertices}});

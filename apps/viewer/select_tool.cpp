@@ -108,9 +108,7 @@ void SelectTool::take_away(const std::vector<std::uint32_t>& vertices) {
 }
 
 void SelectTool::select_all(const pliant_render::RenderMesh& render_mesh) {
-  std::vector<std::uint32_t> all = render_mesh.triangles;
-  all.insert(all.end(), render_mesh.ropes.begin(), render_mesh.ropes.end());
-  select(std::move(all));
+  select(drawn_vertices(render_mesh));
 }
 
 void SelectTool::grow(const pliant_render::RenderMesh& render_mesh) {
@@ -127,6 +125,8 @@ void SelectTool::grow(const pliant_render::RenderMesh& render_mesh) {
 
 void SelectTool::restart(std::size_t vertex_count) {
   is_pressed_ = false;
+  before_click_.clear();
+  last_click_time_ = {};
   std::erase_if(selected_, [&](std::uint32_t vertex) { return vertex >= vertex_count; });
   ++version_;
 }

@@ -69,8 +69,10 @@ class Session {
   void pin(const std::vector<Index>& vertices);
   void unpin(const std::vector<Index>& vertices);
   bool is_pinned(Index vertex) const { return find_pin(vertex).has_value(); }
-  /// By vertex, each once, but for bodies that the scene holds as a whole.
+  /// By vertex, each once, but for figures.
   std::vector<PinnedVertex> pinned_vertices() const;
+  /// Of each body, whether the scene's own hard pins hold all of it. Such pins are not the user's.
+  std::vector<char> figures() const;
   /// Moves a pin to `target` [m]; motions of the scene that are under way no longer move it.
   void move_pin(Index vertex, const Vec3f& target);
   /// Takes the pins of these vertices in hand, to be moved together; vertices that are not pinned are left out.
@@ -155,6 +157,7 @@ class Session {
   Written write_text(const std::filesystem::path& file, const pliant::ViewSettings& view) const;
   std::optional<Pin> find_pin(Index vertex) const;
   std::map<Index, std::vector<Pin>> find_pins(const std::vector<Index>& vertices) const;
+  void stop_motions(const std::map<Index, std::vector<Pin>>& pinned);
   void note_moved(Index vertex, const Pin& pin);
   pliant::Vec3 target_of(const Pin& pin) const { return scene_.simulation.target(pin.group, pin.target); }
   pliant::BodyId body_of(Index vertex) const;
@@ -184,7 +187,7 @@ class Session {
   SessionLog log_;
   std::optional<Replay> replay_;
   ReplayReport replayed_;
-  bool is_doing_again_ = false;
+  bool is_doing_again_ = false, have_held_moved_ = false;
   std::optional<Pull> pull_;
   std::optional<pliant::GroupId> pull_group_;
   std::map<Index, pliant::Vec3> held_pins_;  // that are moved together, and where they were when they were taken [m]

@@ -13,7 +13,8 @@
 namespace pliant_viewer {
 namespace {
 
-constexpr std::size_t most_edits = 1000;  // that can be taken back
+constexpr std::size_t most_edits = 1000;      // that can be taken back
+constexpr std::size_t most_pins = 4'000'000;  // that these may name together, some 100 bytes each
 
 std::optional<pliant::BodyId> find_body(const pliant::Simulation& simulation, const std::string& name) {
   const auto found = std::ranges::find(simulation.bodies(), name, &pliant::Body::name);
@@ -36,6 +37,14 @@ std::set<Key> difference(const std::map<Key, Value>& a, const std::map<Key, Valu
   return keys;
 }
 
+std::size_t pin_count(const Edit& edit) {
+  std::size_t count = edit.held.size();
+  for (const SceneChanges* changes : {&edit.before, &edit.after}) {
+    count += changes->pins.size() + changes->released.size() + changes->moved.size();
+  }
+  return count;
+}
+
 bool differ_in_values_alone(const SceneChanges& a, SceneChanges b) {
   b.values = a.values;
   return a == b;
@@ -55,6 +64,9 @@ void Session::remember(Edit edit) {
   done_.push_back(std::move(edit));
   undone_.clear();
   if (done_.size() > most_edits) done_.erase(done_.begin());
+  std::size_t pins = 0;
+  for (const Edit& each : done_) pins += pin_count(each);
+  for (; pins > most_pins && done_.size() > 1; done_.erase(done_.begin())) pins -= pin_count(done_.front());
 }
 
 void Session::set(const std::string& key, const pliant::Vec3& value, bool goes_on) {

@@ -41,12 +41,25 @@ std::map<Index, std::vector<Pin>> Session::find_pins(const std::vector<Index>& v
   return pins;
 }
 
+std::vector<char> Session::figures() const {
+  std::vector<char> held(simulation().state().masses.size(), 0);
+  for (const auto& [id, group] : simulation().groups()) {
+    if (of_hand_.contains(id)) continue;
+    for (const auto& batch : group.set.batches) {
+      for (const Index vertex : batch->pinned_vertices()) held[static_cast<std::size_t>(vertex)] = 1;
+    }
+  }
+  std::vector<char> figures;
+  for (const pliant::Body& body : simulation().bodies()) figures.push_back(is_held(body, held) ? 1 : 0);
+  return figures;
+}
+
 std::vector<PinnedVertex> Session::pinned_vertices() const {
-  const std::vector<char> held = held_vertices(simulation());
+  const std::vector<char> is_figure = figures();
   std::map<Index, Pin> pins;
   for (const auto& [id, group] : simulation().groups()) {
     if (group.type != pliant::Position::info.name) continue;
-    if (!of_hand_.contains(id) && is_held(simulation().body(group.body), held)) continue;
+    if (is_figure[static_cast<std::size_t>(group.body)] != 0) continue;
     Index target = 0;
     for (const Index vertex : vertices_of_pins(group)) pins.try_emplace(vertex, Pin{id, target++});
   }
@@ -140,9 +153,16 @@ void Session::move_pin(Index vertex, const Vec3f& target) {
 void Session::hold_pins(const std::vector<Index>& vertices) {
   const auto noted = note(action::HoldPins{vertices});
   held_pins_.clear();
+  have_held_moved_ = false;
+  const auto pinned = find_pins(vertices);
+  for (const auto& [vertex, pins] : pinned) held_pins_[vertex] = target_of(pins.front());
+  stop_motions(pinned);
+}
+
+/// The scene's, of pins that are the hand's now.
+void Session::stop_motions(const std::map<Index, std::vector<Pin>>& pinned) {
   std::map<pliant::GroupId, std::vector<Index>> points;
-  for (const auto& [vertex, pins] : find_pins(vertices)) {
-    held_pins_[vertex] = target_of(pins.front());
+  for (const auto& [vertex, pins] : pinned) {
     const pliant::Group& group = scene_.simulation.groups().at(pins.front().group);
     points[pins.front().group].push_back(group.points[static_cast<std::size_t>(pins.front().target)]);
   }
@@ -154,7 +174,10 @@ void Session::move_held(const RigidMotion& motion) {
   const auto noted = note(action::MoveHeld{motion});
   std::vector<Index> vertices;
   for (const auto& [vertex, start] : held_pins_) vertices.push_back(vertex);
-  for (const auto& [vertex, pins] : find_pins(vertices)) {
+  have_held_moved_ = true;
+  const auto pinned = find_pins(vertices);
+  stop_motions(pinned);  // also those that have begun since
+  for (const auto& [vertex, pins] : pinned) {
     scene_.simulation.set_target(pins.front().group, pins.front().target, motion(held_pins_.at(vertex)));
   }
 }
@@ -185,7 +208,7 @@ void Session::drop_held() {
   for (const auto& [vertex, start] : held_pins_) vertices.push_back(vertex);
   held_pins_.clear();
   const auto pinned = find_pins(vertices);
-  if (pinned.empty() || simulation().state().step > 0) return;
+  if (pinned.empty() || !have_held_moved_ || simulation().state().step > 0) return;
   Edit edit{.what = text_of_edit("move", pinned.size()), .before = changes_};
   if (pinned.size() == 1) edit.what = "move a pin";
   for (const auto& [vertex, pins] : pinned) note_moved(vertex, pins.front());

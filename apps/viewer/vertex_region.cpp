@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
 namespace pliant_viewer {
@@ -58,12 +59,18 @@ class HidingTriangles {
 
   void add(std::size_t t) {
     Vec2f low = Vec2f::Constant(1e30F), high = -low;
+    int behind = 0;
     for (const std::uint32_t vertex : corners_of(t)) {
       const auto place = sight_.screen.place_of(sight_.positions[vertex]);
-      if (!place) return everywhere_.push_back(t);  // reaches behind the eye
+      if (!place) {
+        ++behind;
+        continue;
+      }
       low = low.cwiseMin(*place);
       high = high.cwiseMax(*place);
     }
+    if (behind == 3) return;
+    if (behind > 0) return everywhere_.push_back(t);
     const Vec2f& size = sight_.screen.size;
     if (!(high.x() >= 0 && high.y() >= 0 && low.x() <= size.x() && low.y() <= size.y())) return;
     for (int row = tile(low.y(), rows_); row <= tile(high.y(), rows_); ++row) {
@@ -80,14 +87,6 @@ class HidingTriangles {
   std::vector<std::vector<std::size_t>> tiles_;  // first corners of triangles
   std::vector<std::size_t> everywhere_;
 };
-
-std::vector<std::uint32_t> drawn_vertices(const RenderMesh& render_mesh) {
-  std::vector<std::uint32_t> vertices = render_mesh.triangles;
-  vertices.insert(vertices.end(), render_mesh.ropes.begin(), render_mesh.ropes.end());
-  std::ranges::sort(vertices);
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  return vertices;
-}
 
 void join(Neighbors& neighbors, std::uint32_t a, std::uint32_t b) {
   neighbors[a].push_back(b);
@@ -128,6 +127,14 @@ std::vector<std::uint32_t> connected(const Neighbors& neighbors, std::uint32_t v
 
 }  // namespace
 
+std::vector<std::uint32_t> drawn_vertices(const RenderMesh& render_mesh) {
+  std::vector<std::uint32_t> vertices = render_mesh.triangles;
+  vertices.insert(vertices.end(), render_mesh.ropes.begin(), render_mesh.ropes.end());
+  std::ranges::sort(vertices);
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  return vertices;
+}
+
 Outline box_between(const Vec2f& a, const Vec2f& b) {
   return {a, {b.x(), a.y()}, b, {a.x(), b.y()}};
 }
@@ -145,12 +152,13 @@ bool contains(const Outline& outline, const Vec2f& place) {
 }
 
 std::vector<std::uint32_t> vertices_inside(const Outline& outline, const Sight& sight, bool sees_through) {
-  const HidingTriangles triangles(sight);
+  std::optional<HidingTriangles> triangles;
+  if (!sees_through) triangles.emplace(sight);
   std::vector<std::uint32_t> found;
   for (const std::uint32_t vertex : drawn_vertices(sight.render_mesh)) {
     const auto place = sight.screen.place_of(sight.positions[vertex]);
     if (!place || !contains(outline, *place)) continue;
-    const bool is_seen = sees_through || (!triangles.hide(vertex, *place) &&
+    const bool is_seen = sees_through || (!triangles->hide(vertex, *place) &&
                                           !is_behind_collider(sight.colliders, sight.screen, sight.positions[vertex]));
     if (is_seen) found.push_back(vertex);
   }
@@ -165,6 +173,7 @@ std::vector<std::uint32_t> border_at(const RenderMesh& render_mesh, std::span<co
   }
   if (ropes.contains(vertex)) return connected(ropes, vertex);
   const Neighbors border = border_neighbors(render_mesh);
+  if (border.contains(vertex)) return connected(border, vertex);
   std::optional<std::uint32_t> nearest;
   for (const auto& [candidate, unused] : border) {
     if (render_mesh.bodies[candidate] != render_mesh.bodies[vertex]) continue;

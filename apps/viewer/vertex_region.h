@@ -23,6 +23,9 @@ struct Sight {
   std::span<const pliant_render::DrawnCollider> colliders = {};  ///< those that are shown
 };
 
+/// Those of triangles and ropes, ascending.
+std::vector<std::uint32_t> drawn_vertices(const pliant_render::RenderMesh& render_mesh);
+
 /// The drawn vertices that appear inside the outline, ascending. `sees_through`: also those behind surfaces and
 /// colliders. Lattices of solids that have a surface of their own are not drawn.
 std::vector<std::uint32_t> vertices_inside(const Outline& outline, const Sight& sight, bool sees_through);

@@ -18,6 +18,12 @@ std::vector<Index> indices(const std::vector<std::uint32_t>& vertices) {
   return {vertices.begin(), vertices.end()};
 }
 
+std::vector<std::uint32_t> without_figures(std::vector<std::uint32_t> vertices, const Snapshot& snapshot) {
+  const std::vector<std::uint32_t>& bodies = snapshot.render_mesh->bodies;
+  std::erase_if(vertices, [&](std::uint32_t vertex) { return snapshot.is_figure.at(bodies.at(vertex)) != 0; });
+  return vertices;
+}
+
 std::size_t count_pinned(const std::vector<std::uint32_t>& selected, const Snapshot& snapshot) {
   return static_cast<std::size_t>(std::ranges::count_if(snapshot.movable_pins, [&](const PinnedVertex& pin) {
     return std::ranges::binary_search(selected, pin.vertex);
@@ -59,16 +65,21 @@ void draw_measures(const std::vector<std::uint32_t>& selected, const Snapshot& s
 
 }  // namespace
 
-/// Pins what is selected; where all of it is pinned already, lets it go.
+/// Pins what is selected; where all of it is pinned already, lets it go. Figures stay as they are.
 void Viewer::toggle_pins() {
   const LiveScene* live = source_.live();
   if (live == nullptr) return;
   if (select_.selected().empty()) return say("nothing is selected: Ctrl + drag a box around vertices");
-  pin_selected(count_pinned(select_.selected(), live->shown()) < select_.selected().size());
+  const std::vector<std::uint32_t> selected = without_figures(select_.selected(), live->shown());
+  if (selected.empty()) return say("what is selected is held by the scene itself");
+  pin_selected(count_pinned(selected, live->shown()) < selected.size());
 }
 
 void Viewer::pin_selected(bool shall_pin) {
-  post(mouse_view(), LiveScene::Kind::changes, [shall_pin, vertices = indices(select_.selected())](Session& session) {
+  const LiveScene* live = source_.live();
+  if (live == nullptr) return;
+  const std::vector<std::uint32_t> selected = without_figures(select_.selected(), live->shown());
+  post(mouse_view(), LiveScene::Kind::changes, [shall_pin, vertices = indices(selected)](Session& session) {
     if (shall_pin) {
       session.pin(vertices);
     } else {
@@ -122,7 +133,8 @@ void Viewer::draw_selection_rows(float width) {
     explain(help);
     return is_pressed;
   };
-  if (button("Pin", pinned < selected.size(), "N: hold these vertices where they are, to be moved together")) {
+  if (button("Pin", pinned < without_figures(selected, live->shown()).size(),
+             "N: hold these vertices where they are, to be moved together")) {
     pin_selected(true);
   }
   ImGui::SameLine();

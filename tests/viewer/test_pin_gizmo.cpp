@@ -106,7 +106,8 @@ TEST_CASE("each part of the handle is found where it is drawn, from wherever it 
 TEST_CASE("a single pin has no rings, and what is not pinned no handle") {
   Desk desk;
   desk.pin({40});
-  CHECK(desk.gizmo.part_at(desk.place(40), desk.view()) == Part::plane);
+  CHECK(desk.gizmo.part_at(desk.place(40), desk.view()) == Part::none);  // the pin itself is dragged, or let go
+  CHECK(desk.gizmo.part_at(desk.gizmo.place_of(Part::move_z, desk.view()).value(), desk.view()) == Part::move_z);
   const auto on_ring = desk.gizmo.place_of(Part::turn_y, desk.view());
   CHECK(desk.gizmo.part_at(on_ring.value(), desk.view()) == Part::none);
   desk.gizmo.follow({1, 2, 3}, desk.live.shown());
@@ -160,6 +161,87 @@ TEST_CASE("the middle moves in the plane of the picture, as far as the mouse goe
   Desk::wait_until([&] { return desk.live.newest().undone_next == "pin 9 vertices"; });
   for (const PinnedVertex& pin : desk.live.shown().movable_pins) {
     CHECK((pin.target - before.at(pin.vertex)).norm() < 1e-5F);
+  }
+}
+
+TEST_CASE("a click on the handle changes nothing, and one with Ctrl or Shift is not for it") {
+  Desk desk;
+  desk.pin(middle);
+  const std::uint64_t commands = desk.live.shown().commands;
+  for (const Part part : parts) {
+    const Vec2f at = desk.gizmo.place_of(part, desk.view()).value();
+    if (desk.gizmo.part_at(at, desk.view()) == Part::none) continue;
+    desk.press(at);
+    desk.move(at + Vec2f(1, 1));
+    desk.release(at + Vec2f(1, 1));
+    CHECK(desk.gizmo.motion().translation.norm() == 0);
+    CHECK_FALSE(desk.gizmo.handle({.kind = MouseEvent::Kind::press, .place = at, .control = true}, desk.view()));
+    CHECK_FALSE(desk.gizmo.handle({.kind = MouseEvent::Kind::press, .place = at, .shift = true}, desk.view()));
+  }
+  const std::uint64_t sent = desk.live.post([](CommandContext&) {});
+  CHECK(sent == commands + 1);
+  CHECK(desk.live.newest().undone_next == "pin 9 vertices");
+}
+
+TEST_CASE("a handle that is taken again at once goes on from where it is") {
+  Desk desk;
+  desk.pin(middle);
+  const Snapshot stale = desk.live.shown();  // the scene may not have answered yet
+  const MouseInteraction::View view{desk.screen, desk.camera, &desk.live, &stale};
+  const std::vector<Vec3f> before = stale.frame.content.positions;
+  const Vec3f center = desk.gizmo.motion().center;
+  const auto drag = [&](Part part, const Vec2f& by) {
+    const Vec2f from = desk.gizmo.place_of(part, view).value();
+    CHECK(desk.gizmo.handle({.kind = MouseEvent::Kind::press, .place = from}, view));
+    CHECK(desk.gizmo.handle({.kind = MouseEvent::Kind::move, .place = from + by}, view));
+    CHECK(desk.gizmo.handle({.kind = MouseEvent::Kind::release, .place = from + by}, view));
+    desk.gizmo.follow(desk.select.selected(), stale);
+    return desk.gizmo.motion();
+  };
+  std::vector<RigidMotion> motions;
+  motions.push_back(drag(Part::move_z, {0, -40}));
+  motions.push_back(drag(Part::turn_z, {60, 0}));
+  motions.push_back(drag(Part::plane, {-30, -20}));
+  CHECK(motions[1].translation.norm() == 0);
+  CHECK(motions[1].rotation.norm() > 0.3F);
+  CHECK(motions[2].rotation.norm() == 0);
+  CHECK((motions[1].center - center - motions[0].translation).norm() < 1e-5F);
+  Desk::wait_until([&] { return desk.live.newest().commands >= 1 + 3 * 3; });
+  for (const PinnedVertex& pin : desk.live.shown().movable_pins) {
+    Eigen::Vector3d point = before.at(pin.vertex).cast<double>();
+    for (const RigidMotion& motion : motions) point = motion(point);
+    CHECK((pin.target.cast<double>() - point).norm() < 1e-5);
+  }
+}
+
+TEST_CASE("an arrow does not fling the pins away where its axis vanishes, nor does a ring at its tip") {
+  for (const pliant::Vec3& eye : {pliant::Vec3(0.9, -2.2, 0.7), {1.7, -2.2, 1.4}, {0.6, 0.2, 3}}) {
+    Desk desk(eye);
+    desk.pin(middle);
+    for (const Part part : {Part::move_x, Part::move_y, Part::move_z}) {
+      const Vec2f from = desk.gizmo.place_of(part, desk.view()).value();
+      if (desk.gizmo.part_at(from, desk.view()) != part) continue;
+      desk.press(from);
+      for (int x = 0; x <= 800; x += 10) {
+        for (int y = 0; y <= 600; y += 50) {
+          desk.gizmo.handle({.kind = MouseEvent::Kind::move, .place = Vec2f(x, y)}, desk.view());
+          CHECK(desk.gizmo.motion().translation.norm() < 15);
+        }
+      }
+      desk.release(from);
+    }
+  }
+  Desk level({0.5, -2.5, 0.5});
+  level.pin(middle);
+  const Vec2f center = level.screen.place_of(level.gizmo.motion().center).value();
+  for (float x = center.x() + 40; x < center.x() + 90; x += 0.5F) {  // over the end of the ring
+    const Vec2f from(x, center.y());
+    if (level.gizmo.part_at(from, level.view()) != Part::turn_z) continue;
+    level.press(from);
+    level.move(from + Vec2f(8, 0));
+    CHECK(level.gizmo.motion().rotation.norm() < 0.5F);
+    level.release(from + Vec2f(8, 0));
+    level.gizmo.follow(level.select.selected(), level.live.newest());
   }
 }
 
@@ -217,6 +299,7 @@ TEST_CASE("boxes, lassos, clicks and double clicks with Ctrl select, with Shift 
   desk.select.draws_lasso = true;
   desk.select_along({desk.place(30), desk.place(40) + Vec2f(0, -3), desk.place(32)}, true);  // no area to speak of
   CHECK(std::ranges::includes(boxed, desk.select.selected()));
+  CHECK(desk.select.selected().size() + 3 >= boxed.size());
   desk.select.clear();
   const auto around = [&](std::uint32_t vertex) {
     std::vector<Vec2f> path;

@@ -104,13 +104,46 @@ TEST_CASE("a quarter of a turn about z takes x to y") {
 }
 
 TEST_CASE("a pin of the scene that is taken in hand is no longer moved by it") {
+  for (const int begin : {5, 20}) {  // before its motion, and during that
+    CAPTURE(begin);
+    Session session(make_scene);
+    steps(session, begin);
+    session.hold_pins({72, 80});
+    const Eigen::MatrixXd before = places(session, {72, 80});
+    for (int i = 0; i < 20; ++i) {
+      session.move_held({.translation = {0, 0.01F, 0}});
+      session.step();
+    }
+    CHECK((places(session, {72, 80}) - moved(before, {.translation = {0, 0.01F, 0}})).cwiseAbs().maxCoeff() < 1e-6);
+    session.drop_held();
+    steps(session, 30);
+    CHECK((places(session, {72, 80}) - moved(before, {.translation = {0, 0.01F, 0}})).cwiseAbs().maxCoeff() < 1e-6);
+  }
+}
+
+TEST_CASE("pins that were taken in hand and not moved are no change") {
   Session session(make_scene);
-  steps(session, 5);
+  session.pin(row);
+  session.undo();
   session.hold_pins({72, 80});
   session.drop_held();
-  const Eigen::MatrixXd before = places(session, {72});
-  steps(session, 30);
-  CHECK((places(session, {72}) - before).norm() < 1e-12);
+  CHECK(session.redone_next() == "pin 9 vertices");
+  CHECK(session.undone_next().empty());
+}
+
+TEST_CASE("a body of which all is pinned, some by the scene and the rest by hand, can be moved and let go") {
+  Session session(make_scene);
+  std::vector<Index> sheet;
+  for (Index i = 0; i < 81; ++i) sheet.push_back(i);
+  session.pin(sheet);
+  CHECK(session.undone_next() == "pin 79 vertices");
+  const auto of_sheet = [&] {
+    return std::ranges::count_if(session.pinned_vertices(), [](const PinnedVertex& pin) { return pin.vertex < 81; });
+  };
+  CHECK(of_sheet() == 81);
+  CHECK(session.figures() == std::vector<char>{0, 0});
+  session.unpin(sheet);
+  CHECK(of_sheet() == 0);
 }
 
 TEST_CASE("what is moved together before the first step begins there, is taken back as one change, and saved") {
@@ -165,6 +198,7 @@ TEST_CASE("what can be moved by its pin is listed with where it is held, but for
   CHECK(figure.pinned_vertices().empty());
   figure.pin({9, 10, 11, 12, 13, 14, 15, 16, 17});
   CHECK(figure.pinned_vertices().size() == 9);  // all of the cloth, but by hand
+  CHECK(figure.figures() == std::vector<char>{1, 0});
 }
 
 }  // namespace test_session_pins

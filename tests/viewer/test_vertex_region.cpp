@@ -117,7 +117,33 @@ TEST_CASE("what is behind the eye hides nothing that it should not, and is not s
   const auto seen = vertices_inside(everything, still.sight(), true);
   CHECK_FALSE(std::ranges::binary_search(seen, 3U));
   CHECK(seen.size() == sheet_size + 12);
-  CHECK_FALSE(vertices_inside(everything, still.sight(), false).empty());
+  const auto front = vertices_inside(everything, still.sight(), false);
+  for (const std::uint32_t vertex : seen) {
+    const Vec2f place = still.screen.place_of(still.positions[vertex]).value();
+    const auto first = pick_surface(still.render_mesh, still.positions, still.screen, place, 0);
+    const float depth = still.screen.depth_of(still.positions[vertex]);
+    const bool is_hidden = first && still.screen.depth_of(first->position(still.positions)) < 0.999F * depth;
+    if (is_hidden) CHECK_FALSE(std::ranges::binary_search(front, vertex));
+  }
+  CHECK(front.size() > 100);
+
+  for (Vec3f& x : still.positions) x = 2 * still.screen.viewpoint.eye - x;  // all of it, but for that vertex
+  CHECK(vertices_inside(everything, still.sight(), false) == std::vector<std::uint32_t>{3});
+}
+
+TEST_CASE("of two borders in the same place that of the vertex is meant") {
+  pliant::Simulation simulation;
+  const pliant::Mesh sheet = pliant::grid({.columns = 3, .rows = 3});
+  pliant::Mesh both = sheet;
+  both.vertices.conservativeResize(18, 3);
+  both.vertices.bottomRows(9) = sheet.vertices;
+  for (const auto& triangle : sheet.triangles)
+    both.triangles.push_back({triangle[0] + 9, triangle[1] + 9, triangle[2] + 9});
+  simulation.add_body(both, pliant::Mass::total(1));
+  const auto mesh = pliant_render::make_render_mesh(simulation.bodies());
+  const auto x = pliant_render::to_floats(simulation.state().positions);
+  CHECK(border_at(mesh, x, 9) == std::vector<std::uint32_t>{9, 10, 11, 12, 14, 15, 16, 17});
+  CHECK(border_at(mesh, x, 0) == std::vector<std::uint32_t>{0, 1, 2, 3, 5, 6, 7, 8});
 }
 
 TEST_CASE("the border of a sheet, of a hole in it, a rope, and none where a surface is closed") {
