@@ -37,12 +37,14 @@ endif()
 
 if(PLIANT_BUILD_CLI)
   find_package(CLI11 2.1 REQUIRED)
-  # OpenGL, with and without a display, and what is drawn flat on it; stb encodes PNG files.
+  # OpenGL, with and without a display, and what is drawn flat on it; stb encodes PNG files, WebP decodes the pictures of
+  # the list of scenes.
   find_package(PkgConfig REQUIRED)
   pkg_check_modules(EPOXY REQUIRED IMPORTED_TARGET epoxy>=1.5)
   pkg_check_modules(EGL REQUIRED IMPORTED_TARGET egl)
   pkg_check_modules(IMGUI REQUIRED IMPORTED_TARGET imgui)
   pkg_check_modules(STB REQUIRED IMPORTED_TARGET stb)
+  pkg_check_modules(WEBP REQUIRED IMPORTED_TARGET libwebp>=1.0)
   # Windows, with their mouse and keys.
   find_package(glfw3 3.3 REQUIRED)
 endif()

@@ -57,6 +57,7 @@ THIRD_PARTY = {
     "imgui": ["apps/render", "apps/viewer"],
     "backends/imgui": ["apps/render", "apps/viewer"],
     "stb/": ["apps/render", "tests"],
+    "webp/": ["apps/viewer"],
     "doctest/": ["tests"],
     "pybind11/": ["python"],
 }

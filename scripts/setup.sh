@@ -9,7 +9,7 @@ packages=(
   g++ cmake ninja-build
   libeigen3-dev libfmt-dev zlib1g-dev libpugixml-dev nlohmann-json3-dev libcli11-dev doctest-dev
   libsuitesparse-dev libopenblas-serial-dev
-  pkg-config libepoxy-dev libegl-dev libglfw3-dev libgl1 libgl1-mesa-dri libimgui-dev libstb-dev fonts-inter ffmpeg
+  pkg-config libepoxy-dev libegl-dev libglfw3-dev libgl1 libgl1-mesa-dri libimgui-dev libstb-dev libwebp-dev fonts-inter ffmpeg
   python3 python3-numpy python3-scipy python3-jsonschema python3-dev python3-pip python3-venv python3-setuptools python3-wheel
   pybind11-dev assimp-utils xvfb xauth xdotool
 )

@@ -48,4 +48,16 @@ Program::~Program() {
   glDeleteProgram(id_);
 }
 
+void set_up_texture(const Texture& texture, GLenum format, int width, int height, const void* pixels) {
+  const bool is_mask = format == GL_R8;
+  glBindTexture(GL_TEXTURE_2D, texture.id());
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(format), width, height, 0, is_mask ? GL_RED : GL_RGB,
+               GL_UNSIGNED_BYTE, pixels);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, is_mask ? GL_CLAMP_TO_BORDER : GL_CLAMP_TO_EDGE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, is_mask ? GL_CLAMP_TO_BORDER : GL_CLAMP_TO_EDGE);
+}
+
 }  // namespace pliant_render

@@ -1,6 +1,7 @@
 #include "viewer/panels/scene_panel.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 
 #include <imgui.h>
@@ -14,14 +15,51 @@ std::optional<std::array<float, 4>> ScenePanel::place_of(const std::string& scen
   return places_[number];
 }
 
+/// A picture on the left, and what is said of the scene below its name. Returns whether it was clicked.
+bool ScenePanel::draw_row_with_picture(const OpenableScene& scene, const PanelStyle& style) {
+  const ImVec2 picture = {112 * style.unit, 70 * style.unit};
+  const ImVec2 start = ImGui::GetCursorPos();
+  const float left = start.x + picture.x + 12 * style.unit, wrap = ImGui::GetContentRegionMax().x;
+  const float line = ImGui::GetTextLineHeightWithSpacing();
+  const float text_height = line + ImGui::CalcTextSize(scene.description.c_str(), nullptr, false, wrap - left).y;
+  const float height = std::max(picture.y, text_height);
+  const bool is_clicked = ImGui::Selectable("##open", false, 0, {0, height});
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  places_.push_back({low.x, low.y, high.x, high.y});
+  const ImVec2 end = ImGui::GetCursorPos();
+  if (ImGui::IsItemVisible()) {
+    if (const pliant_render::Texture* texture = thumbnails_.find(scene.name)) {
+      const ImVec2 corner = {low.x + ImGui::GetStyle().ItemSpacing.x / 2, (low.y + high.y - picture.y) / 2};
+      // NOLINTNEXTLINE(performance-no-int-to-ptr): as ImGui wants the number of a texture
+      ImGui::GetWindowDrawList()->AddImageRounded(reinterpret_cast<ImTextureID>(std::uintptr_t{texture->id()}), corner,
+                                                  {corner.x + picture.x, corner.y + picture.y}, {0, 0}, {1, 1},
+                                                  IM_COL32_WHITE, 4 * style.unit);
+    }
+  }
+  ImGui::SetCursorPos({left, start.y + std::max(0.0F, (height - text_height) / 2)});
+  ImGui::TextUnformatted(scene.name.c_str());
+  ImGui::SetCursorPosX(left);
+  ImGui::PushTextWrapPos(wrap);
+  ImGui::TextDisabled("%s", scene.description.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::SetCursorPos({end.x, end.y + 4 * style.unit});
+  return is_clicked;
+}
+
 /// Returns whether the row was clicked.
-bool ScenePanel::draw_row(const OpenableScene& scene, float column) {
+bool ScenePanel::draw_row(const OpenableScene& scene, const PanelStyle& style) {
   if (!scene.heading.empty()) {
     if (!places_.empty()) ImGui::Spacing();
     ImGui::TextUnformatted(scene.heading.c_str());
     ImGui::Spacing();
   }
   ImGui::PushID(static_cast<int>(places_.size()));
+  if (scene.opens.empty() && !thumbnail_file(scene.name).empty()) {
+    const bool is_clicked = draw_row_with_picture(scene, style);
+    ImGui::PopID();
+    return is_clicked;
+  }
+  const float column = 150 * style.unit;
   const float top = ImGui::GetCursorPosY();
   const float name_left = ImGui::GetCursorPosX();
   const float wrap = ImGui::GetContentRegionMax().x;
@@ -72,9 +110,8 @@ std::optional<std::string> ScenePanel::draw(const Vec2f& picture, const PanelSty
   if ((is_typed || is_pressed) && typed_[0] != '\0') chosen = typed_.data();
   ImGui::Separator();
   ImGui::BeginChild("list");
-  const float column = 150 * style.unit;
   for (const OpenableScene& scene : scenes_) {
-    if (draw_row(scene, column)) chosen = scene.opens.empty() ? scene.name : scene.opens;
+    if (draw_row(scene, style)) chosen = scene.opens.empty() ? scene.name : scene.opens;
   }
   ImGui::EndChild();
   ImGui::End();

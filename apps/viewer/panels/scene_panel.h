@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "viewer/panels/panel_style.h"
+#include "viewer/panels/thumbnails.h"
 #include "viewer/picking.h"
 
 namespace pliant_viewer {
@@ -31,10 +32,12 @@ class ScenePanel {
   bool is_open = false;
 
  private:
-  bool draw_row(const OpenableScene& scene, float column);
+  bool draw_row(const OpenableScene& scene, const PanelStyle& style);
+  bool draw_row_with_picture(const OpenableScene& scene, const PanelStyle& style);
 
   std::vector<OpenableScene> scenes_;
   std::vector<std::array<float, 4>> places_;
+  ThumbnailTextures thumbnails_;
   std::array<char, 1024> typed_{};
 };
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Draws the small pictures by which the page in the browser lists its scenes: web/page/public/thumbnails/. Needs ffmpeg and jq.
-#   scripts/web_thumbnails.sh [PROGRAM [SCENE...]]   default: build/release/bin/pliant, all scenes
+# Draws the small pictures by which the window and the page in the browser list their scenes:
+# web/page/public/thumbnails/. Needs ffmpeg and jq.
+#   scripts/thumbnails.sh [PROGRAM [SCENE...]]   default: build/release/bin/pliant, all scenes
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 pliant="${1:-build/release/bin/pliant}"
