@@ -15,6 +15,7 @@
 #include "viewer/mouse_interaction.h"
 #include "viewer/panels/plots_panel.h"
 #include "viewer/panels/scene_panel.h"
+#include "viewer/panels/tour.h"
 #include "viewer/pin_gizmo.h"
 #include "viewer/quality_chooser.h"
 #include "viewer/select_tool.h"
@@ -60,6 +61,7 @@ class Viewer {
   bool is_help_open() const { return is_help_open_; }
   const ScenePanel& scene_panel() const { return scene_panel_; }
   const PlotsPanel& plots_panel() const { return plots_panel_; }
+  const Tour& tour() const { return tour_; }
   const std::string& message() const { return message_; }
   /// Takes back the last change of the scene, and does it again, as soon as its thread comes to it.
   void undo();
@@ -107,6 +109,7 @@ class Viewer {
   void draw_main_panel();
   void draw_message();
   void draw_plots();
+  void draw_tour();
   void save_plots(PlotsPanel::Wish wish, const pliant_plot::MeasuredRun& run);
   void write_picture(int width, int height);
   void draw_edit_buttons(float width);
@@ -162,6 +165,7 @@ class Viewer {
   std::function<std::string(const std::string&)> open_;
   std::function<void(const std::filesystem::path&)> saved_;
   ScenePanel scene_panel_;
+  Tour tour_;
   PlotsPanel plots_panel_;
   std::string waits_;     // to be opened once the picture has said so; empty: nothing
   int waits_turns_ = 0;   // pictures until then

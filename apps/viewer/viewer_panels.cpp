@@ -24,8 +24,26 @@ void Viewer::draw_panels() {
   }
   draw_plots();
   if (const auto chosen = scene_panel_.draw(screen_.size, ui_.style())) open(*chosen);
+  if (scene_panel_.take_wish_for_tour()) tour_.begin();
+  draw_tour();
   if (is_help_open_) is_help_open_ = draw_help(source_.live() != nullptr, screen_.size, ui_.style());
   draw_message();
+}
+
+/// What there is to try; behind the list of scenes and the help it waits.
+void Viewer::draw_tour() {
+  const LiveScene* live = source_.live();
+  if (live == nullptr) return tour_.end();
+  if (scene_panel_.is_open || is_help_open_) return;
+  const Snapshot& shown = live->shown();
+  tour_.watch({.is_busy = interaction_.is_busy(),
+               .is_pulling = interaction_.pull().has_value(),
+               .is_handling = gizmo_.is_busy(),
+               .pins = shown.movable_pins.size(),
+               .undone_next = shown.undone_next,
+               .redone_next = shown.redone_next,
+               .camera = camera_});
+  tour_.draw(screen_.size, ui_.style());
 }
 
 void Viewer::draw_main_panel() {
@@ -71,6 +89,11 @@ void Viewer::draw_main_panel() {
   ImGui::SameLine();
   if (ImGui::Button("Plots", {third, 0})) plots_panel_.is_open = !plots_panel_.is_open;
   explain("G: energies, speed, residual, contacts and the time of a step, over time");
+  if (source_.live() != nullptr) {
+    ImGui::SameLine();
+    if (ImGui::Button("Tour", {third, 0})) tour_.begin();
+    explain("five things to try in the window");
+  }
   ImGui::TextDisabled("%.0f pictures a second", frames_.means(Clock::now()).rate);
   explain("drawn by " + window_.driver());
   ImGui::End();

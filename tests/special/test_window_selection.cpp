@@ -126,6 +126,43 @@ TEST_CASE("keys and clicks select vertices, a border and everything, and nothing
   CHECK(desk.viewer.selection().selected() == left);
 }
 
+TEST_CASE("the tour is walked through from the list of scenes, by doing what it asks for") {
+  Desk desk(make_sheet, 1, [](const std::string&) { return std::string(); });
+  desk.settle();
+  desk.key("ctrl+o");
+  desk.turn_until([&] { return desk.viewer.scene_panel().place_of("flag").has_value(); });
+  const auto first = desk.viewer.scene_panel().place_of("flag").value();
+  desk.click({first[2] - 90, first[1] - 22});  // the button beside Close
+  desk.turns(4);
+  CHECK_FALSE(desk.viewer.scene_panel().is_open);
+  REQUIRE(desk.viewer.tour().step() == 0);
+  desk.drag(desk.place(65), desk.place(65) + Vec2f(40, 30));
+  desk.turns(4);
+  CHECK(desk.viewer.tour().step() == 0);
+  desk.release();
+  desk.turn_until([&] { return desk.viewer.tour().step() == 1; });
+  desk.drag({30, 320}, {70, 330});
+  desk.release();
+  desk.turn_until([&] { return desk.viewer.tour().step() == 2; });
+  desk.click(desk.place(65));
+  desk.turn_until([&] { return desk.viewer.tour().step() == 3; });
+  select_box(desk, {50, 52, 74, 76});
+  desk.key("n");
+  desk.turn_until([&] { return desk.viewer.gizmo().is_shown(); });
+  const Vec2f arrow = desk.viewer.gizmo().place_of(Part::move_z, desk.viewer.mouse_view()).value();
+  desk.drag(arrow, arrow - Vec2f(0, 30));
+  desk.release();
+  desk.turn_until([&] { return desk.viewer.tour().step() == 4; });
+  const auto rect = desk.source.parameter_panel().place_of("settings.iterations").value();
+  const float y = (rect[1] + rect[3]) / 2, width = rect[2] - rect[0];
+  desk.drag({rect[0] + 0.55F * width, y}, {rect[0] + 0.9F * width, y});
+  desk.release();
+  desk.turn_until([&] { return desk.shown().undone_next == "iterations"; });
+  desk.turns(4);
+  desk.key("ctrl+z");
+  desk.turn_until([&] { return desk.viewer.tour().step() == Tour::step_count; });
+}
+
 int main(int argc, char** argv) {
   return run_on_display(argc, argv);
 }

@@ -99,12 +99,18 @@ std::optional<std::string> ScenePanel::draw(const Vec2f& picture, const PanelSty
   ImGui::Spacing();
   const ImGuiStyle& spaces = ImGui::GetStyle();
   const float button = ImGui::CalcTextSize("Close").x + 2 * spaces.FramePadding.x + 12 * style.unit;
-  ImGui::SetNextItemWidth(-2 * (button + spaces.ItemSpacing.x));
+  ImGui::SetNextItemWidth(-3 * (button + spaces.ItemSpacing.x));
   const bool is_typed =
       ImGui::InputTextWithHint("##file", "name of a file or a folder", typed_.data(), typed_.size(),
                                ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
   ImGui::SameLine();
   const bool is_pressed = ImGui::Button("Open", {button, 0});
+  ImGui::SameLine();
+  if (ImGui::Button("Tour", {button, 0})) {
+    wishes_tour_ = true;
+    is_open = false;
+  }
+  explain("five things to try in the window, with the scene behind this list");
   ImGui::SameLine();
   if (ImGui::Button("Close", {button, 0})) is_open = false;
   if ((is_typed || is_pressed) && typed_[0] != '\0') chosen = typed_.data();

@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "viewer/panels/panel_style.h"
@@ -29,6 +30,9 @@ class ScenePanel {
   /// Where a scene stands in the window, as of the last drawing: left, top, right, bottom.
   std::optional<std::array<float, 4>> place_of(const std::string& scene) const;
 
+  /// Whether a tour of the window was asked for since the last call.
+  bool take_wish_for_tour() { return std::exchange(wishes_tour_, false); }
+
   bool is_open = false;
 
  private:
@@ -38,6 +42,7 @@ class ScenePanel {
   std::vector<OpenableScene> scenes_;
   std::vector<std::array<float, 4>> places_;
   ThumbnailTextures thumbnails_;
+  bool wishes_tour_ = false;
   std::array<char, 1024> typed_{};
 };
 
