@@ -49,6 +49,18 @@ std::string forces_text(const pliant::Simulation& simulation) {
   return simulation.find_force("wind") ? text : text + "; no wind";
 }
 
+/// "1 x 0.5 x 2 m"
+std::string size_text(const pliant::Simulation& simulation) {
+  const pliant::BoundingBox box = pliant::bounding_box(simulation.state().positions);
+  const pliant::Vec3 size = box.max - box.min;
+  return fmt::format("{:.3g} x {:.3g} x {:.3g} m", size.x(), size.y(), size.z());
+}
+
+pliant::Real mass_of(const pliant::Simulation& simulation) {
+  const auto& masses = simulation.state().masses;
+  return std::accumulate(masses.begin(), masses.end(), pliant::Real(0));
+}
+
 }  // namespace
 
 void add_scene_arguments(CLI::App& command, SceneArguments& arguments, const std::string& help) {
@@ -122,17 +134,27 @@ void check_import(const SceneArguments& arguments) {
       "docs/scenes.md");
 }
 
+std::string short_assumptions_text(const SceneArguments& arguments, const pliant::Scene& scene) {
+  if (!is_mesh(arguments)) return "";
+  const std::string name = pliant::printable_place(fs::path(arguments.scene).filename().string());
+  std::string text = fmt::format("{}: {}\n{}, {:.3g} kg", name, pliant::printable(scene.description, 1000),
+                                 size_text(scene.simulation), mass_of(scene.simulation));
+  if (!scene.materials.empty()) {
+    text += fmt::format(" of {}", pliant::printable(scene.materials.begin()->second.name));
+  }
+  return text;
+}
+
 std::string assumptions_text(const SceneArguments& arguments, const pliant::Scene& scene) {
   if (!is_mesh(arguments)) return "";
   const pliant::Simulation& simulation = scene.simulation;
   const pliant::SolverSettings& settings = simulation.settings();
-  const auto& masses = simulation.state().masses;
-  const pliant::BoundingBox box = pliant::bounding_box(simulation.state().positions);
-  const pliant::Vec3 size = box.max - box.min;
   const std::string name = pliant::printable_place(arguments.scene);
-  std::string text = fmt::format("{}: {}\n", name, pliant::printable(scene.description, 1000));
-  text += fmt::format("  size      {:.3g} x {:.3g} x {:.3g} m, z is up\n", size.x(), size.y(), size.z());
-  text += fmt::format("  mass      {:.4g} kg\n", std::accumulate(masses.begin(), masses.end(), pliant::Real(0)));
+  std::string text = fmt::format("{}: {}", name, pliant::printable(scene.description, 1000));
+  const bool is_scaled = scene.description.ends_with("are taken as 1 m");
+  text += is_scaled ? ", --scale says how many meters a unit has\n" : "\n";
+  text += fmt::format("  size      {}, z is up\n", size_text(simulation));
+  text += fmt::format("  mass      {:.4g} kg\n", mass_of(simulation));
   for (const auto& [id, material] : scene.materials)
     text += fmt::format("  material  {}\n", pliant::printable(material.name));
   text += groups_text(simulation);

@@ -51,6 +51,8 @@ pliant::Scene open_scene(const SceneArguments& arguments);
 
 /// What was assumed about the mesh of such a scene, one line each; "" where the scene is none.
 std::string assumptions_text(const SceneArguments& arguments, const pliant::Scene& scene);
+/// The same in two lines for a window, which changes the rest itself.
+std::string short_assumptions_text(const SceneArguments& arguments, const pliant::Scene& scene);
 
 /// Prints a line for each of the scene's warnings: keys that have an old name, loose vertices.
 void print_warnings(const pliant::Scene& scene);

@@ -139,8 +139,7 @@ Shown show_session(const ViewArguments& arguments, OpenedSession session, pliant
 }
 
 Shown show_scene(const ViewArguments& arguments, std::shared_ptr<pliant::Scene> scene, pliant_viewer::Window& window) {
-  std::string greeting = assumptions_text(arguments, *scene);
-  while (greeting.ends_with('\n')) greeting.pop_back();
+  std::string greeting = short_assumptions_text(arguments, *scene);
   return {arguments,
           std::make_unique<pliant_viewer::LiveSource>(scene_maker(arguments, std::move(scene)), threads_beside(window),
                                                       !arguments.is_paused, pliant_viewer::Window::wake),

@@ -58,8 +58,9 @@ void draw_measures(const std::vector<std::uint32_t>& selected, const Snapshot& s
   if (measures.stretch) {
     row_label("stretch", selected.size() == 1 ? "of the edges at it: their lengths, by those at rest"
                                               : "of the edges between them: their lengths, by those at rest");
-    const auto [least, most] = *measures.stretch;
-    wrapped_text(fmt::format("{:.3f}", least) + (most > least ? fmt::format(" to {:.3f}", most) : ""));
+    const std::string least = fmt::format("{:.3f}", (*measures.stretch)[0]);
+    const std::string most = fmt::format("{:.3f}", (*measures.stretch)[1]);
+    wrapped_text(least == most ? least : least + " to " + most);
   }
 }
 

@@ -59,7 +59,7 @@ TEST_CASE("many vertices, of several bodies, are pinned and let go as one change
 TEST_CASE("vertices that are not there are refused, and nothing is pinned then") {
   Session session(make_scene);
   CHECK_THROWS_AS(session.pin({30, 5000}), pliant::Error);
-  CHECK_THROWS_AS(session.pin({-1}), pliant::Error);
+  CHECK_THROWS_AS(session.pin(std::vector<Index>{-1}), pliant::Error);
   CHECK_FALSE(session.is_pinned(30));
   CHECK(session.undone_next().empty());
   session.unpin({5000, -1});
@@ -184,7 +184,7 @@ TEST_CASE("what can be moved by its pin is listed with where it is held, but for
   for (const PinnedVertex& pin : session.pinned_vertices()) {
     vertices.push_back(pin.vertex);
     if (pin.vertex >= 27 && pin.vertex <= 35)
-      CHECK(pin.target.z() == doctest::Approx(place(session, pin.vertex).z() + 1));
+      CHECK(pin.target.z() == doctest::Approx(place(session, static_cast<Index>(pin.vertex)).z() + 1));
   }
   CHECK(vertices == std::vector<std::uint32_t>{27, 28, 29, 30, 31, 32, 33, 34, 35, 72, 80, 81, 86, 99, 104});
 

@@ -157,7 +157,7 @@ Real likely_scale(const Mesh& mesh, const ImportOptions& import, std::string& re
   const BoundingBox box = bounding_box(mesh.vertices);
   const Real length = (box.max - box.min).maxCoeff();
   if (import.scale != 1 || !(length > 0) || (length >= shortest && length <= longest)) return import.scale;
-  remark = fmt::format("; its {:.3g} units are taken as 1 m, --scale says how many meters a unit has", length);
+  remark = fmt::format("; its {:.3g} units are taken as 1 m", length);
   return 1 / length;
 }
 
