@@ -38,11 +38,10 @@ std::string scene_text_of(std::span<const std::uint32_t> selected, const pliant_
     const VertexName name = name_of(vertex, render_mesh);
     numbers[name.body].push_back(name.number);
   }
-  using Json = nlohmann::ordered_json;
-  if (numbers.size() == 1) return Json(numbers.begin()->second).dump();
-  Json lists = Json::object();
+  if (numbers.size() == 1) return nlohmann::json(numbers.begin()->second).dump();
+  auto lists = nlohmann::ordered_json::object();
   for (const auto& [body, of_body] : numbers) lists[body_names.at(body)] = of_body;
-  return lists.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return lists.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 }  // namespace pliant_viewer

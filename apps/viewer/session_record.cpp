@@ -5,7 +5,6 @@
 #include <memory>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
@@ -13,11 +12,10 @@
 #include "pliant_io/files/atomic_file.h"
 #include "pliant_io/files/base64.h"
 #include "pliant_io/files/read_file.h"
+#include "viewer/json_of.h"
 
 namespace pliant_viewer {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr int format_version = 1;
 
