@@ -11,8 +11,9 @@ foreach(picture IN LISTS pictures)
   cmake_path(GET picture STEM name)
   file(READ "${picture}" bytes HEX)
   string(REGEX REPLACE "([0-9a-f][0-9a-f])" "0x\\1," bytes "${bytes}")
-  string(APPEND arrays "constexpr unsigned char ${name}[] = {${bytes}};\n")
-  string(APPEND entries "  if (scene == \"${name}\") return ${name};\n")
+  string(MAKE_C_IDENTIFIER "of_${name}" array)
+  string(APPEND arrays "constexpr unsigned char ${array}[] = {${bytes}};\n")
+  string(APPEND entries "  if (scene == \"${name}\") return ${array};\n")
 endforeach()
 
 file(WRITE "${output}" "// Made by cmake/embed_thumbnails.cmake.
@@ -24,7 +25,7 @@ namespace {
 ${arrays}
 }  // namespace
 
-std::span<const unsigned char> thumbnail_file(std::string_view scene) {
+std::span<const unsigned char> thumbnail_file([[maybe_unused]] std::string_view scene) {
 ${entries}  return {};
 }
 

@@ -38,13 +38,12 @@ bool is_nearly(std::optional<pliant::Real> damping, pliant::Real given) {
 
 }  // namespace
 
-std::vector<BodyMaterial> list_materials(const pliant::Scene& scene) {
+std::vector<BodyMaterial> list_materials(const pliant::Scene& scene, const std::vector<char>& is_figure) {
   std::vector<BodyMaterial> list;
   const pliant::Simulation& simulation = scene.simulation;
-  const std::vector<char> held = held_vertices(simulation);
   for (Index i = 0; i < pliant::count_of(simulation.bodies()); ++i) {
     const pliant::Body& body = simulation.body(BodyId{i});
-    if (is_held(body, held)) continue;
+    if (is_figure.at(static_cast<std::size_t>(i)) != 0) continue;
     std::vector<MaterialChoice> choices = choices_for(scene, body.mesh);
     if (choices.empty()) continue;
     const auto found = scene.materials.find(BodyId{i});

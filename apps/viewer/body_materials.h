@@ -20,8 +20,8 @@ struct BodyMaterial {
   std::vector<MaterialChoice> choices;  ///< what its mesh can be made of
 };
 
-/// Of the bodies that can be made of any material and are not held everywhere, in their order.
-std::vector<BodyMaterial> list_materials(const pliant::Scene& scene);
+/// Of the bodies that can be made of any material and are no figures, in their order; see Session::figures.
+std::vector<BodyMaterial> list_materials(const pliant::Scene& scene, const std::vector<char>& is_figure);
 
 /// Makes a body of the material of that name, one of the scene's own or of the library, with its threads as given. The
 /// first material of a scene

@@ -20,6 +20,20 @@ bool is_same(const pliant_render::RenderMesh& a, const pliant_render::RenderMesh
          a.springs == b.springs && a.rest_lengths == b.rest_lengths && a.tones == b.tones && a.looks == b.looks;
 }
 
+/// What was pinned by hand keeps its tone, all of a body too.
+pliant_render::RenderMesh make_mesh_of(const Session& session) {
+  const std::vector<pliant::Body>& bodies = session.simulation().bodies();
+  const std::vector<char> is_figure = session.figures();
+  std::vector<std::uint32_t> held;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const Index count = is_figure[i] != 0 ? bodies[i].mesh.vertex_count() : 0;
+    for (Index v = 0; v < count; ++v) held.push_back(static_cast<std::uint32_t>(bodies[i].first_vertex + v));
+  }
+  pliant_render::RenderMesh mesh = pliant_render::make_render_mesh(bodies, held);
+  mesh.looks = pliant_render::vertex_looks(bodies, session.scene().appearances);
+  return mesh;
+}
+
 /// A body whose last vertices were pinned by hand looks as before, with marks.
 void show_pins_of_hand(const std::vector<std::uint32_t>& pins, const std::vector<char>& is_figure,
                        const pliant_render::RenderMesh& render_mesh, pliant_render::FrameContent& content) {
@@ -241,8 +255,7 @@ void LiveScene::step() {
 }
 
 void LiveScene::update_render_mesh() {
-  auto render_mesh =
-      std::make_shared<const pliant_render::RenderMesh>(pliant_render::make_render_mesh(session_.scene()));
+  auto render_mesh = std::make_shared<const pliant_render::RenderMesh>(make_mesh_of(session_));
   if (render_mesh_ == nullptr || !is_same(*render_mesh, *render_mesh_)) render_mesh_ = std::move(render_mesh);
   std::vector<std::string> names;
   for (const pliant::Body& body : session_.simulation().bodies()) names.push_back(body.name);
@@ -289,6 +302,7 @@ void LiveScene::publish() {
   back_.messages = messages_;
   back_.undone_next = session_.undone_next();
   back_.redone_next = session_.redone_next();
+  back_.edits = session_.edit_count();
   back_.is_replaying = session_.is_replaying();
   back_.replayed = session_.replayed();
   back_.has_unsaved_changes = session_.has_unsaved_changes();

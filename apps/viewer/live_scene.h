@@ -40,6 +40,7 @@ struct Snapshot {
   std::uint64_t messages = 0;  ///< number of such messages so far
   std::string undone_next;     ///< what undo would take back, and redo do again; empty: nothing
   std::string redone_next;
+  std::uint64_t edits = 0;           ///< changes so far
   bool has_unsaved_changes = false;  ///< of the scene
   bool is_replaying = false;         ///< a recorded session
   ReplayReport replayed;             ///< how far that is

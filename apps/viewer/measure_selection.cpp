@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include <nlohmann/json.hpp>
+#include <fmt/format.h>
 
 namespace pliant_viewer {
 
@@ -38,10 +38,13 @@ std::string scene_text_of(std::span<const std::uint32_t> selected, const pliant_
     const VertexName name = name_of(vertex, render_mesh);
     numbers[name.body].push_back(name.number);
   }
-  if (numbers.size() == 1) return nlohmann::json(numbers.begin()->second).dump();
-  auto lists = nlohmann::ordered_json::object();
-  for (const auto& [body, of_body] : numbers) lists[body_names.at(body)] = of_body;
-  return lists.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  std::string text;
+  for (const auto& [body, of_body] : numbers) {
+    const std::string list = fmt::format("[{}]", fmt::join(of_body, ", "));
+    if (numbers.size() == 1) return list;
+    text += fmt::format("{}: {}\n", body_names.at(body), list);
+  }
+  return text;
 }
 
 }  // namespace pliant_viewer

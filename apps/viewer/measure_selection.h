@@ -30,7 +30,7 @@ struct VertexName {
 VertexName name_of(std::uint32_t vertex, const pliant_render::RenderMesh& render_mesh);
 
 /// What stands behind "on" in a scene file to act on these vertices, "[3, 4, 5]"; where they belong to several bodies,
-/// lists by name, {"shirt": [3, 4], "rope": [0]}.
+/// a line for each, with its name before the list.
 std::string scene_text_of(std::span<const std::uint32_t> selected, const pliant_render::RenderMesh& render_mesh,
                           const std::vector<std::string>& body_names);
 

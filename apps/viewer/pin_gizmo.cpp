@@ -149,13 +149,14 @@ bool PinGizmo::handle(const MouseEvent& event, const View& view) {
       if (is_busy()) return true;
       const Part part = is_left && !event.shift && !event.control ? part_at(event.place, view) : Part::none;
       if (part == Part::none || view.live == nullptr) return false;
-      begin(part, event.place, view);
+      begin(part, event.place);
       return true;
     }
     case MouseEvent::Kind::move:
       if (!is_busy()) return false;
       if (!is_held_ && (event.place - pressed_).norm() <= click_way * view.unit) return true;
       if (!is_held_) hold(view);
+      if (!is_busy()) return true;
       drag(event.place, view);
       if (is_ring(held_) && event.control) {
         motion_.rotation = std::round(turned_ / snap) * snap * Vec3f::Unit(axis_of(held_));
@@ -174,7 +175,7 @@ bool PinGizmo::handle(const MouseEvent& event, const View& view) {
   return false;
 }
 
-void PinGizmo::begin(Part part, const Vec2f& at, const View& view) {
+void PinGizmo::begin(Part part, const Vec2f& at) {
   // The scene may not have come to the last motion yet: this one begins where that ended.
   for (Vec3f& target : targets_) target = motion_(target.cast<double>()).cast<float>();
   motion_ = {.center = middle()};
@@ -182,21 +183,25 @@ void PinGizmo::begin(Part part, const Vec2f& at, const View& view) {
   is_held_ = has_moved_ = false;
   pressed_ = last_ = at;
   turned_ = 0;
+}
+
+/// By where the mouse took the part.
+void PinGizmo::aim(const View& view) {
   last_angle_.reset();
-  grip_ = middle() - view.screen.point_at(at, view.screen.depth_of(middle()));
-  if (is_arrow(part)) {
-    along_ = nearest_on_axis(middle(), Vec3f::Unit(axis_of(part)), view.screen.ray(at)).value_or(0);
-  } else if (is_ring(part)) {
-    last_angle_ = angle_at(at, view);
+  grip_ = middle() - view.screen.point_at(pressed_, view.screen.depth_of(middle()));
+  if (is_arrow(held_)) {
+    along_ = nearest_on_axis(middle(), Vec3f::Unit(axis_of(held_)), view.screen.ray(pressed_)).value_or(0);
+  } else if (is_ring(held_)) {
+    last_angle_ = angle_at(pressed_, view);
     if (!last_angle_) {  // along the picture of the ring where it was taken
       const auto distance = [&](const Vec3f& point) {
         const auto place = view.screen.place_of(point);
-        return place ? (*place - at).norm() : 1e30F;
+        return place ? (*place - pressed_).norm() : 1e30F;
       };
-      const std::vector<Vec3f> points = ring(axis_of(part), view);
+      const std::vector<Vec3f> points = ring(axis_of(held_), view);
       const Vec3f taken = *std::ranges::min_element(points, {}, distance);
       constexpr float small_angle = 0.01F;
-      const Vec3f on = taken + small_angle * Vec3f::Unit(axis_of(part)).cross(taken - middle());
+      const Vec3f on = taken + small_angle * Vec3f::Unit(axis_of(held_)).cross(taken - middle());
       const auto from = view.screen.place_of(taken), to = view.screen.place_of(on);
       const Vec2f way = from && to ? Vec2f((*to - *from) / small_angle) : Vec2f(1, 0);
       const float least = 0.3F * ring_radius * view.unit;  // where the ring goes away from the eye it seems to stand
@@ -206,6 +211,14 @@ void PinGizmo::begin(Part part, const Vec2f& at, const View& view) {
 }
 
 void PinGizmo::hold(const View& view) {
+  // The scene may have moved the pins since the press.
+  if (view.snapshot->commands >= command_) {
+    const Part part = std::exchange(held_, Part::none);
+    follow({pins_.begin(), pins_.end()}, *view.snapshot);
+    if (pins_.empty()) return;  // they were let go
+    held_ = part;
+  }
+  aim(view);
   is_held_ = true;
   post(view, LiveScene::Kind::changes, [pins = pins_](Session& session) { session.hold_pins(pins); });
 }

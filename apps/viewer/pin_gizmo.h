@@ -24,6 +24,8 @@ class PinGizmo {
   /// Moves the pins if the mouse has moved, and the scene has followed, since the last call.
   void flush(const MouseInteraction::View& view);
   bool is_busy() const { return held_ != Part::none; }
+  /// Whether it moves or turns pins: the mouse has gone on since it took a part.
+  bool is_holding() const { return is_busy() && is_held_; }
   void cancel() { *this = PinGizmo(); }
   /// What a press at this place would take hold of.
   Part part_at(const Vec2f& at, const MouseInteraction::View& view) const;
@@ -41,7 +43,8 @@ class PinGizmo {
   float reach(const MouseInteraction::View& view) const;
   std::vector<Vec3f> ring(int axis, const MouseInteraction::View& view) const;
   std::optional<float> angle_at(const Vec2f& at, const MouseInteraction::View& view) const;
-  void begin(Part part, const Vec2f& at, const MouseInteraction::View& view);
+  void begin(Part part, const Vec2f& at);
+  void aim(const MouseInteraction::View& view);
   void hold(const MouseInteraction::View& view);
   void send(const MouseInteraction::View& view);
   void drag(const Vec2f& to, const MouseInteraction::View& view);

@@ -78,6 +78,10 @@ UnchangedScene::UnchangedScene(const pliant::Scene& scene) {
   const pliant::Simulation& simulation = scene.simulation;
   groups_ = simulation.group_names();
   for (const auto& [id, group] : simulation.groups()) {
+    if (group.type == pliant::Position::info.name)
+      pin_numbers_[group.name] = {group.points.begin(), group.points.end()};
+  }
+  for (const auto& [id, group] : simulation.groups()) {
     const bool is_tie = group.type == pliant::Attachment::info.name && !scene.places.contains(group.name);
     if (is_tie && std::ranges::find(scene.group_names, group.name) != scene.group_names.end()) ties_.insert(group.name);
   }
@@ -118,6 +122,12 @@ bool UnchangedScene::is_of_hand(const std::string& group) const {
                              [&](const BodyPart& body) { return group == body.pins || group == body.moved_pins; });
 }
 
+/// Of a group of pins, as the scene has it at its start.
+bool UnchangedScene::has_number(const std::string& group, Index number) const {
+  const auto found = pin_numbers_.find(group);
+  return found != pin_numbers_.end() && found->second.contains(number);
+}
+
 std::optional<std::size_t> UnchangedScene::find_body(const std::string& name) const {
   const auto found = std::ranges::find(bodies_, name, &BodyPart::name);
   if (found == bodies_.end()) return {};
@@ -144,17 +154,20 @@ void UnchangedScene::apply(const SceneChanges& changes, pliant::Scene& scene) co
         if (const auto found = simulation.find_group(group)) simulation.release(*found, std::span(&of_body, 1));
       }
     }
-    std::vector<Index> held;
+    std::vector<Index> held, moved;
+    std::vector<Vec3> targets;
     for (const auto& [vertex, target] : changes.pins) {
       const Index of_body = vertex - body.first_vertex;
       if (of_body < 0 || of_body >= body.vertex_count) continue;
-      if (!target) {
-        held.push_back(of_body);
-        continue;
-      }
-      simulation.add(id, pliant::Position{.on = {of_body}, .targets = *target}, body.moved_pins);
+      (target ? moved : held).push_back(of_body);
+      if (target) targets.push_back(*target);
     }
     if (!held.empty()) simulation.add(id, pliant::Position{.on = pliant::Selection(std::move(held))}, body.pins);
+    if (moved.empty()) continue;
+    pliant::Position pin;
+    pin.on = pliant::Selection(std::move(moved));
+    pin.targets = pliant::Points(std::move(targets));
+    simulation.add(id, pin, body.moved_pins);
   }
   for (const auto& [vertex, pin] : changes.moved) {
     const auto group = simulation.find_group(pin.group);
@@ -319,6 +332,7 @@ void UnchangedScene::write_pins(const SceneChanges& changes, SceneDocument& docu
   };
   std::map<std::string, Moves> moves;  // by group: one event each
   const auto move = [&](const std::string& group, Index number, const Vec3& target) {
+    if (!has_number(group, number)) return;  // an event that names it would be left out as a whole
     moves[group].numbers.push_back(number);
     moves[group].targets.push_back(json_of(target));
   };

@@ -81,7 +81,7 @@ class UnchangedScene {
                             pliant::SceneDocument& document);
   /// The number of its own events; those of changes stand behind them.
   std::size_t event_count() const { return event_count_; }
-  /// Whether a group of that name holds pins that were set by hand, in a scene with changes.
+  /// Whether a group of that name holds pins that were set by hand, now, or before the scene was saved.
   bool is_of_hand(const std::string& group) const;
 
  private:
@@ -93,6 +93,7 @@ class UnchangedScene {
     std::string pins;                   ///< name of the group of pins that were set by hand
     std::string moved_pins;             ///< of those that were moved
   };
+  bool has_number(const std::string& group, Index number) const;
   std::optional<std::size_t> find_body(const std::string& name) const;
 
   std::string free_name(const std::string& base) const;
@@ -109,6 +110,7 @@ class UnchangedScene {
   mutable std::optional<pliant::SceneDocument> document_;
   std::vector<BodyPart> bodies_;
   std::vector<std::string> groups_;                      // there at the start
+  std::map<std::string, std::set<Index>> pin_numbers_;   // of them, by group: what a move can name
   std::set<std::string> ties_;                           // of them, those of carried surfaces
   std::map<std::string, pliant::Vec3> collider_starts_;  // [m]
   bool has_text_ = false;

@@ -57,8 +57,7 @@ class Session {
   void set_pull_stiffness(Real stiffness);
   void let_go();
   const std::optional<Pull>& pull() const { return pull_; }
-  /// A note on the last step for the user; empty for none.
-  const std::string& note() const { return note_; }
+  const std::string& note() const { return note_; }  ///< on the last step for the user; empty: none
 
   /// Pins a vertex, by its index in the simulation, where it is now; does nothing if it is pinned already. After a
   /// restart it is pinned where it begins.
@@ -99,7 +98,7 @@ class Session {
   void set(const std::string& key, const pliant::Vec3& value, bool goes_on = false);
 
   /// What the bodies are made of, for the panel.
-  std::vector<BodyMaterial> materials() const { return list_materials(scene_); }
+  std::vector<BodyMaterial> materials() const { return list_materials(scene_, figures()); }
   /// Makes the body of that name of another material, where it is. Values that were set of the groups that go are
   /// forgotten. @throws pliant::Error (input): no such body or material, or one that the body cannot be made of.
   void set_material(const std::string& body, const std::string& material);
@@ -107,6 +106,7 @@ class Session {
   /// What undo() and redo() would take back and do again, "pin"; empty: nothing.
   std::string undone_next() const { return done_.empty() ? "" : done_.back().what; }
   std::string redone_next() const { return undone_.empty() ? "" : undone_.back().what; }
+  std::uint64_t edit_count() const { return edit_count_; }  ///< of all changes so far, those taken back too
   /// Take back the last change, and do it again; what moves stays where it is, and time goes on. Nothing has changed
   /// when these throw.
   void undo();
@@ -125,8 +125,7 @@ class Session {
   bool has_unsaved_changes() const { return !(changes_ == saved_changes_); }
   /// How often the scene was made anew with other changes: groups have other ids then.
   std::uint64_t rebuilds() const { return rebuilds_; }
-  /// How often it was restarted.
-  std::uint64_t restarts() const { return restarts_; }
+  std::uint64_t restarts() const { return restarts_; }  ///< so far
   const SceneChanges& changes() const { return changes_; }
 
   /// All that was done since the scene was opened, or restarted without changes, to be replayed; shown like that.
@@ -164,6 +163,7 @@ class Session {
   void steer_colliders();
   void note_release(Index vertex, const pliant::Group& group, const Pin& pin);
   bool is_hidden(pliant::GroupId group) const;
+  bool was_of_hand(const pliant::Group& group) const;
   void remember(Edit edit);
   void take_old_values_of(const std::vector<Slider>& at_start);
   void go(const Edit& edit, const SceneChanges& from, const SceneChanges& to);
@@ -182,7 +182,7 @@ class Session {
   std::map<std::string, pliant::MaterialPlacement> placements_;  // of the bodies whose material changed, as they had it
   std::set<pliant::ColliderId> left_alone_;                      // moved by hand while time went on
   std::set<pliant::GroupId> of_hand_;                            // groups of pins that were set by hand
-  std::uint64_t rebuilds_ = 0, restarts_ = 0;
+  std::uint64_t rebuilds_ = 0, restarts_ = 0, edit_count_ = 0;
   OpenedScene opened_;
   SessionLog log_;
   std::optional<Replay> replay_;

@@ -61,6 +61,7 @@ std::string text_of(const pliant::Parameter& parameter) {
 
 void Session::remember(Edit edit) {
   edit.after = changes_;
+  ++edit_count_;
   done_.push_back(std::move(edit));
   undone_.clear();
   if (done_.size() > most_edits) done_.erase(done_.begin());

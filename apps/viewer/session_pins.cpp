@@ -41,10 +41,16 @@ std::map<Index, std::vector<Pin>> Session::find_pins(const std::vector<Index>& v
   return pins;
 }
 
+/// By the names that pins of the hand have in saved scenes.
+bool Session::was_of_hand(const pliant::Group& group) const {
+  const std::string& body = simulation().body(group.body).name;
+  return group.name.starts_with(body + ".pins") || group.name.starts_with(body + ".moved_pins");
+}
+
 std::vector<char> Session::figures() const {
   std::vector<char> held(simulation().state().masses.size(), 0);
   for (const auto& [id, group] : simulation().groups()) {
-    if (of_hand_.contains(id)) continue;
+    if (of_hand_.contains(id) || was_of_hand(group)) continue;
     for (const auto& batch : group.set.batches) {
       for (const Index vertex : batch->pinned_vertices()) held[static_cast<std::size_t>(vertex)] = 1;
     }

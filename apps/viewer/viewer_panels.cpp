@@ -23,7 +23,8 @@ void Viewer::draw_panels() {
     draw_time_bar(*playback, screen_.size, ui_.style());
   }
   draw_plots();
-  if (const auto chosen = scene_panel_.draw(screen_.size, ui_.style())) open(*chosen);
+  const bool has_tour = source_.live() != nullptr;
+  if (const auto chosen = scene_panel_.draw(screen_.size, ui_.style(), has_tour)) open(*chosen);
   if (scene_panel_.take_wish_for_tour()) tour_.begin();
   draw_tour();
   if (is_help_open_) is_help_open_ = draw_help(source_.live() != nullptr, screen_.size, ui_.style());
@@ -38,8 +39,8 @@ void Viewer::draw_tour() {
   const Snapshot& shown = live->shown();
   tour_.watch({.is_busy = interaction_.is_busy(),
                .is_pulling = interaction_.pull().has_value(),
-               .is_handling = gizmo_.is_busy(),
-               .pins = shown.movable_pins.size(),
+               .is_handling = gizmo_.is_holding(),
+               .edits = shown.edits,
                .undone_next = shown.undone_next,
                .redone_next = shown.redone_next,
                .camera = camera_});

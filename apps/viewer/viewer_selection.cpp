@@ -142,7 +142,7 @@ void Viewer::draw_selection_rows(float width) {
   if (button("Unpin", pinned > 0, "N: let go of what is pinned of them")) pin_selected(false);
   ImGui::SameLine();
   if (button("Grow", true, "select the vertices beside them, too")) select_.grow(*render_mesh_);
-  if (button("Copy", true, "their numbers, as a scene file has them behind \"on\", to be pasted there")) {
+  if (button("Copy", true, "their numbers, as a scene file has them behind \"on\"; of several bodies a line each")) {
     ImGui::SetClipboardText(scene_text_of(selected, *live->shown().render_mesh, *live->shown().body_names).c_str());
     say(selected.size() == 1 ? "copied its number" : fmt::format("copied {} numbers", selected.size()));
   }

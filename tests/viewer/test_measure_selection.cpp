@@ -1,5 +1,4 @@
 #include <doctest/doctest.h>
-#include <nlohmann/json.hpp>
 
 #include "pliant/mesh/shapes.h"
 #include "render/capture.h"
@@ -61,11 +60,10 @@ TEST_CASE("one vertex has a place and the stretch of its edges, two a distance")
 TEST_CASE("selected vertices are written as a scene file has them") {
   const Bodies bodies;
   const std::vector<std::string> names = {"left", "ri\"ght", "rope"};
-  CHECK(scene_text_of(Vertices{3, 4, 24}, bodies.render_mesh, names) == "[3,4,24]");
-  CHECK(scene_text_of(Vertices{25, 49}, bodies.render_mesh, names) == "[0,24]");
+  CHECK(scene_text_of(Vertices{3, 4, 24}, bodies.render_mesh, names) == "[3, 4, 24]");
+  CHECK(scene_text_of(Vertices{25, 49}, bodies.render_mesh, names) == "[0, 24]");
   CHECK(scene_text_of(Vertices{54}, bodies.render_mesh, names) == "[4]");
-  const auto several = nlohmann::json::parse(scene_text_of(Vertices{3, 26, 27, 50}, bodies.render_mesh, names));
-  CHECK(several == nlohmann::json{{"left", {3}}, {"ri\"ght", {1, 2}}, {"rope", {0}}});
+  CHECK(scene_text_of(Vertices{3, 26, 27, 50}, bodies.render_mesh, names) == "left: [3]\nri\"ght: [1, 2]\nrope: [0]\n");
   CHECK(name_of(49, bodies.render_mesh).body == 1);
   CHECK(name_of(49, bodies.render_mesh).number == 24);
 }

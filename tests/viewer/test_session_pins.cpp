@@ -175,6 +175,67 @@ TEST_CASE("what is moved together before the first step begins there, is taken b
   CHECK((places(session, row) - before).cwiseAbs().maxCoeff() < 1e-9);
 }
 
+TEST_CASE("pins of one group of the scene that are moved before the first step begin there, read again as well") {
+  const TemporaryFolder folder;
+  Session session(make_scene);
+  const Eigen::MatrixXd before = places(session, {72, 80});
+  session.hold_pins({72, 80});
+  const RigidMotion motion{.center = {0.2F, 0, 0.9F}, .rotation = {0.1F, 0.7F, 0}, .translation = {0.05F, 0, 0.1F}};
+  session.move_held(motion);
+  session.drop_held();
+  session.restart(true);
+  steps(session, 5);
+  CHECK((places(session, {72, 80}) - moved(before, motion)).cwiseAbs().maxCoeff() < 1e-12);
+  session.restart(true);
+  const auto file = folder.path() / "moved.json";
+  session.save(file, session.scene().view);
+  Session again([&] { return pliant::load_scene(file); });
+  steps(session, 30);
+  steps(again, 30);
+  CHECK(positions(again) == positions(session));
+}
+
+TEST_CASE("moves of pins that the scene no longer has are forgotten, the others stay") {
+  bool is_changed = false;
+  Session session([&] {
+    pliant::SceneOverrides overrides;
+    if (is_changed) overrides.set.push_back("bodies[scarf].constraints[0].on=[0]");
+    return pliant::parse_scene(sheet_text, {}, "sheet", overrides);
+  });
+  const std::vector<Index> corners = {81, 86, 99, 104};
+  const Eigen::MatrixXd before = places(session, corners);
+  session.hold_pins(corners);
+  session.move_held({.translation = {0, 0.1F, 0}});
+  session.drop_held();
+  CHECK(session.undone_next() == "move 4 vertices");
+  is_changed = true;
+  session.restart(true);
+  CHECK(session.note().empty());
+  steps(session, 3);
+  CHECK_FALSE(session.is_pinned(104));
+  CHECK(session.is_pinned(81));
+  CHECK(places(session, {81})(0, 1) - before(0, 1) == doctest::Approx(0.1));
+}
+
+TEST_CASE("a body that was pinned by hand as a whole is the hand's in the scene that was saved, too") {
+  const TemporaryFolder folder;
+  Session session(make_scene);
+  const std::vector<Index> scarf = [] {
+    std::vector<Index> list;
+    for (Index i = 81; i < 105; ++i) list.push_back(i);
+    return list;
+  }();
+  session.pin(scarf);
+  const auto file = folder.path() / "held.json";
+  session.save(file, session.scene().view);
+  Session again([&] { return pliant::load_scene(file); });
+  CHECK(again.figures() == std::vector<char>{0, 0});
+  CHECK(again.pinned_vertices().size() == 2 + 24);
+  CHECK(again.materials().size() == 2);
+  again.unpin(scarf);
+  CHECK(again.pinned_vertices().size() == 2);
+}
+
 TEST_CASE("what can be moved by its pin is listed with where it is held, but for what the scene holds as a whole") {
   Session session(make_scene);
   session.pin(row);

@@ -21,7 +21,7 @@ TEST_CASE("the tour goes on when what it asks for was done, and by nothing else"
   tour.begin();
   tour.watch(now);
   now.camera.zoom(0.5F);
-  now.pins = 3;
+  now.edits = 3;
   tour.watch(now);
   CHECK(tour.step() == 0);  // what belongs to other steps
   now.is_pulling = now.is_busy = true;
@@ -47,7 +47,12 @@ TEST_CASE("the tour goes on when what it asks for was done, and by nothing else"
   now.is_pulling = false;
   tour.watch(now);
   CHECK(tour.step() == 2);
-  ++now.pins;
+  now.edits = 4;
+  now.undone_next = "cloth: silk";
+  tour.watch(now);
+  CHECK(tour.step() == 2);
+  now.edits = 5;
+  now.undone_next = "unpin";
   tour.watch(now);
   CHECK(tour.step() == 3);
 
@@ -59,16 +64,19 @@ TEST_CASE("the tour goes on when what it asks for was done, and by nothing else"
   CHECK(tour.step() == 4);
 
   tour.watch(now);
-  now.redone_next = "pin";  // takes back what was there before
+  now.redone_next = "unpin";  // takes back what was there before
   now.undone_next = "";
   tour.watch(now);
   CHECK(tour.step() == 4);
-  now.redone_next = "";
-  now.undone_next = "bend: stiffness";
+  now = {.edits = 6, .undone_next = "move 9 vertices", .camera = now.camera};
+  tour.watch(now);
+  now = {.edits = 6, .redone_next = "move 9 vertices", .camera = now.camera};
+  tour.watch(now);
+  CHECK(tour.step() == 4);  // that is no number
+  now = {.edits = 7, .undone_next = "bend: stiffness", .camera = now.camera};
   tour.watch(now);
   CHECK(tour.step() == 4);
-  now.undone_next = "";
-  now.redone_next = "bend: stiffness";
+  now = {.edits = 7, .redone_next = "bend: stiffness", .camera = now.camera};
   tour.watch(now);
   CHECK(tour.step() == Tour::step_count);
   tour.watch(now);

@@ -25,7 +25,7 @@ constexpr std::array<Key, 7> selection_keys = {
     Key{"Ctrl + A, Esc", "select everything, nothing"},
     Key{"B", "a lasso in place of a box, and back"},
     Key{"N", "pin what is selected; if it is pinned, let it go"},
-    Key{"drag an arrow or a ring", "turn or move the selected pins (Ctrl: 15°)"}};
+    Key{"drag an arrow or a ring", "move or turn the selected pins (Ctrl then: 15°)"}};
 constexpr std::array<Key, 5> camera_keys = {
     Key{"drag beside, right drag", "turn about the middle"}, Key{"middle or Shift drag", "move sideways"},
     Key{"wheel", "nearer or further away"}, Key{"F", "everything in the picture"}, Key{"Shift + F", "as at the start"}};

@@ -82,7 +82,7 @@ bool ScenePanel::draw_row(const OpenableScene& scene, const PanelStyle& style) {
   return is_clicked;
 }
 
-std::optional<std::string> ScenePanel::draw(const Vec2f& picture, const PanelStyle& style) {
+std::optional<std::string> ScenePanel::draw(const Vec2f& picture, const PanelStyle& style, bool has_tour) {
   std::optional<std::string> chosen;
   places_.clear();
   if (!is_open) return chosen;
@@ -106,10 +106,12 @@ std::optional<std::string> ScenePanel::draw(const Vec2f& picture, const PanelSty
   ImGui::SameLine();
   const bool is_pressed = ImGui::Button("Open", {button, 0});
   ImGui::SameLine();
+  ImGui::BeginDisabled(!has_tour);
   if (ImGui::Button("Tour", {button, 0})) {
     wishes_tour_ = true;
     is_open = false;
   }
+  ImGui::EndDisabled();
   explain("five things to try in the window, with the scene behind this list");
   ImGui::SameLine();
   if (ImGui::Button("Close", {button, 0})) is_open = false;

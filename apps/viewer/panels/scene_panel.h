@@ -25,8 +25,8 @@ class ScenePanel {
   ScenePanel(std::vector<OpenableScene> scenes, bool is_open_at_first)
       : is_open(is_open_at_first), scenes_(std::move(scenes)) {}
 
-  /// Draws it over the picture; returns what was chosen.
-  std::optional<std::string> draw(const Vec2f& picture, const PanelStyle& style);
+  /// Draws it over the picture; returns what was chosen. `has_tour`: offers a tour of the window.
+  std::optional<std::string> draw(const Vec2f& picture, const PanelStyle& style, bool has_tour);
   /// Where a scene stands in the window, as of the last drawing: left, top, right, bottom.
   std::optional<std::array<float, 4>> place_of(const std::string& scene) const;
 

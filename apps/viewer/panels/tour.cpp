@@ -24,6 +24,11 @@ constexpr std::array<Stop, Tour::step_count + 1> stops = {
          "Space pauses, R starts over, Ctrl + S saves what you have built, Ctrl + O opens something else, and "
          "H shows all keys."}};
 
+/// Whether that is what a change of pins is called.
+bool is_of_pins(const std::string& edit) {
+  return edit.starts_with("pin") || edit.starts_with("unpin") || edit.starts_with("move ");
+}
+
 }  // namespace
 
 void Tour::begin() {
@@ -46,7 +51,7 @@ bool Tour::is_done(const TourSight& now) const {
     case 1:
       return !now.is_busy && !now.camera.is_like(at_first_->camera);
     case 2:
-      return now.pins != at_first_->pins;
+      return now.edits > at_first_->edits && is_of_pins(now.undone_next);
     case 3:
       return has_handled_ && !now.is_handling;
     case 4:
@@ -61,7 +66,8 @@ void Tour::watch(const TourSight& now) {
   if (!at_first_) at_first_ = now;
   has_pulled_ = has_pulled_ || now.is_pulling;
   has_handled_ = has_handled_ || now.is_handling;
-  has_changed_ = has_changed_ || (now.undone_next != at_first_->undone_next && now.redone_next.empty());
+  const bool is_value = !now.undone_next.empty() && !is_of_pins(now.undone_next);
+  has_changed_ = has_changed_ || (now.edits > at_first_->edits && is_value);
   if (is_done(now)) skip();
 }
 

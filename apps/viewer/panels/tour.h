@@ -1,6 +1,6 @@
 #pragma once
 // Five things to try in the window, one after another; each goes on to the next when it has been done.
-#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -14,7 +14,7 @@ struct TourSight {
   bool is_busy = false;       ///< the mouse does something in the picture
   bool is_pulling = false;    ///< a body
   bool is_handling = false;   ///< moves or turns pins by their handle
-  std::size_t pins = 0;       ///< that can be moved
+  std::uint64_t edits = 0;    ///< changes of the scene so far
   std::string undone_next{};  ///< as Session has it
   std::string redone_next{};
   OrbitCamera camera;
