@@ -3,7 +3,7 @@
 #include "render/offscreen_context.h"
 #include "render/render_target.h"
 #include "render/renderer.h"
-#include "tests/render/studio.h"
+#include "studio.h"
 
 namespace test_marks {
 
