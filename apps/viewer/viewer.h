@@ -79,6 +79,7 @@ class Viewer {
   void take_input();
   void take_keys();
   void take_key(const KeyEvent& event);
+  void take_plain_key(int key, bool has_shift);
   void take_control_key(char letter, bool has_shift, bool is_repeated);
   void toggle_color();
   void change_color();

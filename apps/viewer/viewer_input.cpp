@@ -89,7 +89,11 @@ void Viewer::take_key(const KeyEvent& event) {
   }
   if (is_repeated && !has_control) return;
   if (has_control) return take_control_key(letter_of(event), has_shift, is_repeated);
-  switch (event.key) {
+  take_plain_key(event.key, has_shift);
+}
+
+void Viewer::take_plain_key(int key, bool has_shift) {
+  switch (key) {
     case GLFW_KEY_SPACE:
       return source_.play(!source_.is_playing());
     case GLFW_KEY_R:
