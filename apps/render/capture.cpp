@@ -42,10 +42,22 @@ std::vector<float> find_values(const pliant::Simulation& simulation, const Rende
   return {};
 }
 
+/// Of bodies that are held as a whole, figures say, markers would hide the surface.
+std::vector<std::uint32_t> find_pins(const pliant::Simulation& simulation) {
+  const std::vector<char> held = held_vertices(simulation);
+  std::vector<std::uint32_t> pinned;
+  for (const auto& [id, group] : simulation.groups()) {
+    if (group.type != "position" || is_held(simulation.body(group.body), held)) continue;
+    append(pinned, vertices_of_pins(group));
+  }
+  sort_and_trim(pinned);
+  return pinned;
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> find_markers(const pliant::Simulation& simulation, std::int64_t step) {
-  std::vector<std::uint32_t> markers = pinned_vertices(simulation);
+  std::vector<std::uint32_t> markers = find_pins(simulation);
   for (const auto& [id, force] : simulation.forces()) {
     const auto* test = simulation.options<pliant::TestForce>(id);
     if (test == nullptr || !test->is_active(step)) continue;
@@ -86,18 +98,6 @@ RenderMesh make_render_mesh(const pliant::Scene& scene) {
   RenderMesh render_mesh = make_render_mesh(scene.simulation);
   render_mesh.looks = vertex_looks(scene.simulation.bodies(), scene.appearances);
   return render_mesh;
-}
-
-/// Of bodies that are held as a whole, figures say, markers would hide the surface.
-std::vector<std::uint32_t> pinned_vertices(const pliant::Simulation& simulation) {
-  const std::vector<char> held = held_vertices(simulation);
-  std::vector<std::uint32_t> pinned;
-  for (const auto& [id, group] : simulation.groups()) {
-    if (group.type != "position" || is_held(simulation.body(group.body), held)) continue;
-    append(pinned, vertices_of_pins(group));
-  }
-  sort_and_trim(pinned);
-  return pinned;
 }
 
 ClipFrame capture_frame(const pliant::Simulation& simulation, const RenderMesh& render_mesh, ColorBy color,

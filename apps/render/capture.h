@@ -20,9 +20,6 @@ RenderMesh make_render_mesh(const pliant::Simulation& simulation);
 /// The same with what bodies look like.
 RenderMesh make_render_mesh(const pliant::Scene& scene);
 
-/// Vertices pinned by position constraints, ascending; none of bodies that are held as a whole.
-std::vector<std::uint32_t> pinned_vertices(const pliant::Simulation& simulation);
-
 /// A frame of the current state of the simulation. Whoever takes many keeps the surfaces of the colliders for the next.
 ClipFrame capture_frame(const pliant::Simulation& simulation, const RenderMesh& render_mesh, pliant::ColorBy color,
                         ColliderSurfaces& surfaces);

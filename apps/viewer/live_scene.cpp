@@ -279,9 +279,9 @@ void LiveScene::publish() {
   back_.body_names = body_names_;
   back_.frame = pliant_render::capture_frame(simulation, *render_mesh_, context_.color, surfaces_);
   back_.color = context_.color;
-  back_.movable_pins = session_.pinned_vertices();
+  back_.pinned = session_.pinned_vertices();
   back_.pins.clear();
-  for (const PinnedVertex& pin : back_.movable_pins) back_.pins.push_back(pin.vertex);
+  for (const PinnedVertex& pin : back_.pinned) back_.pins.push_back(pin.vertex);
   back_.is_figure = session_.figures();
   show_pins_of_hand(back_.pins, back_.is_figure, *render_mesh_, back_.frame.content);
   back_.pull = session_.pull();

@@ -22,7 +22,7 @@ struct Snapshot {
   pliant_render::ClipFrame frame;
   pliant::ColorBy color = pliant::ColorBy::none;  ///< what the values of the frame mean
   std::vector<std::uint32_t> pins;                ///< pinned vertices, which can be grabbed, ascending
-  std::vector<PinnedVertex> movable_pins;         ///< the same, with where they are held
+  std::vector<PinnedVertex> pinned;               ///< the same, with where they are held
   std::vector<char> is_figure;                    ///< of each body, see Session::figures
   std::optional<Pull> pull;
   std::shared_ptr<const std::vector<Slider>> sliders;

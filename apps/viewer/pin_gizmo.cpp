@@ -74,7 +74,7 @@ void PinGizmo::follow(const std::vector<std::uint32_t>& selected, const Snapshot
   pins_.clear();
   targets_.clear();
   Vec3f sum = Vec3f::Zero();
-  for (const PinnedVertex& pin : snapshot.movable_pins) {
+  for (const PinnedVertex& pin : snapshot.pinned) {
     if (!std::ranges::binary_search(selected, pin.vertex)) continue;
     pins_.push_back(static_cast<Index>(pin.vertex));
     targets_.push_back(pin.target);

@@ -62,18 +62,18 @@ std::vector<char> Session::figures() const {
 
 std::vector<PinnedVertex> Session::pinned_vertices() const {
   const std::vector<char> is_figure = figures();
-  std::map<Index, Pin> pins;
+  std::vector<PinnedVertex> list;
   for (const auto& [id, group] : simulation().groups()) {
     if (group.type != pliant::Position::info.name) continue;
     if (is_figure[static_cast<std::size_t>(group.body)] != 0) continue;
     Index target = 0;
-    for (const Index vertex : vertices_of_pins(group)) pins.try_emplace(vertex, Pin{id, target++});
+    for (const Index vertex : vertices_of_pins(group)) {
+      list.push_back({static_cast<std::uint32_t>(vertex), target_of({id, target++}).cast<float>()});
+    }
   }
-  std::vector<PinnedVertex> list;
-  list.reserve(pins.size());
-  for (const auto& [vertex, pin] : pins) {
-    list.push_back({static_cast<std::uint32_t>(vertex), target_of(pin).cast<float>()});
-  }
+  std::ranges::stable_sort(list, {}, &PinnedVertex::vertex);
+  const auto is_same = [](const PinnedVertex& a, const PinnedVertex& b) { return a.vertex == b.vertex; };
+  list.erase(std::unique(list.begin(), list.end(), is_same), list.end());
   return list;
 }
 

@@ -211,7 +211,11 @@ void Viewer::draw() {
   if (width <= 0 || height <= 0) return;
   if (wants_picture_) write_picture(width, height);
   ui_.begin();
-  draw_annotations(true);
+  draw_annotations();
+  const pliant_render::AnnotationCanvas canvas = ui_.canvas(screen_.size);
+  canvas.list.PushClipRect({0, 0}, {canvas.width, canvas.height});
+  draw_hand(canvas);
+  canvas.list.PopClipRect();
   draw_panels();
   draw_measured_picture(width, height);
   fill_panel(width, full_width - width, height);
@@ -283,8 +287,7 @@ void Viewer::fill_panel(int left, int width, int height) const {
   glViewport(0, 0, left + width, height);
 }
 
-/// `has_hand`: also what the mouse would take hold of, and what is selected.
-void Viewer::draw_annotations(bool has_hand) {
+void Viewer::draw_annotations() {
   const pliant_render::AnnotationCanvas canvas = ui_.canvas(screen_.size);
   const auto legend =
       pliant_render::make_legend(appearance_, range_, static_cast<int>(canvas.width), static_cast<int>(canvas.height));
@@ -294,7 +297,6 @@ void Viewer::draw_annotations(bool has_hand) {
     draw_spring(screen_, interaction_.pull()->point.position(positions), interaction_.pull()->target, ui_.style().unit,
                 canvas.list);
   }
-  if (has_hand) draw_hand(canvas);
   canvas.list.PopClipRect();
   if (legend) draw_legend(*legend, canvas);
   if (source_.frame().wind && appearance_.wind_arrow) draw_wind(*source_.frame().wind, screen_.viewpoint, canvas);
@@ -304,7 +306,7 @@ void Viewer::draw_annotations(bool has_hand) {
 void Viewer::write_picture(int width, int height) {
   wants_picture_ = false;
   ui_.begin();
-  draw_annotations(false);
+  draw_annotations();
   pliant_render::DrawOptions options = draw_options(height);
   options.selection = false;
   options.lit_collider.reset();

@@ -105,7 +105,7 @@ class Viewer {
   pliant_render::DrawOptions draw_options(int height) const;
   void draw_picture(const pliant_render::DrawOptions& options, int width, int height);
   void draw_measured_picture(int width, int height);
-  void draw_annotations(bool has_hand);
+  void draw_annotations();
   void draw_panels();
   void draw_main_panel();
   void draw_message();

@@ -25,9 +25,8 @@ std::vector<std::uint32_t> without_figures(std::vector<std::uint32_t> vertices, 
 }
 
 std::size_t count_pinned(const std::vector<std::uint32_t>& selected, const Snapshot& snapshot) {
-  return static_cast<std::size_t>(std::ranges::count_if(snapshot.movable_pins, [&](const PinnedVertex& pin) {
-    return std::ranges::binary_search(selected, pin.vertex);
-  }));
+  return static_cast<std::size_t>(std::ranges::count_if(
+      snapshot.pinned, [&](const PinnedVertex& pin) { return std::ranges::binary_search(selected, pin.vertex); }));
 }
 
 /// "24 vertices, 3 pinned", "65 of cloth"
@@ -150,7 +149,7 @@ void Viewer::draw_selection_rows(float width) {
   if (button("Clear", true, "Esc: select nothing")) select_.clear();
 }
 
-/// What the mouse holds or would grab, and pins that are about to change.
+/// What the mouse holds or would grab, and pins that are about to change; saved pictures are without.
 void Viewer::draw_hand(const pliant_render::AnnotationCanvas& canvas) {
   lit_collider_.reset();
   LiveScene* live = source_.live();

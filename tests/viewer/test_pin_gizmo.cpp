@@ -60,7 +60,7 @@ struct Desk {
     live.post([vertices](CommandContext& context) {
       context.session.pin(std::vector<Index>(vertices.begin(), vertices.end()));
     });
-    wait_until([&] { return live.newest().movable_pins.size() == vertices.size(); });
+    wait_until([&] { return live.newest().pinned.size() == vertices.size(); });
     gizmo.follow(select.selected(), live.shown());
   }
   void press(const Vec2f& at) { CHECK(gizmo.handle({.kind = MouseEvent::Kind::press, .place = at}, view())); }
@@ -152,14 +152,14 @@ TEST_CASE("the middle moves in the plane of the picture, as far as the mouse goe
   desk.release(to);
   CHECK_FALSE(desk.gizmo.is_busy());
   Desk::wait_until([&] { return desk.live.newest().undone_next == "move 9 vertices"; });
-  for (const PinnedVertex& pin : desk.live.shown().movable_pins) {
+  for (const PinnedVertex& pin : desk.live.shown().pinned) {
     CHECK((pin.target - before.at(pin.vertex) - way).norm() < 1e-5F);
   }
   desk.gizmo.follow(desk.select.selected(), desk.live.shown());
   CHECK((desk.gizmo.motion().center - start - way).norm() < 1e-5F);
   desk.live.post([](CommandContext& context) { context.session.undo(); });
   Desk::wait_until([&] { return desk.live.newest().undone_next == "pin 9 vertices"; });
-  for (const PinnedVertex& pin : desk.live.shown().movable_pins) {
+  for (const PinnedVertex& pin : desk.live.shown().pinned) {
     CHECK((pin.target - before.at(pin.vertex)).norm() < 1e-5F);
   }
 }
@@ -207,7 +207,7 @@ TEST_CASE("a handle that is taken again at once goes on from where it is") {
   CHECK(motions[2].rotation.norm() == 0);
   CHECK((motions[1].center - center - motions[0].translation).norm() < 1e-5F);
   Desk::wait_until([&] { return desk.live.newest().commands >= 1 + 3 * 3; });
-  for (const PinnedVertex& pin : desk.live.shown().movable_pins) {
+  for (const PinnedVertex& pin : desk.live.shown().pinned) {
     Eigen::Vector3d point = before.at(pin.vertex).cast<double>();
     for (const RigidMotion& motion : motions) point = motion(point);
     CHECK((pin.target.cast<double>() - point).norm() < 1e-5);

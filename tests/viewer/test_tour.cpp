@@ -72,7 +72,7 @@ TEST_CASE("the tour goes on when what it asks for was done, and by nothing else"
   tour.watch(now);
   now = {.edits = 6, .redone_next = "move 9 vertices", .camera = now.camera};
   tour.watch(now);
-  CHECK(tour.step() == 4);  // that is no number
+  CHECK(tour.step() == 4);  // a pin is no slider
   now = {.edits = 7, .undone_next = "bend: stiffness", .camera = now.camera};
   tour.watch(now);
   CHECK(tour.step() == 4);
