@@ -197,6 +197,7 @@ int show(pliant_viewer::Window& window, Shown shown, bool chooses_scene) {
   while (true) {
     remember(shown.arguments);
     std::optional<Shown> next;
+    std::string film;
     pliant_viewer::ViewerOptions options;
     options.appearance = shown.source->appearance();
     if (shown.arguments.samples) options.samples = static_cast<int>(*shown.arguments.samples);
@@ -224,9 +225,12 @@ int show(pliant_viewer::Window& window, Shown shown, bool chooses_scene) {
     {
       pliant_viewer::Viewer viewer(window, *shown.source, std::move(options));
       viewer.run(was_interrupted);
+      film = viewer.finish_film();
     }
+    if (!next && !film.empty()) fmt::print("{}\n", film);
     if (!next) break;
     shown = std::move(*next);
+    if (!film.empty()) shown.greeting = film + (shown.greeting.empty() ? "" : "\n" + shown.greeting);
   }
   return was_interrupted() ? exit_interrupted : 0;
 }

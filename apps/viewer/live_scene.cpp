@@ -89,6 +89,14 @@ std::uint64_t LiveScene::post(Command command, Kind kind) {
   return ++commands_posted_;
 }
 
+void LiveScene::hold_at(double time) {
+  {
+    const std::lock_guard lock(mutex_);
+    hold_ = time;
+  }
+  work_.notify_one();
+}
+
 const Snapshot& LiveScene::newest() {
   const std::lock_guard lock(mutex_);
   if (has_news_) std::swap(front_, middle_);
@@ -140,7 +148,7 @@ void LiveScene::turn() {
 /// Until the next step is due.
 Seconds LiveScene::time_to_step() {
   if (context_.single_steps > 0) return Seconds(0);
-  if (!context_.is_playing) return Seconds::max();
+  if (!context_.is_playing || is_held()) return Seconds::max();
   return pacer_.wait(Clock::now(), session_.simulation().settings().time_step);
 }
 
@@ -149,7 +157,8 @@ void LiveScene::wait_for_work() {
   const Seconds wait = time_to_step();
   if (wait <= Seconds(0)) return;
   std::unique_lock lock(mutex_);
-  const auto has_work = [this] { return is_closing_ || !queue_.empty(); };
+  const bool was_held = is_held();
+  const auto has_work = [&] { return is_closing_ || !queue_.empty() || (was_held && !is_held()); };
   if (context_.is_playing) {
     work_.wait_for(lock, std::min(wait, longest_wait), has_work);
   } else {

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <deque>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <thread>
@@ -86,6 +87,9 @@ class LiveScene {
   /// with Snapshot::commands.
   std::uint64_t post(Command command, Kind kind = Kind::changes);
 
+  /// Simulated time [s] from which on no step is taken until the next call, but for single steps; infinity: none.
+  void hold_at(double time);
+
   /// The newest snapshot; it stays valid until the next call.
   const Snapshot& newest();
   /// The snapshot that newest() returned last.
@@ -106,6 +110,7 @@ class LiveScene {
   void say(std::string message);
   void say_replay_ended();
   void wait_for_work();
+  bool is_held() const { return session_.simulation().state().time >= hold_; }
   void step();
   void measure_start();
   void update_render_mesh();
@@ -152,6 +157,7 @@ class LiveScene {
   std::deque<std::pair<Command, Kind>> queue_;
   std::uint64_t commands_posted_ = 0;
   std::atomic<Clock::rep> step_began_ = 0;  // 0: between steps
+  std::atomic<double> hold_ = std::numeric_limits<double>::infinity();
   std::atomic<int> changes_waiting_ = 0;
   std::atomic<int> ends_waiting_ = 0;
   std::atomic<bool> is_closing_ = false;

@@ -1,5 +1,7 @@
 #include "viewer/live_source.h"
 
+#include <limits>
+
 namespace pliant_viewer {
 
 LiveSource::LiveSource(MakeScene make, Index threads, bool is_playing, std::function<void()> wake,
@@ -34,6 +36,12 @@ void LiveSource::measure(const Measuring& measuring) {
   if (measuring == measuring_) return;
   measuring_ = measuring;
   scene_.post([measuring](CommandContext& context) { context.measuring = measuring; }, LiveScene::Kind::steers);
+}
+
+void LiveSource::hold_at(std::optional<double> time) {
+  if (time == hold_) return;
+  hold_ = time;
+  scene_.hold_at(time.value_or(std::numeric_limits<double>::infinity()));
 }
 
 void LiveSource::play(bool on) {

@@ -30,7 +30,9 @@ Playback::Playback(pliant_render::RunFrames frames, pliant::ViewSettings appeara
 }
 
 double Playback::run_time(Clock::time_point now) const {
-  return is_playing_ ? began_at_ + speed_ * Seconds(now - began_).count() : frames_.time(place_);
+  if (!is_playing_) return frames_.time(place_);
+  const double time = began_at_ + speed_ * Seconds(now - began_).count();
+  return hold_ ? std::min(time, *hold_) : time;
 }
 
 bool Playback::refresh(Clock::time_point now) {
@@ -97,7 +99,18 @@ void Playback::restart(bool) {
   go_to(0);
 }
 
+void Playback::hold_at(std::optional<double> time) {
+  began_at_ = run_time(Clock::now());
+  began_ = Clock::now();
+  hold_.reset();
+  for (std::size_t i = place_; time && !hold_ && i < count(); ++i) {
+    if (frames_.time(i) >= *time) hold_ = frames_.time(i);
+  }
+}
+
 void Playback::go_to(std::size_t frame) {
+  ++cuts_;
+  hold_.reset();
   is_stale_ = true;
   place_ = std::min(frame, count() - 1);
   began_ = Clock::now();

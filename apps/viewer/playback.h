@@ -27,6 +27,9 @@ class Playback final : public ViewSource {
   void play(bool on) override;
   void step(int direction) override;
   void restart(bool keep_values) override;
+  double speed() const override { return speed_; }
+  void hold_at(std::optional<double> time) override;
+  std::uint64_t cuts() const override { return cuts_; }
   const pliant_plot::MeasuredRun* measured() const override { return measured_ ? &*measured_ : nullptr; }
   void draw_panel() override;
 
@@ -55,6 +58,8 @@ class Playback final : public ViewSource {
   bool is_playing_;
   bool is_looping_ = true;
   double speed_ = 1;
+  std::optional<double> hold_;  // time of the frame that is the last one for now [s]
+  std::uint64_t cuts_ = 0;
   std::size_t place_ = 0;
   bool is_stale_ = true;
   bool has_begun_ = false;

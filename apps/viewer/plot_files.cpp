@@ -1,23 +1,11 @@
 #include "viewer/plot_files.h"
 
-#include <fmt/format.h>
-
 #include "pliant_io/files/atomic_file.h"
+#include "viewer/free_name.h"
 
 namespace pliant_viewer {
 
 namespace fs = std::filesystem;
-
-fs::path free_file(const fs::path& folder, const std::string& scene, const std::string& what,
-                   const std::string& ending) {
-  std::string base = fs::path(scene).filename().string();
-  if (base.empty() || base == "." || base == "..") base = "scene";
-  fs::path file;
-  for (int number = 1; file.empty() || fs::exists(fs::symlink_status(file)); ++number) {
-    file = folder / fmt::format("{}-{}-{}{}", base, what, number, ending);
-  }
-  return file;
-}
 
 std::string saved_names(const std::vector<fs::path>& files) {
   std::string names = files.front().lexically_normal().string();
@@ -28,7 +16,7 @@ std::string saved_names(const std::vector<fs::path>& files) {
 }
 
 fs::path save_measured(const pliant_plot::MeasuredRun& run, const fs::path& folder) {
-  const fs::path file = free_file(folder, run.name, "measurements", ".csv");
+  const fs::path file = free_name(folder, run.name, {".csv"}, "measurements");
   pliant::write_file_atomically(file, to_csv(run.table));
   return file;
 }
@@ -37,7 +25,7 @@ std::vector<fs::path> save_plots(const std::vector<pliant_report::Plot>& plots, 
                                  const fs::path& folder) {
   std::vector<fs::path> files;
   for (const pliant_report::Plot& plot : plots) {
-    files.push_back(free_file(folder, scene, "plot", ".svg"));
+    files.push_back(free_name(folder, scene, {".svg"}, "plot"));
     pliant::write_file_atomically(files.back(), to_svg(plot, true));
   }
   return files;

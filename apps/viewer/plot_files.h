@@ -8,10 +8,6 @@
 
 namespace pliant_viewer {
 
-/// A name in a folder that nothing has yet: "sheet-plot-1.svg" for the scene "sheet", "plot" and ".svg".
-std::filesystem::path free_file(const std::filesystem::path& folder, const std::string& scene, const std::string& what,
-                                const std::string& ending);
-
 /// "out/sheet-plot-1.svg, sheet-plot-2.svg and sheet-plot-3.svg", which are in one folder; not of none.
 std::string saved_names(const std::vector<std::filesystem::path>& files);
 

@@ -46,6 +46,13 @@ class ViewSource {
   /// Starts over; `keep_values`: with the values set on the panel.
   virtual void restart(bool keep_values) = 0;
 
+  /// Simulated seconds that are to go by in a second; 1 where that is left to the machine.
+  virtual double speed() const { return 1; }
+  /// Shows nothing later than the first moment at or behind this time [s] until the next call; none: time goes on.
+  virtual void hold_at(std::optional<double> time) = 0;
+  /// How often time has not gone on evenly so far: restarts, jumps.
+  virtual std::uint64_t cuts() const { return restarts(); }
+
   /// What was measured so far, for plots over time; null where nothing is known.
   virtual const pliant_plot::MeasuredRun* measured() const { return nullptr; }
   /// Changes with what was measured.

@@ -73,6 +73,7 @@ Viewer::Viewer(Window& window, ViewSource& source, ViewerOptions options)
       scene_panel_(std::move(options.scenes), options.chooses_scene) {
   if (!source.knows(appearance_.color)) appearance_.color = pliant::ColorBy::none;
   if (appearance_.color != source.appearance().color) source_.show(appearance_.color);
+  if (!window.is_software()) film_panel_.choices.quality = FilmQuality::fine;
   if (!options.greeting.empty()) say(std::move(options.greeting));
   update_bounds();
   place_screen();
@@ -120,6 +121,7 @@ bool Viewer::turn(double most_wait) {
     has_ground_ = false;
   }
   if (!is_frame_new_ && draws_left_ == 0 && !wants_picture_) return false;
+  if (draws_left_ == 0 && !wants_picture_ && waits_for_film()) return false;
   draws_left_ = std::max(draws_left_ - 1, 0);
   if (!window_.is_visible()) {
     std::this_thread::sleep_for(Seconds(frame_interval_));  // a hidden window is not drawn
@@ -210,12 +212,14 @@ void Viewer::draw() {
       static_cast<int>(std::lround(static_cast<float>(full_width) * screen_.size.x() / window_.size().x()));
   if (width <= 0 || height <= 0) return;
   if (wants_picture_) write_picture(width, height);
+  film();
   ui_.begin();
   draw_annotations();
   const pliant_render::AnnotationCanvas canvas = ui_.canvas(screen_.size);
   canvas.list.PushClipRect({0, 0}, {canvas.width, canvas.height});
   draw_hand(canvas);
   canvas.list.PopClipRect();
+  if (film_) draw_film_mark(*film_, canvas, ui_.style().unit);
   draw_panels();
   draw_measured_picture(width, height);
   fill_panel(width, full_width - width, height);

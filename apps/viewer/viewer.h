@@ -13,6 +13,7 @@
 #include "viewer/auto_range.h"
 #include "viewer/frame_statistics.h"
 #include "viewer/mouse_interaction.h"
+#include "viewer/panels/film_panel.h"
 #include "viewer/panels/plots_panel.h"
 #include "viewer/panels/scene_panel.h"
 #include "viewer/panels/tour.h"
@@ -73,6 +74,12 @@ class Viewer {
   void save_session();
   /// Saves the picture without panels under the next free name like pliant-0001.png, and says so in the window.
   void save_picture() { wants_picture_ = true; }
+  /// Begins a film of what is seen, as chosen in the panel, or ends the one under way.
+  void toggle_film();
+  /// Completes the film under way; returns what has come of it, or nothing where there is none.
+  std::string finish_film();
+  const FilmRecorder* film_under_way() const { return film_ ? &*film_ : nullptr; }
+  FilmPanel& film_panel() { return film_panel_; }
 
  private:
   // viewer_input.cpp
@@ -94,6 +101,8 @@ class Viewer {
   void draw_selection_rows(float width);
   void draw_hand(const pliant_render::AnnotationCanvas& canvas);
 
+  void film();
+  bool waits_for_film() const;
   void draw();
   void update_render_mesh();
   void update_bounds();
@@ -114,6 +123,7 @@ class Viewer {
   void save_plots(PlotsPanel::Wish wish, const pliant_plot::MeasuredRun& run);
   void write_picture(int width, int height);
   void draw_edit_buttons(float width);
+  void draw_file_buttons(float width);
   pliant::ViewSettings placed_appearance() const;
   void take_dropped_files();
   void open(const std::string& what);
@@ -143,6 +153,8 @@ class Viewer {
   std::array<int, 2> measured_size_ = {0, 0};  // that quality_ knows about [pixels]
   std::optional<pliant_render::Renderer> renderer_;
   std::optional<pliant_render::RenderTarget> target_;
+  FilmPanel film_panel_;
+  std::optional<FilmRecorder> film_;
   int target_samples_ = 1;
   std::shared_ptr<const pliant_render::RenderMesh> render_mesh_;
   std::uint64_t restarts_ = 0;

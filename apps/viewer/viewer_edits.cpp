@@ -5,26 +5,13 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "viewer/free_name.h"
 #include "viewer/plot_files.h"
 #include "viewer/viewer.h"
 
 namespace pliant_viewer {
-namespace {
 
 namespace fs = std::filesystem;
-
-/// The next free name like "sheet-1.json" for files with these extensions; it has the first of them.
-fs::path free_name(const fs::path& folder, const std::string& scene, std::initializer_list<const char*> extensions) {
-  std::string base = fs::path(scene).filename().string();
-  if (base.empty() || base == "." || base == "..") base = "scene";
-  for (int number = 1;; ++number) {
-    const auto file = [&](const char* extension) { return folder / fmt::format("{}-{}{}", base, number, extension); };
-    const auto is_taken = [&](const char* extension) { return fs::exists(file(extension)); };
-    if (std::ranges::none_of(extensions, is_taken)) return file(*extensions.begin());
-  }
-}
-
-}  // namespace
 
 void Viewer::undo() {
   if (LiveScene* live = source_.live()) {

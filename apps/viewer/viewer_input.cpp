@@ -121,6 +121,8 @@ void Viewer::take_plain_key(int key, bool has_shift) {
       return change_select_shape();
     case GLFW_KEY_P:
       return save_picture();
+    case GLFW_KEY_V:
+      return toggle_film();
     case GLFW_KEY_TAB:
       is_panel_open_ = !is_panel_open_;
       return;

@@ -66,6 +66,7 @@ void Viewer::draw_main_panel() {
                                       "Shift + R: all as the scene's file has it"
                                     : "R: to the first frame");
   draw_edit_buttons(third);
+  draw_file_buttons(third);
   ImGui::Spacing();
   if (LiveScene* live = source_.live()) {
     row_label("pull", "+ and −: stiffness of the spring by which the mouse pulls");
@@ -83,6 +84,7 @@ void Viewer::draw_main_panel() {
   if (section_header("Picture") &&
       draw_appearance_panel(appearance_, samples_, quality_.choose(appearance_.quality), source_))
     change_color();
+  if (section_header("Film", false)) film_panel_.draw(film_under_way());
   ImGui::Separator();
   ImGui::Spacing();
   if (ImGui::Button("Help", {third, 0})) is_help_open_ = !is_help_open_;
@@ -98,6 +100,18 @@ void Viewer::draw_main_panel() {
   ImGui::TextDisabled("%.0f pictures a second", frames_.means(Clock::now()).rate);
   explain("drawn by " + window_.driver());
   ImGui::End();
+}
+
+void Viewer::draw_file_buttons(float width) {
+  if (film_panel_.draw_button(film_under_way(), width)) toggle_film();
+  ImGui::SameLine();
+  if (ImGui::Button("Picture", {width, 0})) save_picture();
+  explain("P: saves the picture as a PNG file in the current folder, without this panel");
+  ImGui::SameLine();
+  ImGui::BeginDisabled(open_ == nullptr);
+  if (ImGui::Button("Open", {width, 0})) scene_panel_.is_open = true;
+  ImGui::EndDisabled();
+  explain("Ctrl + O: a list of scenes; or drop a scene, a mesh, a session or a run onto the window");
 }
 
 void Viewer::draw_plots() {

@@ -39,12 +39,13 @@ constexpr std::array<Key, 5> scene_keys = {Key{"Ctrl + Z", "take back the last c
                                            Key{"Ctrl + O, drop a file", "open a scene, a mesh or a run"}};
 constexpr std::array<Key, 3> run_keys = {Key{"Space", "play or pause"}, Key{"→ and ←", "one frame on or back"},
                                          Key{"R", "to the first frame"}};
-constexpr std::array<Key, 8> appearance_keys = {Key{"C", "color by the next quantity, or none"},
+constexpr std::array<Key, 9> appearance_keys = {Key{"C", "color by the next quantity, or none"},
                                                 Key{"W", "wireframe"},
                                                 Key{"L", "smooth or flat"},
                                                 Key{"O", "hide or show the colliders"},
                                                 Key{"G", "plots over time"},
                                                 Key{"P", "save the picture as a PNG file"},
+                                                Key{"V", "film what is seen, and end that"},
                                                 Key{"Tab", "hide or show the panel"},
                                                 Key{"H or F1", "this help"}};
 
