@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "pliant/core/types.h"
+#include "pliant_io/scene/body_appearance.h"
 #include "viewer/picking.h"
 #include "viewer/rigid_motion.h"
 
@@ -62,6 +63,15 @@ struct Set {
 struct SetMaterial {
   std::string body, material;
 };
+struct SetAppearance {
+  std::string body;
+  pliant::BodyAppearance appearance;
+  bool goes_on = false;
+};
+struct SwitchOn {
+  std::string name;
+  bool on = true;
+};
 struct Undo {};
 struct Redo {};
 struct Restart {
@@ -83,11 +93,11 @@ struct MoveHeld {
 struct DropHeld {};
 }  // namespace action
 
-using Action =
-    std::variant<action::Grab, action::PullTo, action::PullStiffness, action::LetGo, action::PinVertex, action::Unpin,
-                 action::MovePin, action::DropPin, action::MoveCollider, action::DropCollider, action::Set,
-                 action::SetMaterial, action::Undo, action::Redo, action::Restart, action::Save, action::PinVertices,
-                 action::UnpinVertices, action::HoldPins, action::MoveHeld, action::DropHeld>;
+using Action = std::variant<action::Grab, action::PullTo, action::PullStiffness, action::LetGo, action::PinVertex,
+                            action::Unpin, action::MovePin, action::DropPin, action::MoveCollider, action::DropCollider,
+                            action::Set, action::SetMaterial, action::Undo, action::Redo, action::Restart, action::Save,
+                            action::PinVertices, action::UnpinVertices, action::HoldPins, action::MoveHeld,
+                            action::DropHeld, action::SetAppearance, action::SwitchOn>;
 
 /// An action, and how many steps the session had taken before it.
 struct TimedAction {

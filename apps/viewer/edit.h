@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 
+#include "pliant_io/scene/scene.h"
 #include "render/vectors.h"
 #include "viewer/scene_changes.h"
 
@@ -27,6 +28,13 @@ struct Edit {
   SceneChanges before{}, after{};
   std::map<std::string, pliant::Vec3> old_values{};  ///< of what `before` does not have
   std::map<Index, pliant::Vec3> held{};              ///< where the vertices are that it pins or lets go [m]
+};
+
+/// A text with changes, and the scene that it makes.
+struct WrittenScene {
+  pliant::Scene scene;
+  std::vector<std::string> unwritten;  ///< changes that a scene file has no key for
+  std::set<std::string> factors{};     ///< of stiffnesses, which the text has multiplied into its numbers
 };
 
 }  // namespace pliant_viewer

@@ -231,7 +231,7 @@ void LiveScene::follow_session() {
 
 void LiveScene::measure_start() {
   is_at_start_ = true;
-  if (auto start = session_.measure_start(measurer_)) measured_.push_back(std::move(*start));
+  if (auto start = measurer_.measure_start(session_.measured_scene())) measured_.push_back(std::move(*start));
 }
 
 void LiveScene::step() {
@@ -246,7 +246,7 @@ void LiveScene::step() {
     if (was_replaying && !session_.is_replaying()) say_replay_ended();
     pacer_.took_step();
     is_at_start_ = false;
-    if (auto measured = session_.measure_step(measurer_, report, context_.measuring)) {
+    if (auto measured = measurer_.measure_step(session_.measured_scene(), report, context_.measuring)) {
       measured_.push_back(std::move(*measured));
     }
     statistics_.add({Clock::now(), session_.simulation().state().time - before, report.seconds_local,

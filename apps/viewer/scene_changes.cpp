@@ -87,6 +87,7 @@ UnchangedScene::UnchangedScene(const pliant::Scene& scene) {
   }
   for (const auto& [id, collider] : simulation.colliders()) collider_starts_[collider.name] = collider.pose.position;
   has_surfaces_ = simulation.contact().surfaces;
+  appearances_ = scene.appearances;
   const auto is_read = [&](const std::string& name) {
     return scene.places.contains(name) || std::ranges::find(scene.group_names, name) != scene.group_names.end();
   };
@@ -176,6 +177,10 @@ void UnchangedScene::apply(const SceneChanges& changes, pliant::Scene& scene) co
     const auto place = std::ranges::find(numbers, pin.number);
     if (place != numbers.end()) simulation.set_target(*group, static_cast<Index>(place - numbers.begin()), pin.target);
   }
+  for (const auto& [name, what] : changes.switched_off) {
+    if (const auto group = simulation.find_group(name); group && !what.body.empty()) simulation.remove(*group);
+    if (const auto force = simulation.find_force(name); force && what.body.empty()) simulation.remove(*force);
+  }
   for (const auto& [name, position] : changes.collider_positions) {
     const auto collider = simulation.find_collider(name);
     if (!collider) continue;
@@ -183,6 +188,29 @@ void UnchangedScene::apply(const SceneChanges& changes, pliant::Scene& scene) co
     pose.position = position;
     simulation.set_target(*collider, pose);
   }
+}
+
+void UnchangedScene::set_appearances(const SceneChanges& changes, pliant::Scene& scene) const {
+  scene.appearances = appearances_;
+  for (const auto& [name, appearance] : changes.appearances) {
+    if (const auto body = find_body(name)) {
+      scene.appearances[pliant::BodyId{static_cast<Index>(*body)}] = appearance;
+    }
+  }
+}
+
+bool UnchangedScene::can_switch_off(const std::string& name, const SceneChanges& changes) const {
+  if (!has_text_) return true;
+  const auto place = as_read_.places.find(name);
+  if (place != as_read_.places.end()) return !is_replaced(place->second, changes);
+  return is_of_material(name, changes);
+}
+
+/// Of a group that has no place of its own.
+bool UnchangedScene::is_of_material(const std::string& group, const SceneChanges& changes) const {
+  const auto is_of = [&](const auto& entry) { return group.starts_with(entry.first + "."); };
+  const bool is_there = std::ranges::find(groups_, group) != groups_.end() && !ties_.contains(group);
+  return is_there || std::ranges::any_of(changes.materials, is_of);
 }
 
 SceneDocument UnchangedScene::with(const SceneChanges& changes, std::vector<std::string>* unwritten) const {
@@ -193,7 +221,9 @@ SceneDocument UnchangedScene::with(const SceneChanges& changes, std::vector<std:
   write_values(changes, document, unwritten);
   write_pins(changes, document);
   write_names(changes, document);
+  write_appearances(changes, document);
   write_materials(changes, document);
+  write_switched_off(changes, document);
   return document;
 }
 
@@ -289,9 +319,7 @@ void UnchangedScene::write_values(const SceneChanges& changes, SceneDocument& do
     set(document, *path, *value);
   }
   for (const auto& [group, values] : of_groups) {
-    const bool is_there = std::ranges::find(groups_, group) != groups_.end();
-    const auto is_of = [&name = group](const auto& entry) { return name.starts_with(entry.first + "."); };
-    if (is_there || std::ranges::any_of(changes.materials, is_of)) append_event(document, "change", group, values);
+    if (is_of_material(group, changes)) append_event(document, "change", group, values);
   }
 }
 
@@ -357,6 +385,21 @@ void UnchangedScene::write_pins(const SceneChanges& changes, SceneDocument& docu
   }
   for (const auto& [group, vertices] : released) {
     if (is_there(group)) append_event(document, "release", group, {{"vertices", vertices}});
+  }
+}
+
+void UnchangedScene::write_appearances(const SceneChanges& changes, SceneDocument& document) const {
+  for (const auto& [name, appearance] : changes.appearances) {
+    if (const auto body = find_body(name)) {
+      set(document, fmt::format("bodies[{}].appearance", *body), json_of(appearance));
+    }
+  }
+}
+
+/// Behind all other events: these act before they go.
+void UnchangedScene::write_switched_off(const SceneChanges& changes, SceneDocument& document) const {
+  for (const auto& [name, what] : changes.switched_off) {
+    if (can_switch_off(name, changes)) append_event(document, "remove", name, Json::object());
   }
 }
 

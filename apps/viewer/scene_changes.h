@@ -9,6 +9,7 @@
 
 #include "pliant/materials/material_groups.h"
 #include "pliant/simulation/parameters.h"
+#include "pliant_io/scene/body_appearance.h"
 #include "pliant_io/scene/scene_document.h"
 
 namespace pliant_viewer {
@@ -44,14 +45,24 @@ struct MovedPin {
   bool operator==(const MovedPin&) const = default;
 };
 
+/// A group of constraints or a force that is switched off.
+struct SwitchedOff {
+  std::string type;
+  std::string body;                 ///< of a group; empty for a force
+  bool goes_with_material = false;  ///< another material takes its place
+  bool operator==(const SwitchedOff&) const = default;
+};
+
 /// Vertices have their indices in the simulation.
 struct SceneChanges {
-  std::map<std::string, ChangedValue> values;              ///< by the key of the slider
-  std::map<std::string, ChangedMaterial> materials;        ///< by body
-  std::map<Index, std::optional<pliant::Vec3>> pins;       ///< set by hand, with the target where it was moved [m]
-  std::map<Index, ReleasedPin> released;                   ///< of the scene's
-  std::map<Index, MovedPin> moved;                         ///< of the scene's, before the first step
-  std::map<std::string, pliant::Vec3> collider_positions;  ///< where they begin [m]
+  std::map<std::string, ChangedValue> values;                 ///< by the key of the slider
+  std::map<std::string, ChangedMaterial> materials;           ///< by body
+  std::map<Index, std::optional<pliant::Vec3>> pins;          ///< set by hand, with the target where it was moved [m]
+  std::map<Index, ReleasedPin> released;                      ///< of the scene's
+  std::map<Index, MovedPin> moved;                            ///< of the scene's, before the first step
+  std::map<std::string, pliant::Vec3> collider_positions;     ///< where they begin [m]
+  std::map<std::string, pliant::BodyAppearance> appearances;  ///< by body
+  std::map<std::string, SwitchedOff> switched_off;            ///< by the name of the group or force
 
   bool operator==(const SceneChanges&) const = default;
   bool is_empty() const { return *this == SceneChanges{}; }
@@ -81,6 +92,10 @@ class UnchangedScene {
                             pliant::SceneDocument& document);
   /// The number of its own events; those of changes stand behind them.
   std::size_t event_count() const { return event_count_; }
+  /// Shows bodies as they were changed, or else as they were read.
+  void set_appearances(const SceneChanges& changes, pliant::Scene& scene) const;
+  /// Whether a scene file can do without a group or a force of that name; those of a material are its groups.
+  bool can_switch_off(const std::string& name, const SceneChanges& changes) const;
   /// Whether a group of that name holds pins that were set by hand, now, or before the scene was saved.
   bool is_of_hand(const std::string& group) const;
 
@@ -99,12 +114,15 @@ class UnchangedScene {
   std::string free_name(const std::string& base) const;
   void write_names(const SceneChanges& changes, pliant::SceneDocument& document) const;
   bool is_replaced(const std::string& place, const SceneChanges& changes) const;
+  bool is_of_material(const std::string& group, const SceneChanges& changes) const;
   void write_values(const SceneChanges& changes, pliant::SceneDocument& document,
                     std::vector<std::string>* unwritten) const;
   std::optional<std::string> path_of(const pliant::Parameter& parameter, const SceneChanges& changes) const;
   void write_materials(const SceneChanges& changes, pliant::SceneDocument& document) const;
   void write_pins(const SceneChanges& changes, pliant::SceneDocument& document) const;
   void write_colliders(const SceneChanges& changes, pliant::SceneDocument& document) const;
+  void write_appearances(const SceneChanges& changes, pliant::SceneDocument& document) const;
+  void write_switched_off(const SceneChanges& changes, pliant::SceneDocument& document) const;
 
   pliant::Scene as_read_;  // its texts alone
   mutable std::optional<pliant::SceneDocument> document_;
@@ -113,6 +131,7 @@ class UnchangedScene {
   std::map<std::string, std::set<Index>> pin_numbers_;   // of them, by group: what a move can name
   std::set<std::string> ties_;                           // of them, those of carried surfaces
   std::map<std::string, pliant::Vec3> collider_starts_;  // [m]
+  std::map<pliant::BodyId, pliant::BodyAppearance> appearances_;
   bool has_text_ = false;
   bool has_surfaces_ = false;
   std::size_t event_count_ = 0;

@@ -38,19 +38,15 @@ class Session {
   /// Takes a step. Events that are due but can no longer act, because the user removed what they act on, are skipped.
   /// @throws pliant::Error as Scene::step does.
   pliant::StepReport step();
-  /// For plots; what is simulated does not depend on it.
-  std::optional<MeasuredStep> measure_start(StepMeasurer& measurer) { return measurer.measure_start(scene_); }
-  std::optional<MeasuredStep> measure_step(StepMeasurer& measurer, const pliant::StepReport& report,
-                                           const Measuring& measuring) {
-    return measurer.measure_step(scene_, report, measuring);
-  }
+  /// To be measured for plots, which changes nothing of what is simulated.
+  pliant::Scene& measured_scene() { return scene_; }
 
   /// Makes the scene again, without a pull. `keep_changes`: values, materials, pins, and what was moved before the
   /// first step, are as they were changed, where the scene still has such a parameter, body or vertex; otherwise they
   /// are forgotten, and there is nothing to undo. If this throws, nothing has changed.
   void restart(bool keep_changes);
 
-  /// Attaches a spring to a point, replacing an earlier one. It is implicit, hence stable at any stiffness.
+  /// Attaches a spring, implicit and so stable at any stiffness, to a point, replacing an earlier one.
   void grab(const Pull& pull);
   /// Moves the end of the spring; does nothing without one, as do the next two.
   void pull_to(const Vec3f& target);
@@ -97,11 +93,18 @@ class Session {
   /// this is one for undo(). @throws pliant::Error (input): a value out of range.
   void set(const std::string& key, const pliant::Vec3& value, bool goes_on = false);
 
-  /// What the bodies are made of, for the panel.
-  std::vector<BodyMaterial> materials() const { return list_materials(scene_, figures()); }
+  std::vector<BodyMaterial> materials() const { return list_materials(scene_, figures()); }  ///< of the bodies
   /// Makes the body of that name of another material, where it is. Values that were set of the groups that go are
   /// forgotten. @throws pliant::Error (input): no such body or material, or one that the body cannot be made of.
   void set_material(const std::string& body, const std::string& material);
+
+  /// What the body of that name looks like. `goes_on`: as of set(). @throws pliant::Error (input): no such body.
+  void set_appearance(const std::string& body, const pliant::BodyAppearance& appearance, bool goes_on = false);
+  /// Takes a group of constraints or a force of that name away, or brings it back as the scene begins with it, with its
+  /// values as they were changed. @throws pliant::Error (input): there is none, or the scene cannot do without it.
+  void switch_on(const std::string& name, bool on);
+  /// Of each group and force that can be switched off, whether it is on.
+  std::map<std::string, bool> switches() const;
 
   /// What undo() and redo() would take back and do again, "pin"; empty: nothing.
   std::string undone_next() const { return done_.empty() ? "" : done_.back().what; }
@@ -125,7 +128,8 @@ class Session {
   bool has_unsaved_changes() const { return !(changes_ == saved_changes_); }
   /// How often the scene was made anew with other changes: groups have other ids then.
   std::uint64_t rebuilds() const { return rebuilds_; }
-  std::uint64_t restarts() const { return restarts_; }  ///< so far
+  std::uint64_t restarts() const { return restarts_; }          ///< so far
+  std::uint64_t look_changes() const { return look_changes_; }  ///< of bodies, so far
   const SceneChanges& changes() const { return changes_; }
 
   /// All that was done since the scene was opened, or restarted without changes, to be replayed; shown like that.
@@ -140,26 +144,21 @@ class Session {
   const ReplayReport& replayed() const { return replayed_; }  ///< the last one, or the one under way
 
  private:
-  /// A text with the changes, and the scene that it makes.
-  struct Written {
-    pliant::Scene scene;
-    std::vector<std::string> unwritten;  ///< changes that a scene file has no key for
-    std::set<std::string> factors{};     ///< of stiffnesses, which the text has multiplied into its numbers
-  };
   SessionLog::Scope note(Action action);
   void do_again(const Action& action);
   void do_what_is_due();
   void check_replay();
   void begin_record(const pliant::Scene& scene);
-  Written prepare_save(const std::filesystem::path& file, const pliant::ViewSettings& view) const;
-  void go_on_as(Written written);
-  Written write_text(const std::filesystem::path& file, const pliant::ViewSettings& view) const;
+  WrittenScene prepare_save(const std::filesystem::path& file, const pliant::ViewSettings& view) const;
+  void go_on_as(WrittenScene written);
+  WrittenScene write_text(const std::filesystem::path& file, const pliant::ViewSettings& view) const;
   std::optional<Pin> find_pin(Index vertex) const;
   std::map<Index, std::vector<Pin>> find_pins(const std::vector<Index>& vertices) const;
   void stop_motions(const std::map<Index, std::vector<Pin>>& pinned);
   void note_moved(Index vertex, const Pin& pin);
   pliant::Vec3 target_of(const Pin& pin) const { return scene_.simulation.target(pin.group, pin.target); }
   pliant::BodyId body_of(Index vertex) const;
+  pliant::BodyId find_body(const std::string& name) const;
   void steer_colliders();
   void note_release(Index vertex, const pliant::Group& group, const Pin& pin);
   bool is_hidden(pliant::GroupId group) const;
@@ -172,6 +171,7 @@ class Session {
   void carry_into(pliant::Scene& next, const SceneChanges& to, const std::set<std::string>& but = {}) const;
   void settle(pliant::Scene next);
   void take(pliant::Scene next);
+  void set_looks(const SceneChanges& changes);
 
   MakeScene make_;
   pliant::Scene scene_;
@@ -182,7 +182,7 @@ class Session {
   std::map<std::string, pliant::MaterialPlacement> placements_;  // of the bodies whose material changed, as they had it
   std::set<pliant::ColliderId> left_alone_;                      // moved by hand while time went on
   std::set<pliant::GroupId> of_hand_;                            // groups of pins that were set by hand
-  std::uint64_t rebuilds_ = 0, restarts_ = 0, edit_count_ = 0;
+  std::uint64_t rebuilds_ = 0, restarts_ = 0, edit_count_ = 0, look_changes_ = 0;
   OpenedScene opened_;
   SessionLog log_;
   std::optional<Replay> replay_;

@@ -16,12 +16,6 @@ namespace {
 constexpr std::size_t most_edits = 1000;      // that can be taken back
 constexpr std::size_t most_pins = 4'000'000;  // that these may name together, some 100 bytes each
 
-std::optional<pliant::BodyId> find_body(const pliant::Simulation& simulation, const std::string& name) {
-  const auto found = std::ranges::find(simulation.bodies(), name, &pliant::Body::name);
-  if (found == simulation.bodies().end()) return {};
-  return pliant::BodyId{static_cast<Index>(found - simulation.bodies().begin())};
-}
-
 /// The keys by which two maps differ.
 template <class Key, class Value>
 std::set<Key> difference(const std::map<Key, Value>& a, const std::map<Key, Value>& b) {
@@ -45,8 +39,10 @@ std::size_t pin_count(const Edit& edit) {
   return count;
 }
 
-bool differ_in_values_alone(const SceneChanges& a, SceneChanges b) {
+/// Whether one is made of the other in the scene as it is.
+bool differ_in_what_is_set_alone(const SceneChanges& a, SceneChanges b) {
   b.values = a.values;
+  b.appearances = a.appearances;
   return a == b;
 }
 
@@ -90,19 +86,20 @@ void Session::set(const std::string& key, const pliant::Vec3& value, bool goes_o
 
 void Session::set_material(const std::string& body, const std::string& material) {
   const auto noted = note(action::SetMaterial{body, material});
-  const auto id = find_body(scene_.simulation, body);
-  if (!id) pliant::fail_input("there is no body '" + pliant::printable(body) + "'");
+  const pliant::BodyId id = find_body(body);
   const std::vector<Slider> before = sliders();
   // Threads lie as they did, also after a material that has none.
-  const auto placement = placements_.emplace(body, present_placement(simulation(), *id)).first;
+  const auto placement = placements_.emplace(body, present_placement(simulation(), id)).first;
   std::set<std::string> of_body;  // keys of what may go
   for (const Slider& slider : before) {
     const auto* group = std::get_if<pliant::GroupId>(&slider.parameter.handle.owner);
-    if (group != nullptr && simulation().groups().at(*group).body == *id) of_body.insert(slider.key);
+    if (group != nullptr && simulation().groups().at(*group).body == id) of_body.insert(slider.key);
   }
-  change_material(scene_, *id, material, placement->second);
+  change_material(scene_, id, material, placement->second);
   Edit edit{.what = body + ": " + material, .before = changes_};
   for (const std::string& key : of_body) changes_.values.erase(key);
+  std::erase_if(changes_.switched_off,
+                [&](const auto& entry) { return entry.second.body == body && entry.second.goes_with_material; });
   changes_.values.erase("contact:" + body + ".friction");
   changes_.materials[body] = {material, placement->second};
   for (const pliant::Parameter& now : list_parameters(simulation(), {})) {  // the settings
@@ -112,7 +109,7 @@ void Session::set_material(const std::string& body, const std::string& material)
     changes_.values[old->key] = {now, now.value};
   }
   remember(std::move(edit));
-  note_ = coarseness(scene_.materials.at(*id), simulation().body(*id).mesh);
+  note_ = coarseness(scene_.materials.at(id), simulation().body(id).mesh);
 }
 
 void Session::drop_collider(pliant::ColliderId collider) {
@@ -146,6 +143,7 @@ pliant::Scene Session::make_with(const SceneChanges& changes, const UnchangedSce
   if (!unchanged.has_text()) {
     pliant::Scene scene = make_();
     unchanged.apply(changes, scene);
+    unchanged.set_appearances(changes, scene);
     return scene;
   }
   pliant::Scene scene = read_changed(unchanged.text_with(changes));
@@ -199,7 +197,7 @@ void Session::take(pliant::Scene next) {
 }
 
 void Session::go(const Edit& edit, const SceneChanges& from, const SceneChanges& to) {
-  if (differ_in_values_alone(from, to)) {
+  if (differ_in_what_is_set_alone(from, to)) {
     std::map<std::string, pliant::Vec3> values;
     for (const std::string& key : difference(from.values, to.values)) {
       const auto changed = to.values.find(key);
@@ -211,6 +209,7 @@ void Session::go(const Edit& edit, const SceneChanges& from, const SceneChanges&
       }
     }
     set_values(std::move(values), scene_.simulation);
+    set_looks(to);
     changes_ = to;
     return;
   }
@@ -297,7 +296,7 @@ void Session::restart(bool keep_changes) {
 }
 
 /// What is to be written to `file`, and the scene that it makes, at its start.
-Session::Written Session::write_text(const std::filesystem::path& file, const pliant::ViewSettings& view) const {
+WrittenScene Session::write_text(const std::filesystem::path& file, const pliant::ViewSettings& view) const {
   namespace fs = std::filesystem;
   if (!unchanged_.has_text()) {
     pliant::fail_input("this scene was made by a program, not read from a scene file, so it cannot be saved as one");
@@ -321,15 +320,15 @@ std::string Session::text(const std::filesystem::path& file, const pliant::ViewS
 }
 
 /// What save() writes to `file`, and its scene at this moment.
-Session::Written Session::prepare_save(const std::filesystem::path& file, const pliant::ViewSettings& view) const {
-  Written written = write_text(file, view);
+WrittenScene Session::prepare_save(const std::filesystem::path& file, const pliant::ViewSettings& view) const {
+  WrittenScene written = write_text(file, view);
   for (const auto& [key, factor] : unchanged_.factors(changes_)) written.factors.insert(key);
   carry_into(written.scene, changes_, written.factors);
   return written;
 }
 
 /// Goes on with the bits of what was saved.
-void Session::go_on_as(Written written) {
+void Session::go_on_as(WrittenScene written) {
   if (!written.factors.empty()) {
     written.scene = make_with(changes_, unchanged_);
     carry_into(written.scene, changes_);
@@ -344,7 +343,7 @@ void Session::go_on_as(Written written) {
 std::vector<std::filesystem::path> Session::save(const std::filesystem::path& file, const pliant::ViewSettings& view) {
   namespace fs = std::filesystem;
   const auto noted = note(action::Save{});
-  Written written = prepare_save(file, view);
+  WrittenScene written = prepare_save(file, view);
   std::vector<fs::path> files = {file};
   const fs::path checkpoint = fs::path(file).replace_extension(".pliant");
   std::error_code ignored;

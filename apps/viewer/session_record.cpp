@@ -21,10 +21,10 @@ constexpr int format_version = 1;
 
 /// In the order of Action.
 constexpr std::array<std::string_view, std::variant_size_v<Action>> action_names = {
-    "grab",      "pull_to",   "pull_stiffness", "let_go",        "pin",          "unpin",
-    "move_pin",  "drop_pin",  "move_collider",  "drop_collider", "set",          "set_material",
-    "undo",      "redo",      "restart",        "save",          "pin_vertices", "unpin_vertices",
-    "hold_pins", "move_held", "drop_held"};
+    "grab",      "pull_to",   "pull_stiffness", "let_go",         "pin",          "unpin",
+    "move_pin",  "drop_pin",  "move_collider",  "drop_collider",  "set",          "set_material",
+    "undo",      "redo",      "restart",        "save",           "pin_vertices", "unpin_vertices",
+    "hold_pins", "move_held", "drop_held",      "set_appearance", "switch_on"};
 
 /// Calls field(name, value) with what an action has.
 template <class Action, class Field>
@@ -50,6 +50,9 @@ void visit_fields(Action& action, const Field& field) {
   if constexpr (requires { action.goes_on; }) field("goes_on", action.goes_on);
   if constexpr (requires { action.body; }) field("body", action.body);
   if constexpr (requires { action.material; }) field("material", action.material);
+  if constexpr (requires { action.appearance; }) field("appearance", action.appearance);
+  if constexpr (requires { action.name; }) field("name", action.name);
+  if constexpr (requires { action.on; }) field("on", action.on);
   if constexpr (requires { action.keep_changes; }) field("keep_changes", action.keep_changes);
 }
 
@@ -57,6 +60,8 @@ template <class Value>
 Json json_of_field(const Value& value) {
   if constexpr (requires { value.x(); }) {
     return {value.x(), value.y(), value.z()};
+  } else if constexpr (lists_options<Value>) {
+    return json_of(value);
   } else {
     return value;
   }
@@ -129,6 +134,42 @@ class Node {
   void read(Eigen::Matrix<Number, 3, 1>& vector) const {
     check_size(3);
     for (std::size_t i = 0; i < 3; ++i) at(i).read(vector[static_cast<Eigen::Index>(i)]);
+  }
+  void read(pliant::Color& color) const {
+    std::array<Real*, 3> shares = {&color.red, &color.green, &color.blue};
+    check_size(shares.size());
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+      at(i).read(*shares[i]);
+      if (!(*shares[i] >= 0 && *shares[i] <= 1)) at(i).fail("must be from 0 to 1");
+    }
+  }
+  template <class Value>
+  void read(std::optional<Value>& value) const {
+    read(value.emplace());
+  }
+  template <class Choice>
+  requires std::is_enum_v<Choice>
+  void read(Choice& choice) const {
+    std::string name;
+    read(name);
+    const auto names = choice_names(choice);
+    const auto found = std::ranges::find(names, name);
+    if (found == names.end()) fail(fmt::format("'{}' is not known", pliant::printable(name)));
+    choice = static_cast<Choice>(found - names.begin());
+  }
+  /// What is not there stays as it is.
+  template <lists_options Options>
+  void read(Options& options) const {
+    if (!json_.is_object()) fail("must be an object");
+    Options::visit(options, [&](const pliant::OptionInfo& info, auto& value) {
+      const std::string name(info.name);
+      if (!json_.contains(name)) return;
+      const Node node = at(name.c_str());
+      node.read(value);
+      if constexpr (std::is_floating_point_v<std::remove_reference_t<decltype(value)>>) {
+        if (!(value >= info.range.min && value <= info.range.max)) node.fail("is out of range");
+      }
+    });
   }
 
  private:

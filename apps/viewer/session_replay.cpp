@@ -122,6 +122,8 @@ void Session::do_again(const Action& action) {
                  [&](const action::DropCollider& dropped) { drop_collider(collider(dropped.collider)); },
                  [&](const action::Set& changed) { set(changed.key, changed.value, changed.goes_on); },
                  [&](const action::SetMaterial& dressed) { set_material(dressed.body, dressed.material); },
+                 [&](const action::SetAppearance& set) { set_appearance(set.body, set.appearance, set.goes_on); },
+                 [&](const action::SwitchOn& switched) { switch_on(switched.name, switched.on); },
                  [&](const action::Undo&) { undo(); },
                  [&](const action::Redo&) { redo(); },
                  [&](const action::Restart& restarted) { restart(restarted.keep_changes); },

@@ -39,7 +39,10 @@ std::vector<Slider> list_sliders(const pliant::Simulation& simulation, const std
   add_sliders("settings", list_parameters(simulation, {}), list);
   for (const auto& [id, group] : simulation.groups()) {
     const std::string owner = names.next("group", group.name);
-    if (!is_hidden || !is_hidden(id)) add_sliders(owner, list_parameters(simulation, id), list);
+    if (is_hidden && is_hidden(id)) continue;
+    const std::size_t first = list.size();
+    add_sliders(owner, list_parameters(simulation, id), list);
+    for (std::size_t i = first; i < list.size(); ++i) list[i].body = simulation.body(group.body).name;
   }
   for (const auto& [id, force] : simulation.forces()) {
     add_sliders(names.next("force", simulation.name(id)), list_parameters(simulation, id), list);

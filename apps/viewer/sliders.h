@@ -18,6 +18,7 @@ struct Slider {
   std::string key;
   std::string heading;  ///< of its group, force, collider or body, for people: "triangle_strain \"stretch\""
   pliant::Parameter parameter;
+  std::string body = {};  ///< whose group it is of; else empty
 };
 
 /// All parameters, but for groups that are hidden, in an order in which they can be set.

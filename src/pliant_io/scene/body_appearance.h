@@ -11,6 +11,8 @@ struct Color {
   Real red = 0;    ///< 0 to 1
   Real green = 0;  ///< 0 to 1
   Real blue = 0;   ///< 0 to 1
+
+  bool operator==(const Color&) const = default;
 };
 
 /// Fields or stripes of two colors in turn.
@@ -25,6 +27,8 @@ struct BodyAppearance {
   Pattern pattern = Pattern::none;       ///< on both sides
   Color pattern_color{0.95, 0.94, 0.9};  ///< of every second field or stripe
   Real pattern_size = 0.1;               ///< of a field, or across a stripe, at rest [m], > 0
+
+  bool operator==(const BodyAppearance&) const = default;
 
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& field) {
