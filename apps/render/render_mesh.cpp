@@ -43,6 +43,12 @@ std::vector<std::uint8_t> number_tones(const std::vector<pliant::Body>& bodies, 
 
 }  // namespace
 
+bool have_same_shape(const RenderMesh& a, const RenderMesh& b) {
+  return a.vertex_count == b.vertex_count && a.triangles == b.triangles && a.corners == b.corners &&
+         a.ropes == b.ropes && a.edges == b.edges && a.springs == b.springs && a.rest_lengths == b.rest_lengths &&
+         a.bodies == b.bodies && a.tones == b.tones && a.is_sheet == b.is_sheet;
+}
+
 RenderMesh make_render_mesh(const std::vector<pliant::Body>& bodies, std::span<const std::uint32_t> held) {
   RenderMesh render_mesh;
   for (const pliant::Body& body : bodies) {

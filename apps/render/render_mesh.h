@@ -41,6 +41,8 @@ struct RenderMesh {
   std::vector<VertexLook> looks;       ///< one per vertex, or none
   std::vector<std::uint8_t> is_sheet;  ///< one per vertex: 1 where its body has triangles and no tetrahedra
 };
+/// Whether they differ in nothing but what bodies look like.
+bool have_same_shape(const RenderMesh& a, const RenderMesh& b);
 /// Free bodies have tones in turn. held: vertices of bodies that are held as a whole, as in FrameContent.
 RenderMesh make_render_mesh(const std::vector<pliant::Body>& bodies, std::span<const std::uint32_t> held = {});
 

@@ -128,7 +128,12 @@ void Renderer::set_vertex_layout() const {
   look(6, 3, GL_FLOAT, offsetof(VertexLook, place));
 }
 
-/// Once: bodies keep what they look like. Copies look like their vertices; sheets have the sheen of cloth.
+void Renderer::set_looks(std::vector<VertexLook> looks) {
+  render_mesh_.looks = std::move(looks);
+  upload_looks();
+}
+
+/// Copies look like their vertices; sheets have the sheen of cloth.
 void Renderer::upload_looks() const {
   std::vector<VertexLook> looks = render_mesh_.looks;
   looks.resize(static_cast<std::size_t>(render_mesh_.vertex_count));

@@ -27,6 +27,8 @@ class Renderer {
   explicit Renderer(RenderMesh render_mesh);
 
   const RenderMesh& render_mesh() const { return render_mesh_; }
+  /// What bodies look like from now on: one per vertex, or none.
+  void set_looks(std::vector<VertexLook> looks);
   /// Uploads the positions, values and markers of a frame.
   void set_frame(const FrameContent& frame, pliant::ColorBy color);
   /// Vertices that are marked as selected in all frames from now on.

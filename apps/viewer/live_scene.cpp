@@ -15,11 +15,6 @@ constexpr Seconds longest_wait{1};             // a huge time step would overflo
 constexpr Seconds freshness{0.008};            // age at which a snapshot is replaced
 constexpr std::size_t most_measured = 16'384;  // steps that a window which takes no snapshots leaves waiting
 
-bool is_same(const pliant_render::RenderMesh& a, const pliant_render::RenderMesh& b) {
-  return a.vertex_count == b.vertex_count && a.triangles == b.triangles && a.ropes == b.ropes && a.edges == b.edges &&
-         a.springs == b.springs && a.rest_lengths == b.rest_lengths && a.tones == b.tones && a.looks == b.looks;
-}
-
 /// What was pinned by hand keeps its tone, all of a body too.
 pliant_render::RenderMesh make_mesh_of(const Session& session) {
   const std::vector<pliant::Body>& bodies = session.simulation().bodies();
@@ -220,6 +215,10 @@ void LiveScene::follow_session() {
     rebuilds_seen_ = session_.rebuilds();
     update_render_mesh();
   }
+  if (session_.look_changes() != looks_seen_) {
+    looks_seen_ = session_.look_changes();
+    update_looks();
+  }
   if (session_.restarts() == restarts_seen_) return;
   restarts_seen_ = session_.restarts();
   statistics_.clear();
@@ -265,10 +264,30 @@ void LiveScene::step() {
 
 void LiveScene::update_render_mesh() {
   auto render_mesh = std::make_shared<const pliant_render::RenderMesh>(make_mesh_of(session_));
-  if (render_mesh_ == nullptr || !is_same(*render_mesh, *render_mesh_)) render_mesh_ = std::move(render_mesh);
+  if (render_mesh_ == nullptr || !have_same_shape(*render_mesh, *render_mesh_) ||
+      render_mesh->looks != render_mesh_->looks)
+    render_mesh_ = std::move(render_mesh);
   std::vector<std::string> names;
   for (const pliant::Body& body : session_.simulation().bodies()) names.push_back(body.name);
   body_names_ = std::make_shared<const std::vector<std::string>>(std::move(names));
+}
+
+void LiveScene::update_looks() {
+  auto render_mesh = std::make_shared<pliant_render::RenderMesh>(*render_mesh_);
+  render_mesh->looks = pliant_render::vertex_looks(session_.simulation().bodies(), session_.scene().appearances);
+  render_mesh_ = std::move(render_mesh);
+}
+
+/// What the panel has of bodies.
+void LiveScene::update_bodies() {
+  auto appearances = std::make_shared<std::map<std::string, pliant::BodyAppearance>>();
+  for (const auto& [id, appearance] : session_.scene().appearances) {
+    (*appearances)[session_.simulation().body(id).name] = appearance;
+  }
+  appearances_ = std::move(appearances);
+  materials_ = std::make_shared<const std::vector<BodyMaterial>>(session_.materials());
+  switches_ = std::make_shared<const std::map<std::string, bool>>(session_.switches());
+  switched_off_ = std::make_shared<const std::map<std::string, SwitchedOff>>(session_.changes().switched_off);
 }
 
 /// Lists parameters and materials anew after commands, and a few times a second since the scene's own events change
@@ -279,7 +298,7 @@ void LiveScene::update_sliders() {
   sliders_listed_ = now;
   commands_listed_ = commands_done_;
   sliders_ = std::make_shared<const std::vector<Slider>>(session_.sliders());
-  materials_ = std::make_shared<const std::vector<BodyMaterial>>(session_.materials());
+  update_bodies();
 }
 
 void LiveScene::publish() {
@@ -297,6 +316,9 @@ void LiveScene::publish() {
   update_sliders();
   back_.sliders = sliders_;
   back_.materials = materials_;
+  back_.appearances = appearances_;
+  back_.switches = switches_;
+  back_.switched_off = switched_off_;
   back_.wrenches.clear();
   for (const auto& [id, collider] : simulation.colliders()) back_.wrenches[id] = simulation.wrench(id);
   back_.measured = std::exchange(measured_, {});

@@ -28,8 +28,12 @@ struct Snapshot {
   std::optional<Pull> pull;
   std::shared_ptr<const std::vector<Slider>> sliders;
   std::shared_ptr<const std::vector<BodyMaterial>> materials;
-  std::map<pliant::ColliderId, pliant::Wrench> wrenches;  ///< what colliders felt in the last step
-  std::vector<MeasuredStep> measured;                     ///< since the snapshot that newest() returned before
+  std::shared_ptr<const std::map<std::string, pliant::BodyAppearance>>
+      appearances;                                                         ///< by body, of those that have one
+  std::shared_ptr<const std::map<std::string, bool>> switches;             ///< by group or force, see Session::switches
+  std::shared_ptr<const std::map<std::string, SwitchedOff>> switched_off;  ///< by group or force
+  std::map<pliant::ColliderId, pliant::Wrench> wrenches;                   ///< what colliders felt in the last step
+  std::vector<MeasuredStep> measured;  ///< since the snapshot that newest() returned before
   FrameStatistics::Means statistics;
   std::int64_t step = 0;
   std::int64_t single_steps = 0;  ///< still to take while paused
@@ -117,6 +121,8 @@ class LiveScene {
   Seconds time_to_step();
   void publish();
   void update_sliders();
+  void update_looks();
+  void update_bodies();
   bool shall_give_up() const;
   void set_thread_count();
 
@@ -142,11 +148,14 @@ class LiveScene {
   std::uint64_t commands_done_ = 0;
   std::uint64_t commands_published_ = 0;
   std::uint64_t restarts_seen_ = 0;
-  std::uint64_t rebuilds_seen_ = 0;
+  std::uint64_t rebuilds_seen_ = 0, looks_seen_ = 0;
   std::string message_;
   std::uint64_t messages_ = 0;
   std::shared_ptr<const std::vector<Slider>> sliders_;
   std::shared_ptr<const std::vector<BodyMaterial>> materials_;
+  std::shared_ptr<const std::map<std::string, pliant::BodyAppearance>> appearances_;
+  std::shared_ptr<const std::map<std::string, bool>> switches_;
+  std::shared_ptr<const std::map<std::string, SwitchedOff>> switched_off_;
   Clock::time_point sliders_listed_{};
   std::uint64_t commands_listed_ = ~std::uint64_t{0};
   bool is_dirty_ = true;

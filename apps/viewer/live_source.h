@@ -1,7 +1,7 @@
 #pragma once
 // A simulated scene as a source of the view.
 #include "viewer/live_scene.h"
-#include "viewer/panels/material_panel.h"
+#include "viewer/panels/body_panel.h"
 #include "viewer/panels/parameter_panel.h"
 #include "viewer/view_source.h"
 
@@ -38,7 +38,8 @@ class LiveSource final : public ViewSource {
 
   const Snapshot& snapshot() const { return *snapshot_; }
   const ParameterPanel& parameter_panel() const { return parameters_; }
-  const MaterialPanel& material_panel() const { return materials_; }
+  const BodyPanel& body_panel() const { return bodies_; }
+  const MaterialPanel& material_panel() const { return bodies_.materials(); }
 
  private:
   void draw_pace();
@@ -53,7 +54,7 @@ class LiveSource final : public ViewSource {
   std::optional<double> hold_;      // see hold_at() [s]
   double speed_ = 1;
   bool is_unlimited_ = false;
-  MaterialPanel materials_;
+  BodyPanel bodies_;
   ParameterPanel parameters_;
 };
 

@@ -107,7 +107,14 @@ void Ui::show_hand() {
 }
 
 bool Ui::holds_mouse() const {
-  return context_->ActiveId != 0;
+  return context_->ActiveId != 0 || !context_->OpenPopupStack.empty();
+}
+
+bool Ui::close_menus() {
+  ImGui::SetCurrentContext(context_);
+  if (context_->OpenPopupStack.empty()) return false;
+  ImGui::ClosePopupToLevel(0, true);
+  return true;
 }
 
 bool Ui::takes_text() const {

@@ -24,9 +24,11 @@ class Ui {
   bool take(const KeyEvent& event);
   /// Whether a panel covered a place in the last frame.
   bool has_panel_at(const Vec2f& place) const;
-  /// Whether a panel is using the mouse, or the keyboard for text.
+  /// Whether a panel is using the mouse, or the keyboard for text, or a menu is open, which a press beside it closes.
   bool holds_mouse() const;
   bool takes_text() const;
+  /// Closes menus that are open; returns whether there were any.
+  bool close_menus();
 
   /// Where the mouse is, also outside the window.
   Vec2f mouse() const;

@@ -139,7 +139,8 @@ void Viewer::say(std::string message) {
 
 void Viewer::update_render_mesh() {
   if (source_.render_mesh() == render_mesh_) return;
-  render_mesh_ = source_.render_mesh();
+  const auto before = std::exchange(render_mesh_, source_.render_mesh());
+  if (before != nullptr && have_same_shape(*before, *render_mesh_)) return renderer_->set_looks(render_mesh_->looks);
   renderer_.emplace(*render_mesh_);
   select_.restart(static_cast<std::size_t>(render_mesh_->vertex_count));
   quality_.forget();

@@ -131,6 +131,7 @@ void Viewer::take_plain_key(int key, bool has_shift) {
       is_help_open_ = !is_help_open_;
       return;
     case GLFW_KEY_ESCAPE:
+      if (ui_.close_menus()) return;
       if (!is_help_open_ && !scene_panel_.is_open) select_.clear();
       is_help_open_ = false;
       scene_panel_.is_open = false;

@@ -210,12 +210,12 @@ TEST_CASE("the panel lets surfaces touch, and has how a body does") {
   };
   const auto middle_of = [](const std::array<float, 4>& rect, float x) { return Vec2f(x, (rect[1] + rect[3]) / 2); };
   CHECK(desk.parameter("contact.surfaces") == 0);
-  // Materials and solver are folded, lest the rows below be out of sight.
-  const auto fold = [&](const std::array<float, 4>& first_row) {
-    desk.click({first_row[0] - 40, first_row[1] - 14});
+  // Bodies and solver are folded, lest the rows below be out of sight.
+  const auto fold = [&](const std::array<float, 4>& first_row, float above = 14) {
+    desk.click({first_row[0] - 40, first_row[1] - above});
     desk.turns(5);
   };
-  fold(desk.source.material_panel().place_of("sheet").value());
+  fold(desk.source.material_panel().place_of("sheet").value(), 36);
   CHECK_FALSE(desk.source.material_panel().place_of("sheet").has_value());
   fold(place("settings.time_step"));
   const auto surfaces = place("contact.surfaces");

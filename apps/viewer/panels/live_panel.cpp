@@ -45,7 +45,8 @@ std::string steps_text(const Snapshot& snapshot) {
 
 void LiveSource::draw_panel() {
   draw_pace();
-  materials_.draw(*snapshot_, scene_);
+  parameters_.begin(*snapshot_);
+  bodies_.draw(*snapshot_, scene_, parameters_, history_.run());
   parameters_.draw(*snapshot_, scene_);
 }
 

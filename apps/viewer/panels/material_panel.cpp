@@ -5,11 +5,6 @@
 #include "viewer/panels/panel_style.h"
 
 namespace pliant_viewer {
-namespace {
-
-constexpr std::size_t few_bodies = 12;  // whose menus are unfolded at first
-
-}  // namespace
 
 std::optional<std::array<float, 4>> MaterialPanel::place_of(const std::string& body) const {
   const auto found = places_.find(body);
@@ -17,18 +12,15 @@ std::optional<std::array<float, 4>> MaterialPanel::place_of(const std::string& b
   return found->second;
 }
 
-void MaterialPanel::draw(const Snapshot& snapshot, LiveScene& live) {
+void MaterialPanel::begin(const Snapshot& snapshot) {
   std::erase_if(chosen_, [&](const auto& entry) { return entry.second.command <= snapshot.commands; });
   places_.clear();
-  const std::vector<BodyMaterial>& rows = *snapshot.materials;
-  if (rows.empty() || !section_header("Materials", rows.size() <= few_bodies)) return;
-  for (const BodyMaterial& row : rows) draw_row(row, live);
 }
 
 void MaterialPanel::draw_row(const BodyMaterial& row, LiveScene& live) {
   const auto found = chosen_.find(row.name);
   const std::string& present = found == chosen_.end() ? row.material : found->second.material;
-  row_label(row.name,
+  row_label("material",
             "what this body is made of: its weight, stretch, bending and friction change where it is;\n"
             "pins and pulls stay");
   ImGui::PushID(row.name.c_str());

@@ -11,8 +11,10 @@ namespace pliant_viewer {
 
 class MaterialPanel {
  public:
-  /// Draws a row for each body that can be made of a material, and posts what is chosen.
-  void draw(const Snapshot& snapshot, LiveScene& live);
+  /// Before the rows of a picture.
+  void begin(const Snapshot& snapshot);
+  /// Draws the row of a body that can be made of a material, and posts what is chosen.
+  void draw_row(const BodyMaterial& row, LiveScene& live);
   /// Where the menu of a body stands in the window, as of the last drawing: left, top, right, bottom.
   std::optional<std::array<float, 4>> place_of(const std::string& body) const;
 
@@ -22,7 +24,6 @@ class MaterialPanel {
     std::string material;
     std::uint64_t command;
   };
-  void draw_row(const BodyMaterial& row, LiveScene& live);
 
   std::map<std::string, Chosen> chosen_;
   std::map<std::string, std::array<float, 4>> places_;

@@ -17,7 +17,6 @@ namespace {
 
 constexpr double decades = 1e3;  // that a slider goes up and down from the value that it is first seen with
 
-constexpr std::size_t many_groups = 12;
 constexpr std::size_t few_colliders = 3;  // that are unfolded at first
 
 bool is_of_settings(const Slider& slider) {
@@ -80,26 +79,70 @@ std::optional<std::array<float, 4>> ParameterPanel::place_of(const std::string& 
   return found->second;
 }
 
-void ParameterPanel::draw(const Snapshot& snapshot, LiveScene& live) {
+void ParameterPanel::begin(const Snapshot& snapshot) {
   std::erase_if(edited_, [&](const auto& entry) { return entry.second.command <= snapshot.commands; });
+  std::erase_if(switched_, [&](const auto& entry) { return entry.second.command <= snapshot.commands; });
+}
+
+void ParameterPanel::draw(const Snapshot& snapshot, LiveScene& live) {
   const std::span<const Slider> all = *snapshot.sliders;
   const auto those_of = [all](std::size_t kind_of_owner) {
     const auto is_meant = [=](const Slider& slider) { return slider.parameter.handle.owner.index() == kind_of_owner; };
     const auto begin = std::ranges::find_if(all, is_meant);
     return std::span<const Slider>(begin, std::find_if_not(begin, all.end(), is_meant));
   };
-  const auto draw_all = [&](const char* title, std::span<const Slider> sliders, bool is_open_at_first) {
-    if (!sliders.empty() && section_header(title, is_open_at_first)) draw_owners(sliders, live);
-  };
-  const std::span<const Slider> groups = those_of(1);
-  draw_all("Solver", those_of(0), true);
-  draw_all("Constraints", groups, groups.size() <= 4 * many_groups);
-  draw_all("Forces", those_of(2), true);
+  if (section_header("Solver")) draw_options(those_of(0), live);
+  const auto is_force = [](const auto& entry) { return entry.second.body.empty(); };
+  const bool has_forces = !those_of(2).empty() || std::ranges::any_of(*snapshot.switched_off, is_force);
+  if (has_forces && section_header("Forces")) draw_forces(those_of(2), snapshot, live);
   if (section_header("Contact")) {
-    draw_owners(those_of(4), live);
+    draw_options(those_of(4), live);
     draw_body_contacts(those_of(5), live);
   }
   if (!snapshot.wrenches.empty() && section_header("Colliders")) draw_colliders(those_of(3), snapshot, live);
+}
+
+void ParameterPanel::draw_forces(std::span<const Slider> sliders, const Snapshot& snapshot, LiveScene& live) {
+  for (auto begin = sliders.begin(); begin != sliders.end();) {
+    const auto end = find_end_of_owner(begin, sliders.end());
+    ImGui::PushID(begin->key.c_str());
+    if (draw_switch(begin->parameter.name, snapshot, live)) ImGui::SameLine();
+    ImGui::TextDisabled("%s", begin->heading.c_str());
+    draw_options({begin, end}, live);
+    ImGui::PopID();
+    begin = end;
+  }
+  for (const auto& [name, off] : *snapshot.switched_off) {
+    if (off.body.empty()) draw_switched_off(name, off, snapshot, live);
+  }
+}
+
+/// A box to tick, where what has that name can be switched off; returns whether it can.
+bool ParameterPanel::draw_switch(const std::string& name, const Snapshot& snapshot, LiveScene& live) {
+  const auto found = snapshot.switches->find(name);
+  if (found == snapshot.switches->end()) return false;
+  const auto switched = switched_.find(name);
+  bool is_on = switched == switched_.end() ? found->second : switched->second.on;
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ImGui::GetStyle().FramePadding.y, ImGui::GetStyle().FramePadding.y});
+  if (ImGui::Checkbox("##switch", &is_on)) {
+    const auto command = [name, is_on](CommandContext& context) { context.session.switch_on(name, is_on); };
+    switched_[name] = {is_on, live.post(command, LiveScene::Kind::changes)};
+  }
+  ImGui::PopStyleVar();
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  places_["switch:" + name] = {low.x, low.y, high.x, high.y};
+  explain("on or off; back on, it is as the scene begins with it");
+  return true;
+}
+
+void ParameterPanel::draw_switched_off(const std::string& name, const SwitchedOff& off, const Snapshot& snapshot,
+                                       LiveScene& live) {
+  ImGui::PushID(name.c_str());
+  if (draw_switch(name, snapshot, live)) ImGui::SameLine();
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextDisabled("%s", (name + ", off").c_str());
+  explain(off.type);
+  ImGui::PopID();
 }
 
 /// Of each collider what it feels, and its options, which fold.
@@ -137,23 +180,8 @@ void ParameterPanel::draw_body_contacts(std::span<const Slider> sliders, LiveSce
   }
 }
 
-void ParameterPanel::draw_owners(std::span<const Slider> sliders, LiveScene& live) {
-  for (auto begin = sliders.begin(); begin != sliders.end();) {
-    const pliant::ParameterOwner& owner = begin->parameter.handle.owner;
-    const auto end = find_end_of_owner(begin, sliders.end());
-    ImGui::PushID(begin->key.c_str());
-    if (std::holds_alternative<pliant::GroupId>(owner)) {
-      draw_group({begin, end}, live);
-    } else {
-      draw_options({begin, end}, live);
-    }
-    ImGui::PopID();
-    begin = end;
-  }
-}
-
-/// One row with the name of the group and its stiffness, or else its first option; the others unfold.
-void ParameterPanel::draw_group(std::span<const Slider> group, LiveScene& live) {
+void ParameterPanel::draw_group(std::span<const Slider> group, const Snapshot& snapshot, LiveScene& live) {
+  ImGui::PushID(group.front().key.c_str());
   const auto is_stiffness = [](const Slider& slider) { return slider.parameter.handle.option == "stiffness"; };
   const auto stiffness = std::ranges::find_if(group, is_stiffness);
   const Slider& first = stiffness == group.end() ? group.front() : *stiffness;
@@ -165,21 +193,21 @@ void ParameterPanel::draw_group(std::span<const Slider> group, LiveScene& live) 
     if (is_open) ImGui::TreePop();  // the row itself is not moved in
     ImGui::SameLine(0, ImGui::GetStyle().FramePadding.x);
   }
+  if (draw_switch(first.parameter.name, snapshot, live)) ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
   draw_row(first, first.parameter.name, help + help_of(first.parameter), live);
-  if (!is_open) return;
+  if (!is_open) return ImGui::PopID();
   ImGui::Indent();
   for (const Slider& slider : group) {
     if (&slider == &first) continue;
     draw_row(slider, label_of(slider.parameter.handle.option), help_of(slider.parameter), live);
   }
   ImGui::Unindent();
+  ImGui::PopID();
 }
 
-/// A row for each option: of the solver the common ones, and the others unfold; of a force below its name.
+/// A row for each option; of the solver the common ones, and the others unfold.
 void ParameterPanel::draw_options(std::span<const Slider> options, LiveScene& live) {
-  const bool is_solver = is_of_settings(options.front());
-  const bool is_contact = std::holds_alternative<pliant::ContactOwner>(options.front().parameter.handle.owner);
-  if (!is_solver && !is_contact) ImGui::TextDisabled("%s", options.front().heading.c_str());
+  const bool is_solver = !options.empty() && is_of_settings(options.front());
   const auto draw_those = [&](bool common) {
     for (const Slider& slider : options) {
       if (is_common(slider) != common) continue;

@@ -11,9 +11,17 @@ namespace pliant_viewer {
 
 class ParameterPanel {
  public:
-  /// Draws all parameters of a snapshot, and posts what is changed.
+  /// Before the rows of a picture.
+  void begin(const Snapshot& snapshot);
+  /// Draws the rows of a group of constraints, and posts what is changed: its switch, its name and its stiffness, or
+  /// else its first option; the others unfold.
+  void draw_group(std::span<const Slider> group, const Snapshot& snapshot, LiveScene& live);
+  /// The row of a group or a force that is switched off.
+  void draw_switched_off(const std::string& name, const SwitchedOff& off, const Snapshot& snapshot, LiveScene& live);
+  /// Draws all parameters of a snapshot but those of groups, and posts what is changed.
   void draw(const Snapshot& snapshot, LiveScene& live);
-  /// Where the widget of a parameter stands in the window, as of the last drawing: left, top, right, bottom.
+  /// Where the widget of a parameter, or "switch:NAME" of a group or force, stands in the window, as of the last
+  /// drawing: left, top, right, bottom.
   std::optional<std::array<float, 4>> place_of(const std::string& key) const;
 
  private:
@@ -22,9 +30,9 @@ class ParameterPanel {
     pliant::Vec3 value;
     std::uint64_t command;
   };
-  void draw_owners(std::span<const Slider> sliders, LiveScene& live);
-  void draw_group(std::span<const Slider> group, LiveScene& live);
+  void draw_forces(std::span<const Slider> sliders, const Snapshot& snapshot, LiveScene& live);
   void draw_options(std::span<const Slider> options, LiveScene& live);
+  bool draw_switch(const std::string& name, const Snapshot& snapshot, LiveScene& live);
   void draw_colliders(std::span<const Slider> sliders, const Snapshot& snapshot, LiveScene& live);
   void draw_body_contacts(std::span<const Slider> sliders, LiveScene& live);
   void draw_row(const Slider& slider, const std::string& label, const std::string& help, LiveScene& live);
@@ -32,7 +40,14 @@ class ParameterPanel {
                    LiveScene& live);
   bool draw_real(const Slider& slider, double& value);
 
+  /// The same of a switch.
+  struct Switched {
+    bool on;
+    std::uint64_t command;
+  };
+
   std::map<std::string, Edited> edited_;
+  std::map<std::string, Switched> switched_;
   std::optional<std::pair<std::string, pliant::Vec3>> withheld_;  // what is being typed and may become a value
   std::string held_;  // key of what is being dragged and has changed: one change for undo
   std::map<std::string, std::array<double, 2>> ranges_;  // of sliders, by the values that were seen first

@@ -1,0 +1,193 @@
+#include "viewer/panels/body_panel.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+namespace pliant_viewer {
+namespace {
+
+using pliant::BodyAppearance;
+using pliant::Color;
+using pliant::Pattern;
+
+constexpr std::size_t few_bodies = 3;  // that are unfolded at first
+
+Color figure_tone() {
+  const auto share = [](int i) { return static_cast<pliant::Real>(pliant_render::solid_tone[i]); };
+  return {share(0), share(1), share(2)};
+}
+
+/// What a body has where nobody has chosen anything.
+pliant::BodyTones usual_tones(std::size_t body, const Snapshot& snapshot, const pliant::ViewSettings& view) {
+  const pliant_render::RenderMesh& mesh = *snapshot.render_mesh;
+  const auto vertex = std::ranges::find(mesh.bodies, static_cast<std::uint32_t>(body)) - mesh.bodies.begin();
+  if (snapshot.is_figure.at(body) != 0) return {figure_tone(), figure_tone()};
+  const bool is_given = view.front.has_value() || view.back.has_value();
+  const bool has_tone = !is_given && static_cast<std::size_t>(vertex) < mesh.tones.size();
+  const pliant::BodyTones tones =
+      pliant::body_tones.at(has_tone ? mesh.tones[static_cast<std::size_t>(vertex)] % pliant::body_tones.size() : 0);
+  return {view.front.value_or(tones.front), view.back.value_or(tones.back)};
+}
+
+/// The newest that was measured [J].
+std::optional<double> energy_of(const std::string& group, const pliant_plot::MeasuredRun& measured) {
+  const std::vector<double>* column = measured.table.find("elastic_" + group);
+  if (column == nullptr) return {};
+  const auto found = std::find_if(column->rbegin(), column->rend(), [](double energy) { return !std::isnan(energy); });
+  if (found == column->rend()) return {};
+  return *found;
+}
+
+std::string energy_text(double energy) {
+  return fmt::format("{:.3g} J", energy);
+}
+
+/// Where each group of a body begins in the list of all parameters.
+std::vector<std::span<const Slider>> groups_of(const std::string& body, const std::vector<Slider>& sliders) {
+  std::vector<std::span<const Slider>> groups;
+  for (std::size_t i = 0; i < sliders.size();) {
+    const auto& owner = sliders[i].parameter.handle.owner;
+    std::size_t end = i + 1;
+    while (end < sliders.size() && sliders[end].parameter.handle.owner == owner) ++end;
+    if (std::holds_alternative<pliant::GroupId>(owner) && sliders[i].body == body) {
+      groups.emplace_back(sliders.data() + i, end - i);
+    }
+    i = end;
+  }
+  return groups;
+}
+
+void draw_energy(const std::vector<std::span<const Slider>>& groups, const pliant_plot::MeasuredRun& measured) {
+  double sum = 0;
+  std::string parts;
+  for (const std::span<const Slider>& group : groups) {
+    const std::string& name = group.front().parameter.name;
+    const auto energy = energy_of(name, measured);
+    if (!energy) continue;
+    sum += *energy;
+    parts += fmt::format("\n{}: {}", name, energy_text(*energy));
+  }
+  if (parts.empty()) return;
+  row_label("energy", "elastic, of the constraints of this body, as last measured; Plots show it over time" + parts);
+  ImGui::TextUnformatted(energy_text(sum).c_str());
+}
+
+}  // namespace
+
+std::optional<std::array<float, 4>> BodyPanel::place_of(const std::string& key) const {
+  const auto found = places_.find(key);
+  if (found == places_.end()) return {};
+  return found->second;
+}
+
+void BodyPanel::draw(const Snapshot& snapshot, LiveScene& live, ParameterPanel& parameters,
+                     const pliant_plot::MeasuredRun& measured) {
+  std::erase_if(chosen_, [&](const auto& entry) { return entry.second.command <= snapshot.commands; });
+  places_.clear();
+  materials_.begin(snapshot);
+  const std::vector<std::string>& bodies = *snapshot.body_names;
+  if (bodies.empty() || !section_header("Bodies")) return;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const std::string& body = bodies[i];
+    ImGui::PushID(static_cast<int>(i));
+    ImGui::SetNextItemOpen(bodies.size() <= few_bodies, ImGuiCond_Once);
+    if (ImGui::TreeNodeEx("##body", ImGuiTreeNodeFlags_NoTreePushOnOpen, "%s", body.c_str())) {
+      const auto row = std::ranges::find(*snapshot.materials, body, &BodyMaterial::name);
+      if (row != snapshot.materials->end()) materials_.draw_row(*row, live);
+      draw_appearance(body, usual_tones(i, snapshot, live.appearance()), snapshot, live);
+      const auto groups = groups_of(body, *snapshot.sliders);
+      draw_energy(groups, measured);
+      for (const std::span<const Slider>& group : groups) parameters.draw_group(group, snapshot, live);
+      for (const auto& [name, off] : *snapshot.switched_off) {
+        if (off.body == body) parameters.draw_switched_off(name, off, snapshot, live);
+      }
+    }
+    ImGui::PopID();
+  }
+}
+
+/// Two swatches and a menu; a pattern has a row of its own.
+void BodyPanel::draw_appearance(const std::string& body, const pliant::BodyTones& tones, const Snapshot& snapshot,
+                                LiveScene& live) {
+  BodyAppearance appearance;
+  const auto given = snapshot.appearances->find(body);
+  const auto chosen = chosen_.find(body);
+  if (given != snapshot.appearances->end()) appearance = given->second;
+  if (chosen != chosen_.end()) appearance = chosen->second.appearance;
+  Color front = appearance.front.value_or(tones.front);
+  Color back = appearance.back.value_or(appearance.front ? front : tones.back);
+  row_label("color", "of the front and the back, and a pattern on both");
+  goes_on_ = is_held_ = false;
+  bool has_changed = draw_color(body, "front", front, "the side that normals point from");
+  ImGui::SameLine();
+  has_changed |= draw_color(body, "back", back, "the other side");
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(-1);
+  has_changed |= draw_pattern(body, appearance);
+  if (!is_held_ && held_.starts_with(body + ".")) held_.clear();
+  if (!has_changed) return;
+  appearance.front = front;
+  appearance.back = back;
+  const std::uint64_t command =
+      live.post([body, appearance, goes_on = goes_on_](
+                    CommandContext& context) { context.session.set_appearance(body, appearance, goes_on); },
+                LiveScene::Kind::changes);
+  chosen_[body] = {appearance, command};
+}
+
+bool BodyPanel::draw_color(const std::string& body, const char* what, Color& color, const char* help) {
+  std::array<float, 3> shares = {static_cast<float>(color.red), static_cast<float>(color.green),
+                                 static_cast<float>(color.blue)};
+  ImGui::PushID(what);
+  const bool has_changed = ImGui::ColorEdit3("##color", shares.data(), ImGuiColorEditFlags_NoInputs);
+  const std::string key = body + "." + what;
+  note_widget(key);
+  explain(help);
+  ImGui::PopID();
+  if (has_changed) color = {shares[0], shares[1], shares[2]};
+  return has_changed;
+}
+
+bool BodyPanel::draw_pattern(const std::string& body, BodyAppearance& appearance) {
+  constexpr auto names = choice_names(Pattern{});
+  bool has_changed = false;
+  const auto shown = [&](std::size_t i) { return i == 0 ? "plain" : names[i].data(); };
+  if (ImGui::BeginCombo("##pattern", shown(static_cast<std::size_t>(appearance.pattern)))) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const auto pattern = static_cast<Pattern>(i);
+      if (!ImGui::Selectable(shown(i), pattern == appearance.pattern) || pattern == appearance.pattern) continue;
+      appearance.pattern = pattern;
+      has_changed = true;
+    }
+    ImGui::EndCombo();
+  }
+  note_widget(body + ".pattern");
+  if (appearance.pattern == Pattern::none) return has_changed;
+  row_label("pattern", "the color of every second field or stripe, and the width of one");
+  has_changed |= draw_color(body, "pattern_color", appearance.pattern_color, "of every second field or stripe");
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(-1);
+  double size = appearance.pattern_size;
+  constexpr double least = 1e-3, most = 10;
+  if (ImGui::SliderScalar("##size", ImGuiDataType_Double, &size, &least, &most, number_format(size, "m").c_str(),
+                          ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat)) {
+    appearance.pattern_size = std::clamp(size, 1e-6, 1e6);
+    has_changed = true;
+  }
+  note_widget(body + ".pattern_size");
+  return has_changed;
+}
+
+/// Of the widget drawn last: where it is, and whether it is being dragged.
+void BodyPanel::note_widget(const std::string& key) {
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  places_[key] = {low.x, low.y, high.x, high.y};
+  if (!ImGui::IsItemActive()) return;
+  is_held_ = true;
+  goes_on_ = std::exchange(held_, key) == key;
+}
+
+}  // namespace pliant_viewer

@@ -1,0 +1,137 @@
+// The panel's part on bodies in the real window: colors, patterns, and switches of constraints and forces.
+#define DOCTEST_CONFIG_IMPLEMENT
+#include <doctest/doctest.h>
+
+#include "desk.h"
+
+using namespace pliant_tests;
+
+namespace {
+
+Vec2f middle(const std::array<float, 4>& rect) {
+  return {(rect[0] + rect[2]) / 2, (rect[1] + rect[3]) / 2};
+}
+
+struct BodyDesk : Desk {
+  Vec2f widget(const std::string& key) {
+    turn_until([&] { return source.body_panel().place_of(key).has_value(); });
+    return middle(*source.body_panel().place_of(key));
+  }
+  Vec2f switch_of(const std::string& name) {
+    turn_until([&] { return source.parameter_panel().place_of("switch:" + name).has_value(); });
+    return middle(*source.parameter_panel().place_of("switch:" + name));
+  }
+  const pliant::BodyAppearance& appearance() { return shown().appearances->at("body 0"); }
+  bool has_appearance() { return shown().appearances->contains("body 0"); }
+  bool is_on(const std::string& name) { return shown().switches->at(name); }
+  /// The mean color of the picture around a vertex.
+  std::array<double, 3> color_at(std::uint32_t vertex) {
+    const Picture seen = picture();
+    const Vec2f at = place(vertex);
+    std::array<double, 3> sum{};
+    for (int dy = -3; dy <= 3; ++dy) {
+      for (int dx = -3; dx <= 3; ++dx) {
+        const int x = static_cast<int>(at.x()) + dx, y = static_cast<int>(at.y()) + dy;
+        for (std::size_t k = 0; k < 3; ++k) {
+          sum[k] += seen.pixels[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(seen.width) +
+                                     static_cast<std::size_t>(x)) +
+                                k] /
+                    49.0;
+        }
+      }
+    }
+    return sum;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a color is picked by the mouse, is seen, and is one change for undo") {
+  BodyDesk desk;
+  desk.settle();
+  constexpr std::uint32_t middle_vertex = side * 5 + 6;
+  const std::array<double, 3> before = desk.color_at(middle_vertex);
+  CHECK(before[0] > before[2] + 20);  // red, the first tone
+  const std::size_t pins = desk.shown().pins.size();
+  desk.click(desk.widget("body 0.front"));
+  desk.turns(4);
+  // The picker opens above, where there is room: a drag over its field of shades.
+  const Vec2f swatch = desk.widget("body 0.front");
+  desk.drag(swatch + Vec2f(-20, -220), swatch + Vec2f(40, -140));
+  desk.turn_until([&] { return desk.has_appearance(); });
+  desk.release();
+  const pliant::Color first = *desk.appearance().front;
+  CHECK(desk.appearance().back.has_value());  // as it was seen
+  CHECK_FALSE(*desk.appearance().back == first);
+  CHECK(desk.shown().undone_next == "body 0: appearance");
+  // Beside the picker a press closes it, and does no more.
+  desk.click(desk.place(middle_vertex));
+  desk.turns(5);
+  CHECK(desk.shown().pins.size() == pins);
+  desk.click(desk.place(middle_vertex));
+  desk.turn_until([&] { return desk.shown().pins.size() == pins + 1; });
+  desk.key("ctrl+z");
+  desk.turn_until([&] { return desk.shown().pins.size() == pins; });
+  desk.key("ctrl+z");
+  desk.turn_until([&] { return !desk.has_appearance(); });
+  CHECK(desk.shown().undone_next.empty());  // the whole drag was one
+  desk.key("ctrl+y");
+  desk.turn_until([&] { return desk.has_appearance(); });
+  CHECK(*desk.appearance().front == first);
+}
+
+TEST_CASE("what is set shows in the picture, and a pattern is chosen from its menu") {
+  BodyDesk desk;
+  desk.settle();
+  desk.source.live()->post([](CommandContext& context) {
+    context.session.set_appearance("body 0",
+                                   {.front = pliant::Color{0.1, 0.2, 0.8}, .back = pliant::Color{0.1, 0.2, 0.8}});
+  });
+  desk.turn_until([&] { return desk.has_appearance(); });
+  desk.turns(3);
+  constexpr std::uint32_t middle_vertex = side * 5 + 6;
+  const std::array<double, 3> blue = desk.color_at(middle_vertex);
+  CHECK(blue[2] > blue[0] + 40);
+  const Vec2f menu = desk.widget("body 0.pattern");
+  desk.click(menu);
+  desk.turns(4);
+  desk.key("Escape");  // closes it
+  CHECK(desk.appearance().pattern == pliant::Pattern::none);
+  desk.click(menu);
+  desk.turns(4);
+  desk.click(menu + Vec2f(0, 42));
+  desk.turn_until([&] { return desk.appearance().pattern == pliant::Pattern::checker; });
+  desk.turn_until([&] { return desk.source.body_panel().place_of("body 0.pattern_size").has_value(); });
+  const double size = desk.appearance().pattern_size;
+  desk.drag(desk.widget("body 0.pattern_size"), desk.widget("body 0.pattern_size") + Vec2f(30, 0));
+  desk.release();
+  desk.turn_until([&] { return desk.appearance().pattern_size > size; });
+  CHECK(*desk.appearance().front == pliant::Color{0.1, 0.2, 0.8});
+}
+
+TEST_CASE("constraints and forces are switched off and on by their boxes") {
+  BodyDesk desk;
+  desk.turn_until([&] { return desk.shown().step > 10; });
+  const auto low = [&] { return desk.position(0).z(); };
+  desk.click(desk.switch_of("stretch"));
+  desk.turn_until([&] { return !desk.is_on("stretch"); });
+  CHECK(desk.shown().undone_next == "stretch off");
+  const float before = low();
+  desk.turn_until([&] { return low() < before - 1; });  // nothing holds it
+  desk.turns(5);
+  desk.click(desk.switch_of("stretch"));
+  desk.turn_until([&] { return desk.is_on("stretch"); });
+  desk.turn_until([&] { return low() > -2; });
+  CHECK(desk.shown().note.empty());
+  desk.key("r");
+  desk.turn_until([&] { return desk.shown().restarts == 1; });
+  desk.turns(5);
+  desk.click(desk.switch_of("gravity"));
+  desk.turn_until([&] { return !desk.is_on("gravity"); });
+  desk.key("ctrl+z");
+  desk.turn_until([&] { return desk.is_on("gravity"); });
+}
+
+int main(int argc, char** argv) {
+  return run_on_display(argc, argv);
+}
