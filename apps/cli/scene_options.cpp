@@ -159,6 +159,7 @@ std::string assumptions_text(const SceneArguments& arguments, const pliant::Scen
     text += fmt::format("  material  {}\n", pliant::printable(material.name));
   text += groups_text(simulation);
   text += fmt::format("  forces    {}\n", forces_text(simulation));
+  if (simulation.contact().surfaces) text += "  contact   of surfaces, each with itself too\n";
   text += fmt::format("  steps     {} of {:.4g} s, {}\n", scene.steps, settings.time_step, steps_text(settings));
   return text + fmt::format("  --set changes this; `pliant check {} --scene` prints it as a scene file\n", name);
 }

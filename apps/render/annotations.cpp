@@ -123,11 +123,21 @@ void draw_legend(const Legend& legend, const AnnotationCanvas& canvas) {
 }
 
 /// Draws an arrow at the lower left in the direction of the wind, and its speed.
+Vec2f wind_arrow_place(float height) {
+  const float unit = unit_of(height);
+  return {56 * unit, height - 56 * unit};
+}
+
+float wind_arrow_radius(float height) {
+  return 38 * unit_of(height);
+}
+
 void draw_wind(const WindAnnotation& wind, const Viewpoint& viewpoint, const AnnotationCanvas& canvas) {
   const float unit = unit_of(canvas.height);
   const float size = 17 * unit;
   const float speed = wind.velocity.norm();
-  const ImVec2 middle(56 * unit, canvas.height - 56 * unit);
+  const Vec2f place = wind_arrow_place(canvas.height);
+  const ImVec2 middle(place.x(), place.y());
   canvas.list.AddText(&canvas.font, size, {middle.x + 44 * unit, middle.y - size * 0.5F}, canvas.ink,
                       wind.text.c_str());
   const Vec3f along = wind.velocity / speed;

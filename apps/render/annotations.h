@@ -53,6 +53,9 @@ struct AnnotationCanvas {
   float height;       ///< of the picture, in pixels
 };
 void draw_legend(const Legend& legend, const AnnotationCanvas& canvas);
+/// Where the arrow of the wind has its middle in a picture of this height, and how far its tip may be from there.
+Vec2f wind_arrow_place(float height);
+float wind_arrow_radius(float height);
 void draw_wind(const WindAnnotation& wind, const Viewpoint& viewpoint, const AnnotationCanvas& canvas);
 
 }  // namespace pliant_render

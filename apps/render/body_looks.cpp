@@ -44,6 +44,10 @@ void look_at(std::span<VertexLook> looks, const pliant::Positions& rest, const p
 
 }  // namespace
 
+const pliant::BodyTones& open_tones(std::size_t body) {
+  return pliant::body_tones[body % pliant::body_tones.size()];
+}
+
 std::vector<VertexLook> vertex_looks(const std::vector<pliant::Body>& bodies,
                                      const std::map<pliant::BodyId, pliant::BodyAppearance>& appearances) {
   std::vector<VertexLook> looks;
@@ -57,7 +61,7 @@ std::vector<VertexLook> vertex_looks(const std::vector<pliant::Body>& bodies,
     if (body.mesh.vertex_count() == 0) continue;
     const auto vertices = std::span(looks).subspan(static_cast<std::size_t>(body.first_vertex),
                                                    static_cast<std::size_t>(body.mesh.vertex_count()));
-    look_at(vertices, body.mesh.vertices, appearance, pliant::body_tones[number % pliant::body_tones.size()]);
+    look_at(vertices, body.mesh.vertices, appearance, open_tones(number));
   }
   return looks;
 }

@@ -22,6 +22,8 @@ struct VertexLook {
 
   bool operator==(const VertexLook&) const = default;
 };
+/// What a body has where its appearance leaves colors open, by its place in the list.
+const pliant::BodyTones& open_tones(std::size_t body);
 /// One for each vertex, by the bodies at rest; none where no body has an appearance.
 std::vector<VertexLook> vertex_looks(const std::vector<pliant::Body>& bodies,
                                      const std::map<pliant::BodyId, pliant::BodyAppearance>& appearances);

@@ -72,6 +72,9 @@ struct SwitchOn {
   std::string name;
   bool on = true;
 };
+struct Add {
+  std::string type, body;
+};
 struct Undo {};
 struct Redo {};
 struct Restart {
@@ -97,7 +100,7 @@ using Action = std::variant<action::Grab, action::PullTo, action::PullStiffness,
                             action::Unpin, action::MovePin, action::DropPin, action::MoveCollider, action::DropCollider,
                             action::Set, action::SetMaterial, action::Undo, action::Redo, action::Restart, action::Save,
                             action::PinVertices, action::UnpinVertices, action::HoldPins, action::MoveHeld,
-                            action::DropHeld, action::SetAppearance, action::SwitchOn>;
+                            action::DropHeld, action::SetAppearance, action::SwitchOn, action::Add>;
 
 /// An action, and how many steps the session had taken before it.
 struct TimedAction {

@@ -52,12 +52,17 @@ pliant::TimelineState timeline_for(const pliant::Scene& from, const pliant::Scen
     return event < 0 ? std::optional(event) : own ? after.number(*own) : std::nullopt;
   };
   pliant::TimelineState renumbered;
-  for (std::size_t i = after.count(); i < to.timeline.event_count(); ++i) {
-    renumbered.applied.push_back(static_cast<Index>(i));
-  }
+  const auto act = [&renumbered](std::size_t first, std::size_t end) {
+    for (std::size_t i = first; i < end; ++i) renumbered.applied.push_back(static_cast<Index>(i));
+  };
+  // What takes groups away acts behind the scene's own, which may change these.
+  const std::size_t count = to.timeline.event_count();
+  const std::size_t first_removal = std::max(after.count(), count - std::min(count, rules.removed.size()));
+  act(after.count(), first_removal);
   for (const Index event : state.applied) {
     if (const auto now = number(event)) renumbered.applied.push_back(*now);
   }
+  act(first_removal, count);
   const auto take_over = [&](auto& motions, auto& list) {
     for (auto& motion : motions) {
       const auto now = number(motion.event);
@@ -72,8 +77,9 @@ pliant::TimelineState timeline_for(const pliant::Scene& from, const pliant::Scen
     const auto group = from.simulation.groups().find(ramp.group);
     if (group == from.simulation.groups().end()) continue;
     const auto same = to.simulation.find_group(group->second.name);
-    if (same) ramp.group = *same;
-    if (same) renumbered.ramps.push_back(ramp);
+    if (!same || rules.removed.contains(group->second.name)) continue;
+    ramp.group = *same;
+    renumbered.ramps.push_back(ramp);
   }
   return renumbered;
 }
@@ -146,6 +152,34 @@ void carry_pins(const Simulation& from, Simulation& to, const NotCarried& rules)
   });
 }
 
+/// Numbers of colliders of `from` in `to`, of those that have the same name in both.
+std::map<Index, Index> collider_numbers(const Simulation& from, const Simulation& to) {
+  std::map<Index, Index> numbers;
+  for (const auto& [id, collider] : from.colliders()) {
+    if (const auto same = to.find_collider(collider.name)) {
+      numbers[static_cast<Index>(id)] = static_cast<Index>(*same);
+    }
+  }
+  return numbers;
+}
+
+/// Colliders are where those of the same name were; what has come is where it begins.
+void carry_colliders(const Simulation& from, const Simulation& to, pliant::ContactState& contact) {
+  const std::map<Index, Index> numbers = collider_numbers(from, to);
+  std::vector<pliant::ColliderState> colliders = to.state().contact.colliders;
+  for (const pliant::ColliderState& before : contact.colliders) {
+    const auto number = numbers.find(before.collider);
+    if (number == numbers.end()) continue;
+    const auto now = std::ranges::find(colliders, number->second, &pliant::ColliderState::collider);
+    if (now != colliders.end()) *now = {number->second, before.pose, before.target};
+  }
+  contact.colliders = std::move(colliders);
+  std::erase_if(contact.memory, [&](const auto& touch) { return !numbers.contains(touch.collider); });
+  for (pliant::ContactMemory& touch : contact.memory) touch.collider = numbers.at(touch.collider);
+  const auto key = [](const pliant::ContactMemory& touch) { return std::pair{touch.vertex, touch.collider}; };
+  std::ranges::sort(contact.memory, {}, key);
+}
+
 }  // namespace
 
 void set_values(std::map<std::string, Vec3> values, Simulation& simulation) {
@@ -177,6 +211,7 @@ void carry_over(const pliant::Scene& from, pliant::Scene& to, const NotCarried& 
   carry_pins(from.simulation, to.simulation, rules);
   pliant::State state = from.simulation.state();
   state.masses = to.simulation.state().masses;
+  carry_colliders(from.simulation, to.simulation, state.contact);
   to.simulation.restore(state);
 }
 

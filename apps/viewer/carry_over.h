@@ -18,6 +18,7 @@ struct NotCarried {
   std::set<std::string> values;                             ///< keys of sliders
   std::set<std::string> bodies;                             ///< whose material has changed
   std::set<Index> pins;                                     ///< vertices
+  std::set<std::string> removed;                            ///< groups that the last events of `to` take away
   std::function<bool(pliant::GroupId)> is_hidden = {};      ///< as of list_sliders, of `from`
 };
 

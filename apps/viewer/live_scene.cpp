@@ -1,6 +1,7 @@
 #include "viewer/live_scene.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include <fmt/format.h>
@@ -92,6 +93,12 @@ void LiveScene::hold_at(double time) {
   work_.notify_one();
 }
 
+/// After a restart: where something is held, nothing goes by before the start was seen.
+void LiveScene::hold_at_start() {
+  const std::lock_guard lock(mutex_);
+  if (std::isfinite(hold_)) hold_ = session_.simulation().state().time;
+}
+
 const Snapshot& LiveScene::newest() {
   const std::lock_guard lock(mutex_);
   if (has_news_) std::swap(front_, middle_);
@@ -149,10 +156,10 @@ Seconds LiveScene::time_to_step() {
 
 /// Until a command comes, or a step is due.
 void LiveScene::wait_for_work() {
+  const bool was_held = is_held();
   const Seconds wait = time_to_step();
   if (wait <= Seconds(0)) return;
   std::unique_lock lock(mutex_);
-  const bool was_held = is_held();
   const auto has_work = [&] { return is_closing_ || !queue_.empty() || (was_held && !is_held()); };
   if (context_.is_playing) {
     work_.wait_for(lock, std::min(wait, longest_wait), has_work);
@@ -221,6 +228,7 @@ void LiveScene::follow_session() {
   }
   if (session_.restarts() == restarts_seen_) return;
   restarts_seen_ = session_.restarts();
+  hold_at_start();
   statistics_.clear();
   pacer_.start(Clock::now());
   set_thread_count();
@@ -336,6 +344,7 @@ void LiveScene::publish() {
   back_.edits = session_.edit_count();
   back_.is_replaying = session_.is_replaying();
   back_.replayed = session_.replayed();
+  back_.can_add = session_.can_add();
   back_.has_unsaved_changes = session_.has_unsaved_changes();
   back_.restarts = session_.restarts();
   back_.commands = commands_published_ = commands_done_;

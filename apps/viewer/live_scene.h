@@ -30,8 +30,8 @@ struct Snapshot {
   std::shared_ptr<const std::vector<BodyMaterial>> materials;
   std::shared_ptr<const std::map<std::string, pliant::BodyAppearance>>
       appearances;                                                         ///< by body, of those that have one
-  std::shared_ptr<const std::map<std::string, bool>> switches;             ///< by group or force, see Session::switches
-  std::shared_ptr<const std::map<std::string, SwitchedOff>> switched_off;  ///< by group or force
+  std::shared_ptr<const std::map<std::string, bool>> switches;             ///< by name, see Session::switches
+  std::shared_ptr<const std::map<std::string, SwitchedOff>> switched_off;  ///< by name
   std::map<pliant::ColliderId, pliant::Wrench> wrenches;                   ///< what colliders felt in the last step
   std::vector<MeasuredStep> measured;  ///< since the snapshot that newest() returned before
   FrameStatistics::Means statistics;
@@ -47,6 +47,7 @@ struct Snapshot {
   std::string redone_next;
   std::uint64_t edits = 0;           ///< changes so far
   bool has_unsaved_changes = false;  ///< of the scene
+  bool can_add = false;              ///< forces and colliders
   bool is_replaying = false;         ///< a recorded session
   ReplayReport replayed;             ///< how far that is
   std::uint64_t restarts = 0;        ///< number of restarts so far
@@ -115,6 +116,7 @@ class LiveScene {
   void say_replay_ended();
   void wait_for_work();
   bool is_held() const { return session_.simulation().state().time >= hold_; }
+  void hold_at_start();
   void step();
   void measure_start();
   void update_render_mesh();

@@ -39,9 +39,14 @@ void LiveSource::measure(const Measuring& measuring) {
 }
 
 void LiveSource::hold_at(std::optional<double> time) {
-  if (time == hold_) return;
-  hold_ = time;
   scene_.hold_at(time.value_or(std::numeric_limits<double>::infinity()));
+}
+
+void LiveSource::set_speed(std::optional<double> speed) {
+  speed_ = speed.value_or(speed_);
+  is_unlimited_ = !speed;
+  const double wanted = speed.value_or(Pacer::unlimited);
+  scene_.post([wanted](CommandContext& context) { context.pacer.set_speed(wanted); });
 }
 
 void LiveSource::play(bool on) {

@@ -29,6 +29,8 @@ class LiveSource final : public ViewSource {
   bool is_stepping() const override;
   void restart(bool keep_values) override;
   double speed() const override { return is_unlimited_ ? 1 : speed_; }
+  /// Simulated seconds in a second; none: as fast as the machine can.
+  void set_speed(std::optional<double> speed);
   void hold_at(std::optional<double> time) override;
   const pliant_plot::MeasuredRun* measured() const override { return &history_.run(); }
   std::uint64_t measured_version() const override { return history_.version(); }
@@ -51,7 +53,6 @@ class LiveSource final : public ViewSource {
   Measuring measuring_;
   bool is_playing_;                 // as requested; the snapshot follows a little later
   std::uint64_t play_command_ = 0;  // that requested it
-  std::optional<double> hold_;      // see hold_at() [s]
   double speed_ = 1;
   bool is_unlimited_ = false;
   BodyPanel bodies_;

@@ -20,6 +20,7 @@ class MouseInteraction {
     float unit = 1;                ///< mouse units per unit of a layout made for the default font size
     std::optional<float> floor{};  ///< height that the camera stays above [m]
     bool shows_colliders = true;   ///< what is hidden cannot be grabbed
+    bool shows_wind = true;        ///< by its arrow
   };
   /// What a press of the left button would grab: a pin, else a point of a body or a collider, else nothing.
   struct PickTarget {

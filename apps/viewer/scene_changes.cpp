@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 
 #include <fmt/format.h>
 
@@ -60,6 +61,22 @@ void set(SceneDocument& document, const std::string& path, const Json& value) {
   document.set(path, value.dump());
 }
 
+Vec3 point_of(const Json& numbers) {
+  return {numbers.at(0).get<Real>(), numbers.at(1).get<Real>(), numbers.at(2).get<Real>()};
+}
+
+/// An entry of a collider that says where it is.
+void move_to(const Vec3& position, Json& entry) {
+  if (!entry.contains("from")) {
+    entry["center"] = json_of(position);
+    return;
+  }
+  const Vec3 from = point_of(entry["from"]), to = point_of(entry["to"]);
+  const Vec3 way = position - (from + to) / 2;
+  entry["from"] = json_of(Vec3(from + way));
+  entry["to"] = json_of(Vec3(to + way));
+}
+
 /// An event that acts before the first step.
 void append_event(SceneDocument& document, const std::string& action, const std::string& group, const Json& more) {
   Json event = {{"step", 0}, {action, group}};
@@ -76,7 +93,8 @@ UnchangedScene::UnchangedScene(const pliant::Scene& scene) {
   as_read_.group_names = scene.group_names;
   as_read_.collider_names = scene.collider_names;
   const pliant::Simulation& simulation = scene.simulation;
-  groups_ = simulation.group_names();
+  const std::vector<std::string> names = simulation.group_names();
+  groups_ = {names.begin(), names.end()};
   for (const auto& [id, group] : simulation.groups()) {
     if (group.type == pliant::Position::info.name)
       pin_numbers_[group.name] = {group.points.begin(), group.points.end()};
@@ -100,16 +118,16 @@ UnchangedScene::UnchangedScene(const pliant::Scene& scene) {
     BodyPart& part = bodies_.emplace_back(BodyPart{body.name, body.first_vertex, body.mesh.vertex_count(), {}, {}, {}});
     for (const pliant::GroupId id : groups_of_material(simulation, pliant::BodyId{i})) {
       const auto found = scene.places.find(simulation.groups().at(id).name);
-      if (found != scene.places.end()) part.replaced.insert(part.replaced.begin(), found->second);
+      if (found != scene.places.end()) part.replaced.push_back(found->second);
     }
     part.pins = free_name(body.name + ".pins");
     part.moved_pins = free_name(body.name + ".moved_pins");
   }
 }
 
-std::string UnchangedScene::free_name(const std::string& base) const {
-  const auto is_taken = [this](const std::string& name) {
-    return as_read_.places.contains(name) ||
+std::string UnchangedScene::free_name(const std::string& base, const SceneChanges& changes) const {
+  const auto is_taken = [&](const std::string& name) {
+    return as_read_.places.contains(name) || changes.added.contains(name) ||
            std::ranges::find(as_read_.group_names, name) != as_read_.group_names.end() ||
            std::ranges::find(as_read_.collider_names, name) != as_read_.collider_names.end();
   };
@@ -141,6 +159,13 @@ void UnchangedScene::apply(const SceneChanges& changes, pliant::Scene& scene) co
     if (const auto body = find_body(name)) {
       change_material(scene, pliant::BodyId{static_cast<Index>(*body)}, material.name, material.placement);
     }
+  }
+  for (const auto& [name, what] : changes.switched_off) {
+    if (const auto group = simulation.find_group(name); group && !what.body.empty()) simulation.remove(*group);
+    const bool is_force = what.body.empty() && !what.is_collider;
+    if (const auto force = simulation.find_force(name); force && is_force) simulation.remove(*force);
+    if (const auto collider = simulation.find_collider(name); collider && what.is_collider)
+      simulation.remove(*collider);
   }
   std::map<std::string, Vec3> values;
   for (const auto& [key, changed] : changes.values) values[key] = changed.value;
@@ -177,10 +202,6 @@ void UnchangedScene::apply(const SceneChanges& changes, pliant::Scene& scene) co
     const auto place = std::ranges::find(numbers, pin.number);
     if (place != numbers.end()) simulation.set_target(*group, static_cast<Index>(place - numbers.begin()), pin.target);
   }
-  for (const auto& [name, what] : changes.switched_off) {
-    if (const auto group = simulation.find_group(name); group && !what.body.empty()) simulation.remove(*group);
-    if (const auto force = simulation.find_force(name); force && what.body.empty()) simulation.remove(*force);
-  }
   for (const auto& [name, position] : changes.collider_positions) {
     const auto collider = simulation.find_collider(name);
     if (!collider) continue;
@@ -201,6 +222,7 @@ void UnchangedScene::set_appearances(const SceneChanges& changes, pliant::Scene&
 
 bool UnchangedScene::can_switch_off(const std::string& name, const SceneChanges& changes) const {
   if (!has_text_) return true;
+  if (changes.added.contains(name)) return true;
   const auto place = as_read_.places.find(name);
   if (place != as_read_.places.end()) return !is_replaced(place->second, changes);
   return is_of_material(name, changes);
@@ -208,9 +230,12 @@ bool UnchangedScene::can_switch_off(const std::string& name, const SceneChanges&
 
 /// Of a group that has no place of its own.
 bool UnchangedScene::is_of_material(const std::string& group, const SceneChanges& changes) const {
+  if (ties_.contains(group)) return false;
+  if (groups_.contains(group)) return true;
+  const auto& of_events = as_read_.group_names;  // which have those of the start as well
+  if (std::ranges::find(of_events, group) != of_events.end()) return false;
   const auto is_of = [&](const auto& entry) { return group.starts_with(entry.first + "."); };
-  const bool is_there = std::ranges::find(groups_, group) != groups_.end() && !ties_.contains(group);
-  return is_there || std::ranges::any_of(changes.materials, is_of);
+  return std::ranges::any_of(changes.materials, is_of);
 }
 
 SceneDocument UnchangedScene::with(const SceneChanges& changes, std::vector<std::string>* unwritten) const {
@@ -223,7 +248,9 @@ SceneDocument UnchangedScene::with(const SceneChanges& changes, std::vector<std:
   write_names(changes, document);
   write_appearances(changes, document);
   write_materials(changes, document);
-  write_switched_off(changes, document);
+  write_added(changes, document);
+  for (const std::string& group : removed_by_events(changes)) append_event(document, "remove", group, Json::object());
+  remove_entries(changes, document);
   return document;
 }
 
@@ -281,11 +308,11 @@ std::optional<std::string> UnchangedScene::path_of(const Parameter& parameter, c
   return found->second == "gravity" ? found->second : found->second + "." + option;
 }
 
-/// Names that follow from the order of constraints stay when some of these go.
+/// Names that follow from the order of a list stay when entries of it go.
 void UnchangedScene::write_names(const SceneChanges& changes, SceneDocument& document) const {
-  if (changes.materials.empty()) return;
+  if (changes.materials.empty() && changes.switched_off.empty()) return;
   for (const auto& [name, place] : as_read_.places) {
-    if (!place.starts_with("bodies[") || is_replaced(place, changes)) continue;
+    if (!place.ends_with(']') || is_replaced(place, changes)) continue;
     if (document.get(place + ".name").empty()) set(document, place + ".name", name);
   }
 }
@@ -331,17 +358,19 @@ void UnchangedScene::write_materials(const SceneChanges& changes, SceneDocument&
     set(document, place + ".material", material_json(material));
     document.remove(place + ".mass");
     if (!changes.values.contains("contact:" + name + ".friction")) document.remove(place + ".contact.friction");
-    for (const std::string& constraint : bodies_[*body].replaced) document.remove(constraint);
   }
 }
 
 void UnchangedScene::write_pins(const SceneChanges& changes, SceneDocument& document) const {
+  const auto is_off = [&](const std::string& group) { return changes.switched_off.contains(group); };
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const BodyPart& body = bodies_[i];
     Json held = Json::array(), moved = Json::array(), targets = Json::array();
     for (const auto& [vertex, target] : changes.pins) {
       if (vertex < body.first_vertex || vertex >= body.first_vertex + body.vertex_count) continue;
-      if (changes.released.contains(vertex)) continue;  // by the scene's own group
+      const auto released = changes.released.find(vertex);
+      const bool is_of_scene = released != changes.released.end() && !is_off(released->second.groups.front());
+      if (is_of_scene) continue;  // by its group
       (target ? moved : held).push_back(vertex - body.first_vertex);
       if (target) targets.push_back(json_of(*target));
     }
@@ -354,7 +383,7 @@ void UnchangedScene::write_pins(const SceneChanges& changes, SceneDocument& docu
     document.append(list, pins.dump());
   }
   std::map<std::string, Json> released;
-  const auto is_there = [this](const std::string& group) { return as_read_.places.contains(group); };
+  const auto is_there = [&](const std::string& group) { return as_read_.places.contains(group) && !is_off(group); };
   struct Moves {
     Json numbers = Json::array(), targets = Json::array();
   };
@@ -396,10 +425,51 @@ void UnchangedScene::write_appearances(const SceneChanges& changes, SceneDocumen
   }
 }
 
-/// Behind all other events: these act before they go.
-void UnchangedScene::write_switched_off(const SceneChanges& changes, SceneDocument& document) const {
-  for (const auto& [name, what] : changes.switched_off) {
-    if (can_switch_off(name, changes)) append_event(document, "remove", name, Json::object());
+std::set<std::string> UnchangedScene::removed_by_events(const SceneChanges& changes) const {
+  std::set<std::string> groups;
+  for (const auto& [name, off] : changes.switched_off) {
+    const bool has_place = as_read_.places.contains(name) || changes.added.contains(name);
+    if (has_text_ && !has_place && is_of_material(name, changes)) groups.insert(name);
+  }
+  return groups;
+}
+
+/// Constraints that a material takes the place of, and what is switched off.
+void UnchangedScene::remove_entries(const SceneChanges& changes, SceneDocument& document) const {
+  std::map<std::string, std::set<int, std::greater<>>> numbers;  // of entries, by list: the last one goes first
+  const auto add = [&](const std::string& place) {
+    const std::size_t bracket = place.rfind('[');
+    if (bracket != std::string::npos) numbers[place.substr(0, bracket)].insert(std::stoi(place.substr(bracket + 1)));
+  };
+  for (const BodyPart& body : bodies_) {
+    if (changes.materials.contains(body.name)) std::ranges::for_each(body.replaced, add);
+  }
+  for (const auto& [name, off] : changes.switched_off) {
+    const auto place = as_read_.places.find(name);
+    if (place == as_read_.places.end()) continue;
+    if (place->second == "gravity") set(document, "gravity", Json());
+    add(place->second);
+  }
+  for (const auto& [list, entries] : numbers) {
+    for (const int number : entries) document.remove(fmt::format("{}[{}]", list, number));
+  }
+}
+
+void UnchangedScene::write_added(const SceneChanges& changes, SceneDocument& document) const {
+  for (const auto& [name, part] : changes.added) {
+    if (changes.switched_off.contains(name)) continue;
+    Json entry = Json::parse(part.entry);
+    for (const auto& [key, changed] : changes.values) {
+      const pliant::ParameterOwner& owner = changed.parameter.handle.owner;
+      const bool is_part =
+          std::holds_alternative<pliant::ForceId>(owner) || std::holds_alternative<pliant::ColliderId>(owner);
+      if (is_part && changed.parameter.name == name) {
+        entry[changed.parameter.handle.option] = value_json(changed.parameter, changed.value);
+      }
+    }
+    const auto moved = changes.collider_positions.find(name);
+    if (moved != changes.collider_positions.end()) move_to(moved->second, entry);
+    document.append(part.list, entry.dump());
   }
 }
 

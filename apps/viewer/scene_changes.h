@@ -45,12 +45,20 @@ struct MovedPin {
   bool operator==(const MovedPin&) const = default;
 };
 
-/// A group of constraints or a force that is switched off.
+/// A group of constraints, a force or a collider that is switched off.
 struct SwitchedOff {
   std::string type;
-  std::string body;                 ///< of a group; empty for a force
+  std::string body{};  ///< of a group; else empty
+  bool is_collider = false;
   bool goes_with_material = false;  ///< another material takes its place
   bool operator==(const SwitchedOff&) const = default;
+};
+
+/// A force or a collider that was added.
+struct AddedPart {
+  std::string list;   ///< of a scene file that has it: "forces" or "colliders"
+  std::string entry;  ///< of that list, JSON, as it was added
+  bool operator==(const AddedPart&) const = default;
 };
 
 /// Vertices have their indices in the simulation.
@@ -62,7 +70,8 @@ struct SceneChanges {
   std::map<Index, MovedPin> moved;                            ///< of the scene's, before the first step
   std::map<std::string, pliant::Vec3> collider_positions;     ///< where they begin [m]
   std::map<std::string, pliant::BodyAppearance> appearances;  ///< by body
-  std::map<std::string, SwitchedOff> switched_off;            ///< by the name of the group or force
+  std::map<std::string, AddedPart> added;                     ///< by name
+  std::map<std::string, SwitchedOff> switched_off;            ///< by the name of what is off
 
   bool operator==(const SceneChanges&) const = default;
   bool is_empty() const { return *this == SceneChanges{}; }
@@ -92,9 +101,13 @@ class UnchangedScene {
                             pliant::SceneDocument& document);
   /// The number of its own events; those of changes stand behind them.
   std::size_t event_count() const { return event_count_; }
+  /// A name for something new: that one, or with the first free number behind it.
+  std::string free_name(const std::string& base, const SceneChanges& changes = {}) const;
   /// Shows bodies as they were changed, or else as they were read.
   void set_appearances(const SceneChanges& changes, pliant::Scene& scene) const;
-  /// Whether a scene file can do without a group or a force of that name; those of a material are its groups.
+  /// Of what is switched off the groups of materials, which have no place in a text that could go.
+  std::set<std::string> removed_by_events(const SceneChanges& changes) const;
+  /// Whether a scene can do without what has that name.
   bool can_switch_off(const std::string& name, const SceneChanges& changes) const;
   /// Whether a group of that name holds pins that were set by hand, now, or before the scene was saved.
   bool is_of_hand(const std::string& group) const;
@@ -104,14 +117,13 @@ class UnchangedScene {
     std::string name;
     Index first_vertex = 0;
     Index vertex_count = 0;
-    std::vector<std::string> replaced;  ///< places of the constraints that a material takes the place of, last first
+    std::vector<std::string> replaced;  ///< places of the constraints that a material takes the place of
     std::string pins;                   ///< name of the group of pins that were set by hand
     std::string moved_pins;             ///< of those that were moved
   };
   bool has_number(const std::string& group, Index number) const;
   std::optional<std::size_t> find_body(const std::string& name) const;
 
-  std::string free_name(const std::string& base) const;
   void write_names(const SceneChanges& changes, pliant::SceneDocument& document) const;
   bool is_replaced(const std::string& place, const SceneChanges& changes) const;
   bool is_of_material(const std::string& group, const SceneChanges& changes) const;
@@ -121,13 +133,14 @@ class UnchangedScene {
   void write_materials(const SceneChanges& changes, pliant::SceneDocument& document) const;
   void write_pins(const SceneChanges& changes, pliant::SceneDocument& document) const;
   void write_colliders(const SceneChanges& changes, pliant::SceneDocument& document) const;
+  void write_added(const SceneChanges& changes, pliant::SceneDocument& document) const;
   void write_appearances(const SceneChanges& changes, pliant::SceneDocument& document) const;
-  void write_switched_off(const SceneChanges& changes, pliant::SceneDocument& document) const;
+  void remove_entries(const SceneChanges& changes, pliant::SceneDocument& document) const;
 
   pliant::Scene as_read_;  // its texts alone
   mutable std::optional<pliant::SceneDocument> document_;
   std::vector<BodyPart> bodies_;
-  std::vector<std::string> groups_;                      // there at the start
+  std::set<std::string> groups_;                         // there at the start
   std::map<std::string, std::set<Index>> pin_numbers_;   // of them, by group: what a move can name
   std::set<std::string> ties_;                           // of them, those of carried surfaces
   std::map<std::string, pliant::Vec3> collider_starts_;  // [m]

@@ -31,15 +31,13 @@ class Session {
 
   const pliant::Simulation& simulation() const { return scene_.simulation; }
   const pliant::Scene& scene() const { return scene_; }
-  /// For a scene that does not set it; see SolverSettings::threads.
-  void set_threads(Index threads);
+  void set_threads(Index threads);  ///< for a scene that does not set it; see SolverSettings::threads
   /// `stop` is asked whether to abandon a step, see Simulation::set_stop.
   void set_stop(std::function<bool()> stop);
   /// Takes a step. Events that are due but can no longer act, because the user removed what they act on, are skipped.
   /// @throws pliant::Error as Scene::step does.
   pliant::StepReport step();
-  /// To be measured for plots, which changes nothing of what is simulated.
-  pliant::Scene& measured_scene() { return scene_; }
+  pliant::Scene& measured_scene() { return scene_; }  ///< to be measured, for plots; nothing of it is changed
 
   /// Makes the scene again, without a pull. `keep_changes`: values, materials, pins, and what was moved before the
   /// first step, are as they were changed, where the scene still has such a parameter, body or vertex; otherwise they
@@ -58,8 +56,7 @@ class Session {
   /// Pins a vertex, by its index in the simulation, where it is now; does nothing if it is pinned already. After a
   /// restart it is pinned where it begins.
   void pin(Index vertex);
-  /// Releases the vertex, whichever group its pin belongs to.
-  void unpin(Index vertex);
+  void unpin(Index vertex);  ///< whichever group its pin belongs to
   /// The same with many, as one change for undo(). @throws pliant::Error (input): there is no such vertex.
   void pin(const std::vector<Index>& vertices);
   void unpin(const std::vector<Index>& vertices);
@@ -86,8 +83,7 @@ class Session {
   void drop_held();
   void drop_collider(pliant::ColliderId collider);
 
-  /// Of the scene's settings, groups, forces and colliders, and of contact and its bodies; the pull and pins that were
-  /// set by hand have none.
+  /// Of settings, groups, forces, colliders, contact and its bodies; the pull and pins that were set by hand have none.
   std::vector<Slider> sliders() const;
   /// Sets a parameter by the key of its slider; does nothing where there is none. `goes_on`: with the change before it
   /// this is one for undo(). @throws pliant::Error (input): a value out of range.
@@ -100,11 +96,14 @@ class Session {
 
   /// What the body of that name looks like. `goes_on`: as of set(). @throws pliant::Error (input): no such body.
   void set_appearance(const std::string& body, const pliant::BodyAppearance& appearance, bool goes_on = false);
-  /// Takes a group of constraints or a force of that name away, or brings it back as the scene begins with it, with its
-  /// values as they were changed. @throws pliant::Error (input): there is none, or the scene cannot do without it.
+  /// Takes a group of constraints, a force or a collider away, or brings it back as the scene begins with it and as its
+  /// values were changed. @throws pliant::Error (input): no such name, or the scene cannot do without it.
   void switch_on(const std::string& name, bool on);
-  /// Of each group and force that can be switched off, whether it is on.
-  std::map<std::string, bool> switches() const;
+  std::map<std::string, bool> switches() const;  ///< of all that can be switched off, whether they are on
+  /// Adds a force or a collider, by the name of its type (added_parts.h), on a body where it needs one.
+  /// @throws pliant::Error (input): no such type or body, one that refuses it, or the scene has no text.
+  void add(const std::string& type, const std::string& body = {});
+  bool can_add() const { return unchanged_.has_text(); }
 
   /// What undo() and redo() would take back and do again, "pin"; empty: nothing.
   std::string undone_next() const { return done_.empty() ? "" : done_.back().what; }
@@ -124,11 +123,9 @@ class Session {
   /// The text of the scene that save() writes to `file`, from where paths in it start; writes nothing.
   std::string text(const std::filesystem::path& file, const pliant::ViewSettings& view) const;
 
-  /// Whether anything has changed since it was saved, or read.
-  bool has_unsaved_changes() const { return !(changes_ == saved_changes_); }
-  /// How often the scene was made anew with other changes: groups have other ids then.
-  std::uint64_t rebuilds() const { return rebuilds_; }
-  std::uint64_t restarts() const { return restarts_; }          ///< so far
+  bool has_unsaved_changes() const { return !(changes_ == saved_changes_); }  ///< since it was saved, or read
+  std::uint64_t rebuilds() const { return rebuilds_; }  ///< with other changes, so far: groups have other ids then
+  std::uint64_t restarts() const { return restarts_; }  ///< so far
   std::uint64_t look_changes() const { return look_changes_; }  ///< of bodies, so far
   const SceneChanges& changes() const { return changes_; }
 
@@ -163,6 +160,8 @@ class Session {
   void note_release(Index vertex, const pliant::Group& group, const Pin& pin);
   bool is_hidden(pliant::GroupId group) const;
   bool was_of_hand(const pliant::Group& group) const;
+  SwitchedOff what_is_switched_off(const std::string& name) const;
+  void change_parts(SceneChanges changes, std::string what);
   void remember(Edit edit);
   void take_old_values_of(const std::vector<Slider>& at_start);
   void go(const Edit& edit, const SceneChanges& from, const SceneChanges& to);
@@ -170,6 +169,7 @@ class Session {
   pliant::Scene make_with(const SceneChanges& changes, const UnchangedScene& unchanged) const;
   void carry_into(pliant::Scene& next, const SceneChanges& to, const std::set<std::string>& but = {}) const;
   void settle(pliant::Scene next);
+  void renumber_colliders(const pliant::Simulation& next);
   void take(pliant::Scene next);
   void set_looks(const SceneChanges& changes);
 

@@ -1,12 +1,39 @@
-// What bodies look like, and which of their constraints and which forces are switched off.
+// What bodies look like, which constraints and forces are switched off, and what is added to a scene.
 #include <algorithm>
 
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
 #include "pliant/materials/change_material.h"
+#include "viewer/added_parts.h"
 #include "viewer/session.h"
 
 namespace pliant_viewer {
+namespace {
+
+/// Throws Error(input) on what a scene file could not have.
+void check(const pliant::BodyAppearance& appearance) {
+  const auto is_share = [](Real share) { return share >= 0 && share <= 1; };
+  const auto is_color = [&](const std::optional<pliant::Color>& color) {
+    return !color || (is_share(color->red) && is_share(color->green) && is_share(color->blue));
+  };
+  if (!is_color(appearance.front) || !is_color(appearance.back) || !is_color(appearance.pattern_color)) {
+    pliant::fail_input("red, green and blue of a color are from 0 to 1");
+  }
+  if (!(appearance.pattern_size >= 1e-6 && appearance.pattern_size <= 1e6)) {
+    pliant::fail_input("the size of a pattern is from 1e-6 to 1e6 m");
+  }
+}
+
+/// How often each name is given: programs may give one twice.
+std::map<std::string, int> count_names(const pliant::Simulation& simulation) {
+  std::map<std::string, int> counts;
+  for (const auto& [id, group] : simulation.groups()) ++counts[group.name];
+  for (const auto& [id, force] : simulation.forces()) ++counts[simulation.name(id)];
+  for (const auto& [id, collider] : simulation.colliders()) ++counts[collider.name];
+  return counts;
+}
+
+}  // namespace
 
 pliant::BodyId Session::find_body(const std::string& name) const {
   const std::vector<pliant::Body>& bodies = simulation().bodies();
@@ -23,6 +50,7 @@ void Session::set_looks(const SceneChanges& changes) {
 void Session::set_appearance(const std::string& body, const pliant::BodyAppearance& appearance, bool goes_on) {
   const auto noted = note(action::SetAppearance{body, appearance, goes_on});
   find_body(body);
+  check(appearance);
   Edit edit{.what = body + ": appearance", .before = changes_};
   changes_.appearances[body] = appearance;
   set_looks(changes_);
@@ -34,43 +62,59 @@ void Session::set_appearance(const std::string& body, const pliant::BodyAppearan
   }
 }
 
+SwitchedOff Session::what_is_switched_off(const std::string& name) const {
+  const pliant::Simulation& scene = simulation();
+  const auto type_of = [&](const pliant::ParameterOwner& owner) {
+    const std::vector<pliant::Parameter> parameters = list_parameters(scene, owner);
+    return parameters.empty() ? std::string() : parameters.front().type;
+  };
+  if (unchanged_.can_switch_off(name, changes_) && count_names(scene)[name] == 1) {
+    const auto id = scene.find_group(name);
+    if (id && !is_hidden(*id)) {
+      const pliant::Group& group = scene.groups().at(*id);
+      const bool is_of_material = std::ranges::count(groups_of_material(scene, group.body), *id) > 0;
+      return {.type = group.type, .body = scene.body(group.body).name, .goes_with_material = is_of_material};
+    }
+    if (const auto force = scene.find_force(name)) return {.type = type_of(*force)};
+    if (const auto collider = scene.find_collider(name)) return {.type = type_of(*collider), .is_collider = true};
+  }
+  pliant::fail_input("there is nothing called '" + pliant::printable(name) + "' that can be switched off");
+}
+
 void Session::switch_on(const std::string& name, bool on) {
   const auto noted = note(action::SwitchOn{name, on});
   SceneChanges changes = changes_;
-  const auto group = simulation().find_group(name);
-  const auto force = simulation().find_force(name);
   if (on ? changes.switched_off.erase(name) == 0 : changes.switched_off.contains(name)) return;
-  if (!on) {
-    const bool is_group = group && !is_hidden(*group);
-    if (!(is_group || force) || !unchanged_.can_switch_off(name, changes)) {
-      pliant::fail_input("there is no constraint or force '" + pliant::printable(name) + "' that can be switched off");
-    }
-    SwitchedOff& off = changes.switched_off[name];
-    if (is_group) {
-      const pliant::Group& given = simulation().groups().at(*group);
-      const auto of_material = groups_of_material(simulation(), given.body);
-      off = {given.type, simulation().body(given.body).name, std::ranges::count(of_material, *group) > 0};
-    } else if (const auto parameters = list_parameters(simulation(), *force); !parameters.empty()) {
-      off.type = parameters.front().type;
-    }
-  }
+  if (!on) changes.switched_off[name] = what_is_switched_off(name);
+  change_parts(std::move(changes), name + (on ? " on" : " off"));
+}
+
+/// Makes the scene anew with other parts, where it is.
+void Session::change_parts(SceneChanges changes, std::string what) {
   pliant::Scene next = make_with(changes, unchanged_);
   carry_into(next, changes);
-  Edit edit{.what = name + (on ? " on" : " off"), .before = changes_};
+  Edit edit{.what = std::move(what), .before = changes_};
   take(std::move(next));
   changes_ = std::move(changes);
   remember(std::move(edit));
 }
 
+void Session::add(const std::string& type, const std::string& body) {
+  const auto noted = note(action::Add{type, body});
+  if (!can_add()) pliant::fail_input("this scene was made by a program, which is the place to add something to it");
+  SceneChanges changes = changes_;
+  const std::string name = unchanged_.free_name(type, changes);
+  changes.added[name] = make_part(type, name, body, pliant::bounding_box(simulation().state().positions));
+  change_parts(std::move(changes), "add " + name);
+}
+
 std::map<std::string, bool> Session::switches() const {
   std::map<std::string, bool> switches;
-  const auto add = [&](const std::string& name) {
+  for (const auto& [name, count] : count_names(simulation())) {
+    const auto group = simulation().find_group(name);
+    if (count > 1 || (group && is_hidden(*group))) continue;
     if (unchanged_.can_switch_off(name, changes_)) switches[name] = true;
-  };
-  for (const auto& [id, group] : simulation().groups()) {
-    if (!is_hidden(id)) add(group.name);
   }
-  for (const auto& [id, force] : simulation().forces()) add(simulation().name(id));
   for (const auto& [name, what] : changes_.switched_off) switches[name] = false;
   return switches;
 }

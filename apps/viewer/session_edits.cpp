@@ -98,8 +98,12 @@ void Session::set_material(const std::string& body, const std::string& material)
   change_material(scene_, id, material, placement->second);
   Edit edit{.what = body + ": " + material, .before = changes_};
   for (const std::string& key : of_body) changes_.values.erase(key);
-  std::erase_if(changes_.switched_off,
-                [&](const auto& entry) { return entry.second.body == body && entry.second.goes_with_material; });
+  std::erase_if(changes_.switched_off, [&](const auto& off) {
+    if (off.second.body != body || !off.second.goes_with_material) return false;
+    std::erase_if(changes_.values,
+                  [&](const auto& value) { return value.first.starts_with("group:" + off.first + "."); });
+    return true;
+  });
   changes_.values.erase("contact:" + body + ".friction");
   changes_.materials[body] = {material, placement->second};
   for (const pliant::Parameter& now : list_parameters(simulation(), {})) {  // the settings
@@ -163,8 +167,27 @@ void Session::carry_into(pliant::Scene& next, const SceneChanges& to, const std:
   rules.bodies = difference(changes_.materials, to.materials);
   rules.pins = difference(changes_.pins, to.pins);
   rules.pins.merge(difference(changes_.moved, to.moved));
+  rules.removed = unchanged_.removed_by_events(to);
   rules.is_hidden = [this](pliant::GroupId id) { return is_hidden(id); };
   carry_over(scene_, next, rules);
+}
+
+/// Of another scene, by their names.
+void Session::renumber_colliders(const pliant::Simulation& next) {
+  const auto number_of = [&](pliant::ColliderId id) {
+    const auto before = simulation().colliders().find(id);
+    return before == simulation().colliders().end() ? std::nullopt : next.find_collider(before->second.name);
+  };
+  std::set<pliant::ColliderId> left_alone;
+  for (const pliant::ColliderId id : left_alone_) {
+    if (const auto now = number_of(id)) left_alone.insert(*now);
+  }
+  std::map<pliant::ColliderId, pliant::Vec3> goals;
+  for (const auto& [id, goal] : collider_goals_) {
+    if (const auto now = number_of(id)) goals[*now] = goal;
+  }
+  left_alone_ = std::move(left_alone);
+  collider_goals_ = std::move(goals);
 }
 
 /// Goes on with another scene, from wherever that is.
@@ -175,6 +198,7 @@ void Session::settle(pliant::Scene next) {
     next.timeline.act_due(next.simulation, 0, 0);
   }
   next.simulation.set_stop(stop_);
+  renumber_colliders(next.simulation);
   for (const pliant::ColliderId collider : left_alone_) {
     if (next.simulation.colliders().contains(collider)) next.timeline.leave_alone(next.simulation, collider);
   }
@@ -209,7 +233,7 @@ void Session::go(const Edit& edit, const SceneChanges& from, const SceneChanges&
       }
     }
     set_values(std::move(values), scene_.simulation);
-    set_looks(to);
+    if (!(from.appearances == to.appearances)) set_looks(to);
     changes_ = to;
     return;
   }

@@ -24,7 +24,7 @@ constexpr std::array<std::string_view, std::variant_size_v<Action>> action_names
     "grab",      "pull_to",   "pull_stiffness", "let_go",         "pin",          "unpin",
     "move_pin",  "drop_pin",  "move_collider",  "drop_collider",  "set",          "set_material",
     "undo",      "redo",      "restart",        "save",           "pin_vertices", "unpin_vertices",
-    "hold_pins", "move_held", "drop_held",      "set_appearance", "switch_on"};
+    "hold_pins", "move_held", "drop_held",      "set_appearance", "switch_on",    "add"};
 
 /// Calls field(name, value) with what an action has.
 template <class Action, class Field>
@@ -51,6 +51,7 @@ void visit_fields(Action& action, const Field& field) {
   if constexpr (requires { action.body; }) field("body", action.body);
   if constexpr (requires { action.material; }) field("material", action.material);
   if constexpr (requires { action.appearance; }) field("appearance", action.appearance);
+  if constexpr (requires { action.type; }) field("type", action.type);
   if constexpr (requires { action.name; }) field("name", action.name);
   if constexpr (requires { action.on; }) field("on", action.on);
   if constexpr (requires { action.keep_changes; }) field("keep_changes", action.keep_changes);

@@ -124,6 +124,7 @@ void Session::do_again(const Action& action) {
                  [&](const action::SetMaterial& dressed) { set_material(dressed.body, dressed.material); },
                  [&](const action::SetAppearance& set) { set_appearance(set.body, set.appearance, set.goes_on); },
                  [&](const action::SwitchOn& switched) { switch_on(switched.name, switched.on); },
+                 [&](const action::Add& added) { add(added.type, added.body); },
                  [&](const action::Undo&) { undo(); },
                  [&](const action::Redo&) { redo(); },
                  [&](const action::Restart& restarted) { restart(restarted.keep_changes); },

@@ -117,6 +117,7 @@ bool Viewer::turn(double most_wait) {
     restarts_ = source_.restarts();
     interaction_.cancel();
     gizmo_.cancel();
+    wind_.cancel();
     select_.restart(source_.frame().content.positions.size());
     has_ground_ = false;
   }

@@ -22,6 +22,7 @@
 #include "viewer/select_tool.h"
 #include "viewer/ui.h"
 #include "viewer/view_source.h"
+#include "viewer/wind_handle.h"
 
 namespace pliant_viewer {
 
@@ -145,6 +146,7 @@ class Viewer {
   MouseInteraction interaction_;
   SelectTool select_;
   PinGizmo gizmo_;
+  WindHandle wind_;
   std::optional<std::uint64_t> drawn_selection_;  // its version
   std::optional<Index> lit_collider_;             // that the mouse would take
   std::deque<KeyEvent> keys_;                     // that the panels and the shortcuts have not taken yet

@@ -24,10 +24,12 @@ void Viewer::toggle_film() {
   // Films have an even size.
   for (int& length : choices.size) length -= length % 2;
   const auto file = free_name(picture_folder_, source_.name(), {ending_of(choices.format), first_picture_ending});
+  source_.hold_at(source_.frame().time);  // until the first picture
   try {
     film_.emplace(file, choices, samples_);
   } catch (const std::exception& error) {
     film_.reset();
+    source_.hold_at({});
     return say(error.what());
   }
   is_frame_new_ = true;
@@ -53,6 +55,7 @@ void Viewer::film() {
     return;
   }
   const int due = film_->clock().take_due(source_.frame().time, source_.speed(), source_.cuts());
+  source_.hold_at(film_->clock().next_time());  // so that time goes no further while the picture is drawn
   if (due > 0) {
     const auto draw_pull = [this](const pliant_render::Viewpoint& viewpoint,
                                   const pliant_render::AnnotationCanvas& canvas, float unit) {
@@ -67,7 +70,6 @@ void Viewer::film() {
     film_->add(*renderer_, view, due);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
   }
-  source_.hold_at(film_->clock().next_time());
 }
 
 std::string Viewer::finish_film() {

@@ -37,17 +37,19 @@ MouseInteraction::View Viewer::mouse_view() {
           live != nullptr ? &live->shown() : nullptr,
           ui_.style().unit,
           floor,
-          appearance_.colliders};
+          appearance_.colliders,
+          appearance_.wind_arrow};
 }
 
 void Viewer::take_input() {
   take_keys();
   for (const MouseEvent& event : window_.take_mouse_events()) {
     const bool begins = event.kind == MouseEvent::Kind::press || event.kind == MouseEvent::Kind::wheel;
-    const bool is_busy = interaction_.is_busy() || gizmo_.is_busy() || select_.is_busy();
+    const bool is_busy = interaction_.is_busy() || gizmo_.is_busy() || select_.is_busy() || wind_.is_busy();
     if (begins && !is_busy && (ui_.has_panel_at(event.place) || ui_.holds_mouse())) continue;
     const MouseInteraction::View view = mouse_view();
-    const bool is_taken = !interaction_.is_busy() && (gizmo_.handle(event, view) || select_.handle(event, view));
+    const bool is_taken = !interaction_.is_busy() &&
+                          (wind_.handle(event, view) || gizmo_.handle(event, view) || select_.handle(event, view));
     if (!is_taken) interaction_.handle(event, view);
     screen_.viewpoint = camera_.viewpoint(bounds_, screen_.viewpoint.inset);
   }

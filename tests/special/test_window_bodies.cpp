@@ -132,6 +132,73 @@ TEST_CASE("constraints and forces are switched off and on by their boxes") {
   desk.turn_until([&] { return desk.is_on("gravity"); });
 }
 
+TEST_CASE("wind and a ball are added from the panel, and the arrow of the wind is turned by the mouse") {
+  Desk desk([] {
+    return pliant::parse_scene(R"({ "pliant": 1, "bodies": [ { "name": "sheet", "mass": { "total": 1 },
+      "mesh": { "shape": "grid", "columns": 9, "rows": 9, "size": [1, 1], "plane": "xz" },
+      "constraints": [ { "type": "position", "on": [72, 80] }, { "type": "edge_spring", "stiffness": 500 } ] } ] })",
+                               {}, "sheet");
+  });
+  const auto menu = [&](const char* list) {
+    const std::string key = std::string("add ") + list;
+    const auto place = [&] { return desk.source.parameter_panel().place_of(key).value(); };
+    // Down in the panel, as far as that goes.
+    desk.move({950, 100});
+    for (float before = -1; place()[3] > 600 && place()[1] != before; desk.turns(8)) {
+      before = place()[1];
+      xdotool("click 5");
+    }
+    return Vec2f(place()[0] + 20, (place()[1] + place()[3]) / 2);
+  };
+  const Vec2f arrow = WindHandle::place(desk.viewer.mouse_view());
+  CHECK_FALSE(desk.source.frame().wind.has_value());
+  const Vec2f forces = menu("forces");
+  desk.click(forces);
+  desk.turns(4);
+  desk.click(forces + Vec2f(0, 30));  // the first
+  desk.turn_until([&] { return desk.source.frame().wind.has_value(); });
+  CHECK(desk.shown().undone_next == "add wind");
+  desk.turns(3);
+  const auto velocity = [&] {
+    for (const Slider& slider : *desk.shown().sliders) {
+      if (slider.key == "force:wind.velocity") return slider.parameter.value;
+    }
+    return pliant::Vec3(0, 0, 0);
+  };
+  desk.turn_until([&] { return velocity().norm() > 0; });
+  const pliant::Vec3 before = velocity();
+  const pliant::Vec3 eye = desk.viewer.screen().viewpoint.eye.cast<double>();
+  const std::size_t edits = desk.shown().edits;
+  // Far out to the right, and up: in the plane of the picture.
+  desk.drag(arrow + Vec2f(3, 0), arrow + Vec2f(200, 0));
+  desk.move(arrow + Vec2f(200, -200));
+  desk.release();
+  desk.turn_until([&] { return velocity().z() > 1; });
+  const pliant_render::Viewpoint& view = desk.viewer.screen().viewpoint;
+  CHECK(velocity().norm() == doctest::Approx(before.norm()).epsilon(1e-5));
+  CHECK(std::abs(velocity().dot(view.forward().cast<double>())) < 0.2 * before.norm());
+  CHECK(velocity().dot(view.right().cast<double>()) > 0.5 * before.norm());
+  CHECK(velocity().dot(view.up.cast<double>()) > 0.5 * before.norm());
+  CHECK(view.eye.cast<double>() == eye);  // the camera has no part in it
+  CHECK(desk.shown().edits == edits + 1);
+  desk.move(arrow);
+  xdotool("click 4");
+  desk.turn_until([&] { return velocity().norm() > 1.05 * before.norm(); });
+  desk.key("ctrl+z");
+  desk.turn_until([&] { return velocity().norm() < 1.05 * before.norm(); });
+  desk.key("ctrl+z");
+  desk.turn_until([&] { return velocity() == before; });
+  const Vec2f colliders = menu("colliders");
+  desk.click(colliders);
+  desk.turns(4);
+  desk.click(colliders + Vec2f(0, colliders.y() > 480 ? -30 : 30));  // the list opens where there is room
+  desk.turn_until([&] { return desk.source.frame().content.colliders.size() == 1; });
+  CHECK(desk.shown().note.empty());
+  desk.key("r");
+  desk.turn_until([&] { return desk.shown().restarts == 1; });
+  CHECK(desk.source.frame().content.colliders.size() == 1);
+}
+
 int main(int argc, char** argv) {
   return run_on_display(argc, argv);
 }

@@ -94,6 +94,8 @@ TEST_CASE("plots are chosen from a list, and a restart begins them anew") {
   desk.turn_until([&] { return desk.panel().place_of("Time of a step").has_value(); });
   desk.click(desk.point("choose Total speed", 0.9F));
   desk.turn_until([&] { return !desk.panel().place_of("Total speed").has_value(); });
+  desk.key("Escape");  // closes the list
+  CHECK(desk.panel().is_open);
   desk.key("space");
   desk.turn_until([&] { return !desk.shown().is_playing; });
   desk.key("r");

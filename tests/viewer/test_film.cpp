@@ -118,9 +118,10 @@ TEST_CASE("names of films leave what is there alone, pictures of an earlier one 
 }
 
 TEST_CASE("a simulation that is held stops at that time, takes single steps, and goes on") {
-  LiveScene live(make_scene, 1, true, [] {});
-  live.post([](CommandContext& context) { context.pacer.set_speed(Pacer::unlimited); });
+  LiveScene live(make_scene, 1, false, [] {});
   live.hold_at(0.2 - 1e-7);
+  live.post([](CommandContext& context) { context.pacer.set_speed(Pacer::unlimited); });
+  live.post([](CommandContext& context) { context.is_playing = true; });
   wait_until([&] { return live.newest().step == 20; });
   const auto step_after = [&](const LiveScene::Command& command) {
     const std::uint64_t number = live.post(command);
@@ -141,25 +142,25 @@ TEST_CASE("a simulation that is held stops at that time, takes single steps, and
 TEST_CASE("a run that is held waits at the first frame behind that time, and ends and loops as ever") {
   const pliant::Mesh mesh = pliant::grid({.columns = 3, .rows = 3});
   const std::vector<pliant::Positions> frames(5, mesh.vertices);
-  Playback run(
-      pliant_render::RunFrames(pliant::animate(mesh, "run", pliant::PointCache::from_frames(frames, {0, 1, 2, 3, 4}))),
-      {}, true);
+  Playback run(pliant_render::RunFrames(
+                   pliant::animate(mesh, "run", pliant::PointCache::from_frames(frames, {0, 1000, 2000, 3000, 4000}))),
+               {}, true);
   const Clock::time_point start = Clock::now();
   const auto time_after = [&](double seconds) {
     run.refresh(start + std::chrono::duration_cast<Clock::duration>(Seconds(seconds)));
     return run.frame().time;
   };
   time_after(0);
-  run.hold_at(1.5);
-  CHECK(time_after(100) == 2);
-  run.hold_at(2.5);
-  CHECK(time_after(200) == 3);
+  run.hold_at(1500);
+  CHECK(time_after(100'000) == 2000);
+  run.hold_at(2500);
+  CHECK(time_after(200'000) == 3000);
   const std::uint64_t cuts = run.cuts();
-  run.hold_at(4.5);  // no frame is behind that: it loops
-  CHECK(time_after(300) == 0);
+  run.hold_at(4500);  // no frame is behind that: it loops
+  CHECK(time_after(300'000) == 0);
   CHECK(run.cuts() == cuts + 1);
   run.hold_at({});
-  CHECK(time_after(2.2) > 0);
+  CHECK(time_after(2500) > 0);
 }
 
 }  // namespace test_film

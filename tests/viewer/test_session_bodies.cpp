@@ -7,6 +7,7 @@
 #include "pliant_io/checkpoint/checkpoint.h"
 #include "tests/support/changed_session.h"
 #include "tests/support/temporary_folder.h"
+#include "viewer/added_parts.h"
 
 namespace test_session_bodies {
 
@@ -174,6 +175,124 @@ TEST_CASE("what is switched off is off in the saved scene, in its checkpoint and
   CHECK(positions(saved.simulation) == positions(session));
 }
 
+TEST_CASE("what the scene's own events have acted on from the start on is switched off while they go on") {
+  const TemporaryFolder folder;
+  std::string text(sheet_text);
+  text.replace(text.find("\"time\": 0.2,"), 12, "\"time\": 0, ");
+  text.replace(text.find("\"time\": 0.25"), 12, "\"time\": 0.02");
+  Session session([text] { return pliant::parse_scene(text, {}, "sheet"); });
+  steps(session, 10);
+  session.switch_on("hooks", false);
+  session.switch_on("bend", false);  // whose stiffness is on its way
+  session.switch_on("wind", false);
+  session.switch_on("ball", false);
+  steps(session, 30);
+  session.set("settings.iterations", {12, 0, 0});
+  session.pin(30);
+  const auto files = session.save(folder.path() / "off.json", session.scene().view);
+  steps(session, 5);
+  for (const char* name : {"hooks", "bend", "wind", "ball"}) session.switch_on(name, true);
+  steps(session, 5);
+  CHECK(has_group(session, "hooks"));
+  for (int i = 0; i < 6; ++i) session.undo();
+  CHECK_FALSE(has_group(session, "hooks"));
+  const Session again = replayed(session, folder);
+  CHECK(positions(again) == positions(session));
+  pliant::Scene saved = pliant::load_scene(files.at(0));
+  CHECK_FALSE(saved.simulation.find_group("hooks").has_value());
+  CHECK_FALSE(saved.simulation.find_collider("ball").has_value());
+  saved.step();
+}
+
+TEST_CASE("the stiffness of a material's group is on its way while that is switched off") {
+  const TemporaryFolder folder;
+  Session session([] {
+    return pliant::parse_scene(R"({ "pliant": 1, "bodies": [ { "name": "scarf", "material": "silk",
+      "mesh": { "shape": "grid", "columns": 6, "rows": 6 }, "constraints": [ { "type": "position", "on": "corners" } ]
+      } ], "events": [ { "step": 0, "change": "scarf.bend", "stiffness": 1e-4, "over": 1 } ] })",
+                               {}, "scarf");
+  });
+  steps(session, 5);
+  session.switch_on("scarf.bend", false);
+  steps(session, 5);
+  session.pin(8);  // which makes the scene anew
+  const auto files = session.save(folder.path() / "off.json", session.scene().view);
+  CHECK_FALSE(pliant::read_checkpoint(files.at(1)).simulation.find_group("scarf.bend").has_value());
+  steps(session, 5);
+  CHECK_FALSE(has_group(session, "scarf.bend"));
+  session.switch_on("scarf.bend", true);
+  steps(session, 5);
+  CHECK(has_group(session, "scarf.bend"));
+}
+
+TEST_CASE("vertices of pins that are switched off are pinned by hand as any other") {
+  const TemporaryFolder folder;
+  Session session(make_scene);
+  session.switch_on("hooks", false);
+  steps(session, 10);
+  session.pin(72);
+  steps(session, 10);
+  session.restart(true);
+  CHECK(session.is_pinned(72));
+  CHECK_FALSE(session.is_pinned(80));
+  const auto files = session.save(folder.path() / "pinned.json", session.scene().view);
+  CHECK_FALSE(pliant::load_scene(files.at(0)).simulation.find_group("hooks").has_value());
+  session.undo();
+  session.undo();
+  CHECK(session.is_pinned(80));
+  // Let go, pinned again, and then the others are switched off.
+  session.unpin(72);
+  session.pin(72);
+  session.switch_on("hooks", false);
+  CHECK(session.is_pinned(72));
+  CHECK_FALSE(session.is_pinned(80));
+  session.restart(true);
+  CHECK(session.is_pinned(72));
+  session.unpin(72);
+  session.switch_on("hooks", true);
+  CHECK_FALSE(session.is_pinned(72));
+  CHECK(session.is_pinned(80));
+}
+
+TEST_CASE("names that follow from an order stay when one of them is switched off") {
+  const TemporaryFolder folder;
+  Session session([] {
+    return pliant::parse_scene(R"({ "pliant": 1, "bodies": [ { "name": "sheet", "mass": { "total": 1 },
+      "mesh": { "shape": "grid", "columns": 5, "rows": 5 } } ],
+      "forces": [ { "type": "wind" }, { "type": "wind", "velocity": [1, 0, 0] } ],
+      "colliders": [ { "type": "sphere", "center": [0, 0, -2] }, { "type": "sphere", "center": [0, 0, -5] } ] })",
+                               {}, "sheet");
+  });
+  session.switch_on("wind", false);
+  session.switch_on("sphere", false);
+  steps(session, 2);
+  CHECK_FALSE(has_force(session, "wind"));
+  CHECK(has_force(session, "wind 2"));
+  CHECK(session.simulation().pose(collider(session, "sphere 2")).position.z() == -5);
+  const auto files = session.save(folder.path() / "one.json", session.scene().view);
+  CHECK(pliant::load_scene(files.at(0)).simulation.find_force("wind 2").has_value());
+}
+
+TEST_CASE("another material forgets what was set of groups that are switched off") {
+  Session session(make_scene);
+  session.set_material("sheet", "denim");
+  const double usual = value(session, "group:sheet.bend.stiffness");
+  session.undo();
+  session.set_material("sheet", "wool");
+  session.set("group:sheet.bend.stiffness", {0.5, 0, 0});
+  session.switch_on("sheet.bend", false);
+  session.set_material("sheet", "denim");
+  session.restart(true);
+  CHECK(value(session, "group:sheet.bend.stiffness") == doctest::Approx(usual));
+}
+
+TEST_CASE("colors that no file could have are refused") {
+  Session session(make_scene);
+  CHECK_THROWS_AS(session.set_appearance("sheet", {.front = pliant::Color{1.2, 0, 0}}), pliant::Error);
+  CHECK_THROWS_AS(session.set_appearance("sheet", {.pattern_size = 0}), pliant::Error);
+  CHECK(session.changes().is_empty());
+}
+
 TEST_CASE("groups of a material are switched off by name, and forgotten with it") {
   const TemporaryFolder folder;
   Session session(make_scene);
@@ -214,6 +333,116 @@ TEST_CASE("what cannot be switched off is told, and nothing has changed") {
   CHECK(session.is_pinned(4));
 }
 
+TEST_CASE("forces and colliders are added, changed, switched off, undone, saved and recorded") {
+  const TemporaryFolder folder;
+  Session session(make_scene);
+  steps(session, 10);
+  const pliant::Positions before = positions(session);
+  const auto pose = [&](const char* name) { return session.simulation().pose(collider(session, name)).position; };
+  const pliant::Vec3 ball = pose("ball");
+  session.add("wind");
+  session.add("sphere");
+  session.add("box");  // whose name comes before that of the sphere
+  session.add("sphere");
+  CHECK(positions(session) == before);
+  CHECK(has_force(session, "wind 2"));  // the scene has one
+  CHECK(session.undone_next() == "add sphere 2");
+  CHECK(pose("ball") == ball);
+  // They stand beneath all bodies.
+  for (const char* name : {"sphere", "box", "sphere 2"}) CHECK(pose(name).z() < before.col(2).minCoeff());
+  session.set("force:wind 2.velocity", {0, -3, 0});
+  session.set("collider:sphere.radius", {0.05, 0, 0});
+  session.move_collider(collider(session, "sphere 2"), pose("sphere 2").cast<float>() + Vec3f(0.3F, 0, 0));
+  const pliant::Vec3 start = pose("sphere 2");
+  session.step();
+  session.add("capsule");  // while another one is on its way
+  steps(session, 60);
+  CHECK((pose("sphere 2") - start).isApprox(pliant::Vec3(0.3, 0, 0), 1e-5));
+  session.drop_collider(collider(session, "sphere 2"));
+  session.switch_on("box", false);
+  CHECK_FALSE(session.simulation().find_collider("box").has_value());
+  session.switch_on("wind 2", false);
+  CHECK_FALSE(has_force(session, "wind 2"));
+  session.undo();
+  const Session again = replayed(session, folder);
+  CHECK(positions(again) == positions(session));
+  CHECK(again.changes() == session.changes());
+
+  const auto files = session.save(folder.path() / "added.json", session.scene().view);
+  REQUIRE(files.size() == 2);
+  pliant::Scene resumed = pliant::read_checkpoint(files[1]);
+  pliant::Scene saved = pliant::load_scene(files[0]);
+  for (int i = 0; i < 20; ++i) {
+    session.step();
+    resumed.step();
+    saved.step();
+  }
+  CHECK(positions(resumed.simulation) == positions(session));
+  CHECK(saved.simulation.find_force("wind 2").has_value());
+  CHECK_FALSE(saved.simulation.find_collider("box").has_value());
+  CHECK(saved.simulation.options<pliant::SphereCollider>(*saved.simulation.find_collider("sphere"))->radius == 0.05);
+  session.restart(true);
+  steps(session, 20);
+  CHECK(positions(saved.simulation) == positions(session));
+  for (int i = 0; i < 9; ++i) session.undo();
+  CHECK_FALSE(has_force(session, "wind 2"));
+  CHECK_FALSE(session.simulation().find_collider("sphere").has_value());
+  CHECK(session.changes().is_empty());
+}
+
+TEST_CASE("what is added is moved before the first step, and begins there") {
+  const TemporaryFolder folder;
+  Session session(make_scene);
+  for (const char* type : {"sphere", "capsule", "box"}) {
+    CAPTURE(type);
+    session.add(type);
+    const pliant::ColliderId id = collider(session, type);
+    const Vec3f to = session.simulation().pose(id).position.cast<float>() + Vec3f(0.25F, 0.5F, -0.25F);
+    session.move_collider(id, to);
+    session.drop_collider(id);
+    CHECK(session.simulation().pose(collider(session, type)).position.isApprox(to.cast<double>(), 1e-12));
+    const auto files = session.save(folder.path() / "moved.json", session.scene().view);
+    const pliant::Scene saved = pliant::load_scene(files.at(0));
+    CHECK(saved.simulation.pose(*saved.simulation.find_collider(type)).position.isApprox(to.cast<double>(), 1e-12));
+  }
+}
+
+TEST_CASE("all that is offered can be added, or says why not") {
+  for (const AddableType& type : addable_types()) {
+    CAPTURE(type.name);
+    Session session([] {
+      return pliant::parse_scene(R"({ "pliant": 1, "bodies": [
+        { "name": "ball", "mesh": { "shape": "sphere" }, "mass": { "total": 1 } },
+        { "name": "rope", "mesh": { "shape": "chain" }, "mass": { "total": 1 } } ] })",
+                                 {}, "two");
+    });
+    session.add(std::string(type.name), type.is_of_body ? "ball" : "");
+    session.step();
+    CHECK(session.changes().added.size() == 1);
+    const SceneChanges changes = session.changes();
+    if (type.is_of_body) CHECK_THROWS_AS(session.add(std::string(type.name), "rope"), pliant::Error);
+    if (type.is_of_body) CHECK_THROWS_AS(session.add(std::string(type.name), "nobody"), pliant::Error);
+    CHECK(session.changes() == changes);
+  }
+  Session session(make_scene);
+  CHECK_THROWS_AS(session.add("gravity"), pliant::Error);
+  CHECK_THROWS_AS(session.add("hurricane"), pliant::Error);
+}
+
+TEST_CASE("names that a program has given twice are not switched") {
+  Session session([] {
+    pliant::Scene scene;
+    for (int i = 0; i < 2; ++i) {
+      const pliant::BodyId sheet =
+          scene.simulation.add_body(pliant::grid({.columns = 3, .rows = 3}), pliant::Mass::total(1));
+      scene.simulation.add(sheet, pliant::EdgeSpring{.stiffness = 100}, "springs");
+    }
+    return scene;
+  });
+  CHECK(session.switches().empty());
+  CHECK_THROWS_AS(session.switch_on("springs", false), pliant::Error);
+}
+
 TEST_CASE("scenes that a program has made switch, and show bodies otherwise, too") {
   Session session([] {
     pliant::Scene scene;
@@ -237,6 +466,8 @@ TEST_CASE("scenes that a program has made switch, and show bodies otherwise, too
   CHECK(appearance(session, "sheet") == striped);
   session.undo();
   CHECK(session.scene().appearances.empty());
+  CHECK_FALSE(session.can_add());
+  CHECK_THROWS_AS(session.add("wind"), pliant::Error);
 }
 
 TEST_CASE("a session file tells what is wrong with an appearance") {

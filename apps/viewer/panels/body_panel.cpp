@@ -24,6 +24,7 @@ Color figure_tone() {
 pliant::BodyTones usual_tones(std::size_t body, const Snapshot& snapshot, const pliant::ViewSettings& view) {
   const pliant_render::RenderMesh& mesh = *snapshot.render_mesh;
   const auto vertex = std::ranges::find(mesh.bodies, static_cast<std::uint32_t>(body)) - mesh.bodies.begin();
+  if (snapshot.appearances->contains((*snapshot.body_names)[body])) return pliant_render::open_tones(body);
   if (snapshot.is_figure.at(body) != 0) return {figure_tone(), figure_tone()};
   const bool is_given = view.front.has_value() || view.back.has_value();
   const bool has_tone = !is_given && static_cast<std::size_t>(vertex) < mesh.tones.size();
@@ -127,7 +128,7 @@ void BodyPanel::draw_appearance(const std::string& body, const pliant::BodyTones
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-1);
   has_changed |= draw_pattern(body, appearance);
-  if (!is_held_ && held_.starts_with(body + ".")) held_.clear();
+  if (!is_held_ && held_.first == body) held_ = {};
   if (!has_changed) return;
   appearance.front = front;
   appearance.back = back;
@@ -143,11 +144,11 @@ bool BodyPanel::draw_color(const std::string& body, const char* what, Color& col
                                  static_cast<float>(color.blue)};
   ImGui::PushID(what);
   const bool has_changed = ImGui::ColorEdit3("##color", shares.data(), ImGuiColorEditFlags_NoInputs);
-  const std::string key = body + "." + what;
-  note_widget(key);
+  note_widget(body, what, has_changed);
   explain(help);
   ImGui::PopID();
-  if (has_changed) color = {shares[0], shares[1], shares[2]};
+  const auto share = [&](std::size_t i) { return std::clamp(static_cast<pliant::Real>(shares[i]), 0.0, 1.0); };
+  if (has_changed) color = {share(0), share(1), share(2)};
   return has_changed;
 }
 
@@ -164,30 +165,31 @@ bool BodyPanel::draw_pattern(const std::string& body, BodyAppearance& appearance
     }
     ImGui::EndCombo();
   }
-  note_widget(body + ".pattern");
+  note_widget(body, "pattern", has_changed);
   if (appearance.pattern == Pattern::none) return has_changed;
   row_label("pattern", "the color of every second field or stripe, and the width of one");
   has_changed |= draw_color(body, "pattern_color", appearance.pattern_color, "of every second field or stripe");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-1);
   double size = appearance.pattern_size;
+  bool has_resized = false;
   constexpr double least = 1e-3, most = 10;
   if (ImGui::SliderScalar("##size", ImGuiDataType_Double, &size, &least, &most, number_format(size, "m").c_str(),
                           ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat)) {
     appearance.pattern_size = std::clamp(size, 1e-6, 1e6);
-    has_changed = true;
+    has_resized = true;
   }
-  note_widget(body + ".pattern_size");
-  return has_changed;
+  note_widget(body, "pattern_size", has_resized);
+  return has_changed || has_resized;
 }
 
-/// Of the widget drawn last: where it is, and whether it is being dragged.
-void BodyPanel::note_widget(const std::string& key) {
+/// Of the widget drawn last: where it is, and whether its change goes on with the one before.
+void BodyPanel::note_widget(const std::string& body, const std::string& what, bool has_changed) {
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
-  places_[key] = {low.x, low.y, high.x, high.y};
+  places_[body + "." + what] = {low.x, low.y, high.x, high.y};
   if (!ImGui::IsItemActive()) return;
   is_held_ = true;
-  goes_on_ = std::exchange(held_, key) == key;
+  if (has_changed) goes_on_ = std::exchange(held_, {body, what}) == std::pair(body, what);
 }
 
 }  // namespace pliant_viewer

@@ -33,13 +33,13 @@ class BodyPanel {
                        LiveScene& live);
   bool draw_color(const std::string& body, const char* what, pliant::Color& color, const char* help);
   bool draw_pattern(const std::string& body, pliant::BodyAppearance& appearance);
-  void note_widget(const std::string& key);
+  void note_widget(const std::string& body, const std::string& what, bool has_changed);
 
   MaterialPanel materials_;
   std::map<std::string, Chosen> chosen_;
-  std::string held_;      // the widget of the last picture, or of this one, that is being dragged
-  bool goes_on_ = false;  // what is dragged now was so in the last picture: one change for undo
-  bool is_held_ = false;  // a widget of the body that is being drawn
+  std::pair<std::string, std::string> held_;  // body and widget that is being dragged and has changed something
+  bool goes_on_ = false;                      // what is dragged now was so in the last picture: one change for undo
+  bool is_held_ = false;                      // a widget of the body that is being drawn
   std::map<std::string, std::array<float, 4>> places_;
 };
 

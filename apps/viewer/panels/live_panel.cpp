@@ -87,9 +87,7 @@ void LiveSource::draw_pace() {
   has_changed |= ImGui::Checkbox("max", &is_unlimited_);
   explain("as fast as the machine can");
   if (!has_changed || !(speed > 0)) return;
-  speed_ = speed;
-  const double wanted = is_unlimited_ ? Pacer::unlimited : speed_;
-  scene_.post([wanted](CommandContext& context) { context.pacer.set_speed(wanted); });
+  set_speed(is_unlimited_ ? std::nullopt : std::optional(speed));
 }
 
 }  // namespace pliant_viewer

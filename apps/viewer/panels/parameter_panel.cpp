@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "viewer/added_parts.h"
+
 namespace pliant_viewer {
 
 using pliant::Parameter;
@@ -48,6 +50,11 @@ using SliderPlace = std::span<const Slider>::iterator;
 SliderPlace find_end_of_owner(SliderPlace begin, SliderPlace end) {
   const pliant::ParameterOwner& owner = begin->parameter.handle.owner;
   return std::find_if(begin, end, [&](const Slider& other) { return other.parameter.handle.owner != owner; });
+}
+
+/// Of a group, without the name of its body, which stands above.
+std::string short_name(const std::string& name, const std::string& body) {
+  return name.starts_with(body + ".") ? name.substr(body.size() + 1) : name;
 }
 
 bool is_allowed(const Parameter& parameter, const pliant::Vec3& value) {
@@ -92,14 +99,12 @@ void ParameterPanel::draw(const Snapshot& snapshot, LiveScene& live) {
     return std::span<const Slider>(begin, std::find_if_not(begin, all.end(), is_meant));
   };
   if (section_header("Solver")) draw_options(those_of(0), live);
-  const auto is_force = [](const auto& entry) { return entry.second.body.empty(); };
-  const bool has_forces = !those_of(2).empty() || std::ranges::any_of(*snapshot.switched_off, is_force);
-  if (has_forces && section_header("Forces")) draw_forces(those_of(2), snapshot, live);
+  if (section_header("Forces")) draw_forces(those_of(2), snapshot, live);
   if (section_header("Contact")) {
     draw_options(those_of(4), live);
     draw_body_contacts(those_of(5), live);
   }
-  if (!snapshot.wrenches.empty() && section_header("Colliders")) draw_colliders(those_of(3), snapshot, live);
+  if (section_header("Colliders")) draw_colliders(those_of(3), snapshot, live);
 }
 
 void ParameterPanel::draw_forces(std::span<const Slider> sliders, const Snapshot& snapshot, LiveScene& live) {
@@ -113,8 +118,36 @@ void ParameterPanel::draw_forces(std::span<const Slider> sliders, const Snapshot
     begin = end;
   }
   for (const auto& [name, off] : *snapshot.switched_off) {
-    if (off.body.empty()) draw_switched_off(name, off, snapshot, live);
+    if (off.body.empty() && !off.is_collider) draw_switched_off(name, off, snapshot, live);
   }
+  draw_adder("forces", snapshot, live);
+}
+
+/// A menu of what can be added to a list of the scene.
+void ParameterPanel::draw_adder(std::string_view list, const Snapshot& snapshot, LiveScene& live) {
+  if (!snapshot.can_add) return;
+  const std::string key = "add " + std::string(list);
+  const bool is_force = list == "forces";
+  ImGui::SetNextItemWidth(-1);
+  const bool is_open = ImGui::BeginCombo(("##" + key).c_str(), is_force ? "Add a force ..." : "Add a collider ...",
+                                         ImGuiComboFlags_NoArrowButton);
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  places_[key] = {low.x, low.y, high.x, high.y};
+  if (!is_open) return;
+  const auto offer = [&](std::string_view type, const std::string& body) {
+    const std::string label = label_of(std::string(type)) + (body.empty() ? "" : " in " + body);
+    if (!ImGui::Selectable(label.c_str())) return;
+    live.post([type = std::string(type), body](CommandContext& context) { context.session.add(type, body); },
+              LiveScene::Kind::changes);
+  };
+  for (const AddableType& type : addable_types()) {
+    if (type.list != list) continue;
+    if (!type.is_of_body) offer(type.name, {});
+    for (std::size_t i = 0; type.is_of_body && i < snapshot.body_names->size(); ++i) {
+      if (snapshot.is_figure.at(i) == 0) offer(type.name, (*snapshot.body_names)[i]);
+    }
+  }
+  ImGui::EndCombo();
 }
 
 /// A box to tick, where what has that name can be switched off; returns whether it can.
@@ -140,7 +173,7 @@ void ParameterPanel::draw_switched_off(const std::string& name, const SwitchedOf
   ImGui::PushID(name.c_str());
   if (draw_switch(name, snapshot, live)) ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
-  ImGui::TextDisabled("%s", (name + ", off").c_str());
+  ImGui::TextDisabled("%s, off", short_name(name, off.body).c_str());
   explain(off.type);
   ImGui::PopID();
 }
@@ -153,6 +186,7 @@ void ParameterPanel::draw_colliders(std::span<const Slider> sliders, const Snaps
     const auto begin = std::ranges::find_if(sliders, is_own);
     if (begin == sliders.end()) continue;
     ImGui::PushID(begin->key.c_str());
+    if (draw_switch(begin->parameter.name, snapshot, live)) ImGui::SameLine();
     ImGui::SetNextItemOpen(snapshot.wrenches.size() <= few_colliders, ImGuiCond_Once);
     if (ImGui::TreeNodeEx("##options", ImGuiTreeNodeFlags_NoTreePushOnOpen, "%s", begin->heading.c_str())) {
       draw_feeling("force", wrench.force, "N", "what bodies pressed and rubbed it with in the last step");
@@ -163,6 +197,10 @@ void ParameterPanel::draw_colliders(std::span<const Slider> sliders, const Snaps
     }
     ImGui::PopID();
   }
+  for (const auto& [name, off] : *snapshot.switched_off) {
+    if (off.is_collider) draw_switched_off(name, off, snapshot, live);
+  }
+  draw_adder("colliders", snapshot, live);
 }
 
 /// Of each body how it touches, which folds.
@@ -194,7 +232,7 @@ void ParameterPanel::draw_group(std::span<const Slider> group, const Snapshot& s
     ImGui::SameLine(0, ImGui::GetStyle().FramePadding.x);
   }
   if (draw_switch(first.parameter.name, snapshot, live)) ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
-  draw_row(first, first.parameter.name, help + help_of(first.parameter), live);
+  draw_row(first, short_name(first.parameter.name, first.body), help + help_of(first.parameter), live);
   if (!is_open) return ImGui::PopID();
   ImGui::Indent();
   for (const Slider& slider : group) {

@@ -20,8 +20,8 @@ class ParameterPanel {
   void draw_switched_off(const std::string& name, const SwitchedOff& off, const Snapshot& snapshot, LiveScene& live);
   /// Draws all parameters of a snapshot but those of groups, and posts what is changed.
   void draw(const Snapshot& snapshot, LiveScene& live);
-  /// Where the widget of a parameter, or "switch:NAME" of a group or force, stands in the window, as of the last
-  /// drawing: left, top, right, bottom.
+  /// Where the widget of a parameter, "switch:NAME", or "add forces" and "add colliders", stands in the window, as of
+  /// the last drawing: left, top, right, bottom.
   std::optional<std::array<float, 4>> place_of(const std::string& key) const;
 
  private:
@@ -32,6 +32,7 @@ class ParameterPanel {
   };
   void draw_forces(std::span<const Slider> sliders, const Snapshot& snapshot, LiveScene& live);
   void draw_options(std::span<const Slider> options, LiveScene& live);
+  void draw_adder(std::string_view list, const Snapshot& snapshot, LiveScene& live);
   bool draw_switch(const std::string& name, const Snapshot& snapshot, LiveScene& live);
   void draw_colliders(std::span<const Slider> sliders, const Snapshot& snapshot, LiveScene& live);
   void draw_body_contacts(std::span<const Slider> sliders, LiveScene& live);

@@ -181,8 +181,11 @@ Scene make_mesh_scene(const std::filesystem::path& file, const ImportOptions& im
   body["constraints"] = constraints_json(mesh, kind, material, pins);
   const std::string description =
       fmt::format("{} of {} vertices, pinned at {}{}", material.text, mesh.vertex_count(), pins.text, remark);
-  const MeshSceneJson scene = {
-      {"pliant", 1}, {"description", description}, {"settings", settings}, {"bodies", MeshSceneJson::array({body})}};
+  const MeshSceneJson scene = {{"pliant", 1},
+                               {"description", description},
+                               {"settings", settings},
+                               {"bodies", MeshSceneJson::array({body})},
+                               {"contact", MeshSceneJson::object()}};
   std::string text;
   try {
     text = scene.dump(2);

@@ -1,0 +1,77 @@
+#include "viewer/added_parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "pliant/collision/colliders/builtin.h"
+#include "pliant/core/error.h"
+#include "pliant/core/printable.h"
+#include "pliant/forces/builtin.h"
+#include "viewer/json_of.h"
+
+namespace pliant_viewer {
+namespace {
+
+template <class... Types>
+void list_forces(std::tuple<Types...>*, std::vector<AddableType>& list) {
+  const auto add = [&](const pliant::ForceInfo& info) {
+    if (!info.required.empty() || info.name == pliant::Gravity::info.name) return;
+    list.push_back({"forces", info.name, info.reach == pliant::ForceReach::body});
+  };
+  (add(Types::info), ...);
+}
+
+template <class... Types>
+void list_colliders(std::tuple<Types...>*, std::vector<AddableType>& list) {
+  (list.push_back({"colliders", Types::info.name, false}), ...);
+}
+
+/// With three digits of the size that it is to have.
+Real rounded(Real number, Real size) {
+  const Real unit = std::pow(Real{10}, std::floor(std::log10(size)) - 2);
+  return std::round(number / unit) * unit;
+}
+
+/// Where a collider stands, so that bodies fall onto it and none is inside it.
+Json place_beneath(const std::string& type, const pliant::BoundingBox& bodies) {
+  const pliant::Vec3 middle = (bodies.min + bodies.max) / 2;
+  const Real longest = (bodies.max - bodies.min).maxCoeff();
+  const Real size = std::isfinite(longest) && longest > 0 ? longest : 1;
+  const auto number = [size](Real value) { return rounded(value, size); };
+  const auto point = [&](Real x, Real down) {
+    return Json{number(middle.x() + x), number(middle.y()), number(bodies.min.z() - down)};
+  };
+  const Real gap = 0.05 * size, radius = number(0.2 * size), thin = number(0.05 * size), half = number(0.4 * size);
+  if (type == pliant::SphereCollider::info.name) return {{"center", point(0, gap + radius)}, {"radius", radius}};
+  if (type == pliant::BoxCollider::info.name) {
+    return {{"center", point(0, gap + radius)}, {"size", {2 * radius, 2 * radius, 2 * radius}}};
+  }
+  if (type == pliant::CapsuleCollider::info.name) {
+    return {{"from", point(-half, gap + thin)}, {"to", point(half, gap + thin)}, {"radius", thin}};
+  }
+  if (type == pliant::PlaneCollider::info.name) return {{"position", point(0, gap)}};
+  return Json::object();
+}
+
+}  // namespace
+
+std::vector<AddableType> addable_types() {
+  std::vector<AddableType> list;
+  list_forces(static_cast<pliant::BuiltinForces*>(nullptr), list);
+  list_colliders(static_cast<pliant::BuiltinColliders*>(nullptr), list);
+  return list;
+}
+
+AddedPart make_part(const std::string& type, const std::string& name, const std::string& body,
+                    const pliant::BoundingBox& bodies) {
+  const std::vector<AddableType> types = addable_types();
+  const auto found = std::ranges::find(types, type, &AddableType::name);
+  if (found == types.end()) pliant::fail_input("there is no '" + pliant::printable(type) + "' to be added");
+  Json entry = {{"type", type}, {"name", name}};
+  if (found->is_of_body) entry["body"] = body;
+  if (found->list == "colliders") entry.update(place_beneath(type, bodies));
+  return {std::string(found->list), entry.dump()};
+}
+
+}  // namespace pliant_viewer

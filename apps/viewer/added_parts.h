@@ -1,0 +1,27 @@
+#pragma once
+// Forces and colliders that are added by hand.
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "pliant/mesh/geometry.h"
+#include "viewer/scene_changes.h"
+
+namespace pliant_viewer {
+
+/// What a menu offers.
+struct AddableType {
+  std::string_view list;  ///< of a scene file that has it: "forces" or "colliders"
+  std::string_view name;  ///< of the type: "wind"
+  bool is_of_body;        ///< acts on one body, which is to be named
+};
+
+/// Of the built-in types all that act with their defaults, but for gravity, of which a scene has one.
+std::vector<AddableType> addable_types();
+
+/// The entry of a scene file for a force or a collider of that type; a collider of some size stands beneath what is in
+/// `bodies` [m]. @throws pliant::Error (input): no such type.
+AddedPart make_part(const std::string& type, const std::string& name, const std::string& body,
+                    const pliant::BoundingBox& bodies);
+
+}  // namespace pliant_viewer
