@@ -52,8 +52,8 @@ bool WindHandle::handle(const MouseEvent& event, const View& view) {
       key_ = wind.key;
       speed_ = velocity.norm();
       side_ = direction.dot(eye.forward()) < 0 ? -1.0F : 1.0F;
-      const Vec2f tip = radius(view) * Vec2f(direction.dot(eye.right()), -direction.dot(eye.up));
-      grip_ = place(view) + tip - event.place;
+      const Vec2f way = radius(view) * Vec2f(direction.dot(eye.right()), -direction.dot(eye.up));
+      grip_ = place(view) + way - event.place;
       return true;
     }
     case MouseEvent::Kind::move:
