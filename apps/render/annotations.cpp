@@ -122,7 +122,6 @@ void draw_legend(const Legend& legend, const AnnotationCanvas& canvas) {
                       legend.title.c_str());
 }
 
-/// Draws an arrow at the lower left in the direction of the wind, and its speed.
 Vec2f wind_arrow_place(float height) {
   const float unit = unit_of(height);
   return {56 * unit, height - 56 * unit};
@@ -132,6 +131,7 @@ float wind_arrow_radius(float height) {
   return 38 * unit_of(height);
 }
 
+/// Draws an arrow at the lower left in the direction of the wind, and its speed.
 void draw_wind(const WindAnnotation& wind, const Viewpoint& viewpoint, const AnnotationCanvas& canvas) {
   const float unit = unit_of(canvas.height);
   const float size = 17 * unit;

@@ -34,13 +34,15 @@ Real rounded(Real number, Real size) {
 }
 
 /// Where a collider stands, so that bodies fall onto it and none is inside it.
-Json place_beneath(const std::string& type, const pliant::BoundingBox& bodies) {
+Json place_beneath(const std::string& type, const pliant::BoundingBox& bodies, Real floor) {
   const pliant::Vec3 middle = (bodies.min + bodies.max) / 2;
   const Real longest = (bodies.max - bodies.min).maxCoeff();
   const Real size = std::isfinite(longest) && longest > 0 ? longest : 1;
   const auto number = [size](Real value) { return rounded(value, size); };
-  const auto point = [&](Real x, Real down) {
-    return Json{number(middle.x() + x), number(middle.y()), number(bodies.min.z() - down)};
+  const bool is_above = bodies.min.z() - size / 2 < floor;
+  const auto point = [&](Real x, Real away) {
+    const Real z = is_above ? bodies.max.z() + away : bodies.min.z() - away;
+    return Json{number(middle.x() + x), number(middle.y()), number(z)};
   };
   const Real gap = 0.05 * size, radius = number(0.2 * size), thin = number(0.05 * size), half = number(0.4 * size);
   if (type == pliant::SphereCollider::info.name) return {{"center", point(0, gap + radius)}, {"radius", radius}};
@@ -50,7 +52,9 @@ Json place_beneath(const std::string& type, const pliant::BoundingBox& bodies) {
   if (type == pliant::CapsuleCollider::info.name) {
     return {{"from", point(-half, gap + thin)}, {"to", point(half, gap + thin)}, {"radius", thin}};
   }
-  if (type == pliant::PlaneCollider::info.name) return {{"position", point(0, gap)}};
+  if (type == pliant::PlaneCollider::info.name) {
+    return {{"position", Json{number(middle.x()), number(middle.y()), number(bodies.min.z() - gap)}}};
+  }
   return Json::object();
 }
 
@@ -64,13 +68,13 @@ std::vector<AddableType> addable_types() {
 }
 
 AddedPart make_part(const std::string& type, const std::string& name, const std::string& body,
-                    const pliant::BoundingBox& bodies) {
+                    const pliant::BoundingBox& bodies, Real floor) {
   const std::vector<AddableType> types = addable_types();
   const auto found = std::ranges::find(types, type, &AddableType::name);
   if (found == types.end()) pliant::fail_input("there is no '" + pliant::printable(type) + "' to be added");
   Json entry = {{"type", type}, {"name", name}};
   if (found->is_of_body) entry["body"] = body;
-  if (found->list == "colliders") entry.update(place_beneath(type, bodies));
+  if (found->list == "colliders") entry.update(place_beneath(type, bodies, floor));
   return {std::string(found->list), entry.dump()};
 }
 

@@ -19,9 +19,9 @@ struct AddableType {
 /// Of the built-in types all that act with their defaults, but for gravity, of which a scene has one.
 std::vector<AddableType> addable_types();
 
-/// The entry of a scene file for a force or a collider of that type; a collider of some size stands beneath what is in
-/// `bodies` [m]. @throws pliant::Error (input): no such type.
+/// The entry of a scene file for a force or a collider of that type; a collider stands beneath what is in `bodies` [m],
+/// or above it where it would be under the floor. @throws pliant::Error (input): no such type.
 AddedPart make_part(const std::string& type, const std::string& name, const std::string& body,
-                    const pliant::BoundingBox& bodies);
+                    const pliant::BoundingBox& bodies, Real floor);
 
 }  // namespace pliant_viewer

@@ -347,6 +347,7 @@ void LiveScene::publish() {
   back_.can_add = session_.can_add();
   back_.has_unsaved_changes = session_.has_unsaved_changes();
   back_.restarts = session_.restarts();
+  back_.rebuilds = session_.rebuilds();
   back_.commands = commands_published_ = commands_done_;
   {
     const std::lock_guard lock(mutex_);

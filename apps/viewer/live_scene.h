@@ -51,6 +51,7 @@ struct Snapshot {
   bool is_replaying = false;         ///< a recorded session
   ReplayReport replayed;             ///< how far that is
   std::uint64_t restarts = 0;        ///< number of restarts so far
+  std::uint64_t rebuilds = 0;        ///< see Session::rebuilds
   std::uint64_t commands = 0;        ///< number of commands that have taken effect
 };
 

@@ -89,6 +89,7 @@ void append_event(SceneDocument& document, const std::string& action, const std:
 UnchangedScene::UnchangedScene(const pliant::Scene& scene) {
   as_read_.source = scene.source;
   as_read_.places = scene.places;
+  as_read_.later_places = scene.later_places;
   as_read_.implied_bodies = scene.implied_bodies;
   as_read_.group_names = scene.group_names;
   as_read_.collider_names = scene.collider_names;
@@ -127,7 +128,7 @@ UnchangedScene::UnchangedScene(const pliant::Scene& scene) {
 
 std::string UnchangedScene::free_name(const std::string& base, const SceneChanges& changes) const {
   const auto is_taken = [&](const std::string& name) {
-    return as_read_.places.contains(name) || changes.added.contains(name) ||
+    return as_read_.places.contains(name) || as_read_.later_places.contains(name) || changes.added.contains(name) ||
            std::ranges::find(as_read_.group_names, name) != as_read_.group_names.end() ||
            std::ranges::find(as_read_.collider_names, name) != as_read_.collider_names.end();
   };
@@ -153,76 +154,10 @@ std::optional<std::size_t> UnchangedScene::find_body(const std::string& name) co
   return static_cast<std::size_t>(found - bodies_.begin());
 }
 
-void UnchangedScene::apply(const SceneChanges& changes, pliant::Scene& scene) const {
-  pliant::Simulation& simulation = scene.simulation;
-  for (const auto& [name, material] : changes.materials) {
-    if (const auto body = find_body(name)) {
-      change_material(scene, pliant::BodyId{static_cast<Index>(*body)}, material.name, material.placement);
-    }
-  }
-  for (const auto& [name, what] : changes.switched_off) {
-    if (const auto group = simulation.find_group(name); group && !what.body.empty()) simulation.remove(*group);
-    const bool is_force = what.body.empty() && !what.is_collider;
-    if (const auto force = simulation.find_force(name); force && is_force) simulation.remove(*force);
-    if (const auto collider = simulation.find_collider(name); collider && what.is_collider)
-      simulation.remove(*collider);
-  }
-  std::map<std::string, Vec3> values;
-  for (const auto& [key, changed] : changes.values) values[key] = changed.value;
-  set_values(std::move(values), simulation);
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const BodyPart& body = bodies_[i];
-    const pliant::BodyId id{static_cast<Index>(i)};
-    for (const auto& [vertex, pin] : changes.released) {
-      const Index of_body = vertex - body.first_vertex;
-      if (of_body < 0 || of_body >= body.vertex_count) continue;
-      for (const std::string& group : pin.groups) {
-        if (const auto found = simulation.find_group(group)) simulation.release(*found, std::span(&of_body, 1));
-      }
-    }
-    std::vector<Index> held, moved;
-    std::vector<Vec3> targets;
-    for (const auto& [vertex, target] : changes.pins) {
-      const Index of_body = vertex - body.first_vertex;
-      if (of_body < 0 || of_body >= body.vertex_count) continue;
-      (target ? moved : held).push_back(of_body);
-      if (target) targets.push_back(*target);
-    }
-    if (!held.empty()) simulation.add(id, pliant::Position{.on = pliant::Selection(std::move(held))}, body.pins);
-    if (moved.empty()) continue;
-    pliant::Position pin;
-    pin.on = pliant::Selection(std::move(moved));
-    pin.targets = pliant::Points(std::move(targets));
-    simulation.add(id, pin, body.moved_pins);
-  }
-  for (const auto& [vertex, pin] : changes.moved) {
-    const auto group = simulation.find_group(pin.group);
-    if (!group) continue;
-    const std::vector<Index>& numbers = simulation.groups().at(*group).points;
-    const auto place = std::ranges::find(numbers, pin.number);
-    if (place != numbers.end()) simulation.set_target(*group, static_cast<Index>(place - numbers.begin()), pin.target);
-  }
-  for (const auto& [name, position] : changes.collider_positions) {
-    const auto collider = simulation.find_collider(name);
-    if (!collider) continue;
-    pliant::Pose pose = simulation.pose(*collider);
-    pose.position = position;
-    simulation.set_target(*collider, pose);
-  }
-}
-
-void UnchangedScene::set_appearances(const SceneChanges& changes, pliant::Scene& scene) const {
-  scene.appearances = appearances_;
-  for (const auto& [name, appearance] : changes.appearances) {
-    if (const auto body = find_body(name)) {
-      scene.appearances[pliant::BodyId{static_cast<Index>(*body)}] = appearance;
-    }
-  }
-}
-
 bool UnchangedScene::can_switch_off(const std::string& name, const SceneChanges& changes) const {
   if (!has_text_) return true;
   if (changes.added.contains(name)) return true;
+  if (as_read_.later_places.contains(name)) return false;  // it would come back
   const auto place = as_read_.places.find(name);
   if (place != as_read_.places.end()) return !is_replaced(place->second, changes);
   return is_of_material(name, changes);
@@ -232,8 +167,7 @@ bool UnchangedScene::can_switch_off(const std::string& name, const SceneChanges&
 bool UnchangedScene::is_of_material(const std::string& group, const SceneChanges& changes) const {
   if (ties_.contains(group)) return false;
   if (groups_.contains(group)) return true;
-  const auto& of_events = as_read_.group_names;  // which have those of the start as well
-  if (std::ranges::find(of_events, group) != of_events.end()) return false;
+  if (as_read_.later_places.contains(group)) return false;
   const auto is_of = [&](const auto& entry) { return group.starts_with(entry.first + "."); };
   return std::ranges::any_of(changes.materials, is_of);
 }
@@ -311,9 +245,14 @@ std::optional<std::string> UnchangedScene::path_of(const Parameter& parameter, c
 /// Names that follow from the order of a list stay when entries of it go.
 void UnchangedScene::write_names(const SceneChanges& changes, SceneDocument& document) const {
   if (changes.materials.empty() && changes.switched_off.empty()) return;
-  for (const auto& [name, place] : as_read_.places) {
-    if (!place.ends_with(']') || is_replaced(place, changes)) continue;
+  const auto write = [&](const std::string& name, const std::string& place) {
     if (document.get(place + ".name").empty()) set(document, place + ".name", name);
+  };
+  for (const auto& [name, place] : as_read_.places) {
+    if (place.ends_with(']') && !is_replaced(place, changes)) write(name, place);
+  }
+  for (const auto& [name, place] : as_read_.later_places) {
+    if (place.ends_with(".add")) write(name, place);
   }
 }
 
@@ -457,8 +396,12 @@ void UnchangedScene::remove_entries(const SceneChanges& changes, SceneDocument& 
 
 void UnchangedScene::write_added(const SceneChanges& changes, SceneDocument& document) const {
   for (const auto& [name, part] : changes.added) {
-    if (changes.switched_off.contains(name)) continue;
     Json entry = Json::parse(part.entry);
+    const bool has_body = !entry.contains("body") || find_body(entry["body"].get<std::string>()).has_value();
+    const bool is_taken = as_read_.places.contains(name) || as_read_.later_places.contains(name);
+    if (changes.switched_off.contains(name) || !has_body || is_taken) continue;
+    const auto moved = changes.collider_positions.find(name);
+    if (moved != changes.collider_positions.end()) move_to(moved->second, entry);
     for (const auto& [key, changed] : changes.values) {
       const pliant::ParameterOwner& owner = changed.parameter.handle.owner;
       const bool is_part =
@@ -467,8 +410,6 @@ void UnchangedScene::write_added(const SceneChanges& changes, SceneDocument& doc
         entry[changed.parameter.handle.option] = value_json(changed.parameter, changed.value);
       }
     }
-    const auto moved = changes.collider_positions.find(name);
-    if (moved != changes.collider_positions.end()) move_to(moved->second, entry);
     document.append(part.list, entry.dump());
   }
 }

@@ -50,6 +50,7 @@ struct SwitchedOff {
   std::string type;
   std::string body{};  ///< of a group; else empty
   bool is_collider = false;
+  std::vector<Index> pinned{};      ///< vertices that it held
   bool goes_with_material = false;  ///< another material takes its place
   bool operator==(const SwitchedOff&) const = default;
 };

@@ -1,9 +1,13 @@
 // What bodies look like, which constraints and forces are switched off, and what is added to a scene.
 #include <algorithm>
+#include <limits>
 
+#include "pliant/collision/colliders/builtin.h"
+#include "pliant/constraints/position.h"
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
 #include "pliant/materials/change_material.h"
+#include "pliant/simulation/held.h"
 #include "viewer/added_parts.h"
 #include "viewer/session.h"
 
@@ -22,6 +26,18 @@ void check(const pliant::BodyAppearance& appearance) {
   if (!(appearance.pattern_size >= 1e-6 && appearance.pattern_size <= 1e6)) {
     pliant::fail_input("the size of a pattern is from 1e-6 to 1e6 m");
   }
+}
+
+/// Of the highest plane that faces up [m]; minus infinity without one.
+Real floor_height(const pliant::Simulation& simulation) {
+  constexpr Real nearly_up = 0.9;
+  Real height = -std::numeric_limits<Real>::infinity();
+  for (const auto& [id, collider] : simulation.colliders()) {
+    const auto* plane = simulation.options<pliant::PlaneCollider>(id);
+    if (plane == nullptr || !(plane->normal.normalized().z() > nearly_up)) continue;
+    height = std::max(height, simulation.pose(id).position.z());
+  }
+  return height;
 }
 
 /// How often each name is given: programs may give one twice.
@@ -73,7 +89,10 @@ SwitchedOff Session::what_is_switched_off(const std::string& name) const {
     if (id && !is_hidden(*id)) {
       const pliant::Group& group = scene.groups().at(*id);
       const bool is_of_material = std::ranges::count(groups_of_material(scene, group.body), *id) > 0;
-      return {.type = group.type, .body = scene.body(group.body).name, .goes_with_material = is_of_material};
+      return {.type = group.type,
+              .body = scene.body(group.body).name,
+              .pinned = group.type == pliant::Position::info.name ? vertices_of_pins(group) : std::vector<Index>(),
+              .goes_with_material = is_of_material};
     }
     if (const auto force = scene.find_force(name)) return {.type = type_of(*force)};
     if (const auto collider = scene.find_collider(name)) return {.type = type_of(*collider), .is_collider = true};
@@ -84,8 +103,14 @@ SwitchedOff Session::what_is_switched_off(const std::string& name) const {
 void Session::switch_on(const std::string& name, bool on) {
   const auto noted = note(action::SwitchOn{name, on});
   SceneChanges changes = changes_;
-  if (on ? changes.switched_off.erase(name) == 0 : changes.switched_off.contains(name)) return;
-  if (!on) changes.switched_off[name] = what_is_switched_off(name);
+  const auto off = changes.switched_off.find(name);
+  if (on == (off == changes.switched_off.end())) return;
+  if (on) {
+    for (const Index vertex : off->second.pinned) changes.pins.erase(vertex);  // it holds them again
+    changes.switched_off.erase(off);
+  } else {
+    changes.switched_off[name] = what_is_switched_off(name);
+  }
   change_parts(std::move(changes), name + (on ? " on" : " off"));
 }
 
@@ -102,9 +127,11 @@ void Session::change_parts(SceneChanges changes, std::string what) {
 void Session::add(const std::string& type, const std::string& body) {
   const auto noted = note(action::Add{type, body});
   if (!can_add()) pliant::fail_input("this scene was made by a program, which is the place to add something to it");
+  if (!body.empty()) find_body(body);
   SceneChanges changes = changes_;
   const std::string name = unchanged_.free_name(type, changes);
-  changes.added[name] = make_part(type, name, body, pliant::bounding_box(simulation().state().positions));
+  const pliant::BoundingBox box = pliant::bounding_box(simulation().state().positions);
+  changes.added[name] = make_part(type, name, body, box, floor_height(simulation()));
   change_parts(std::move(changes), "add " + name);
 }
 

@@ -122,7 +122,9 @@ void Session::drop_collider(pliant::ColliderId collider) {
   if (goal == collider_goals_.end() || simulation().state().step > 0) return;
   Edit edit{.what = "move a collider", .before = changes_};
   SceneChanges changes = changes_;
-  changes.collider_positions[simulation().colliders().at(collider).name] = goal->second;
+  const std::string& name = simulation().colliders().at(collider).name;
+  changes.collider_positions[name] = goal->second;
+  for (const char* option : {".center", ".from", ".to"}) changes.values.erase("collider:" + name + option);
   pliant::Scene next = make_with(changes, unchanged_);
   collider_goals_.erase(goal);
   left_alone_.erase(collider);

@@ -109,6 +109,9 @@ bool Viewer::turn(double most_wait) {
   if (live != nullptr && live->step_age() > Seconds(1) && Clock::now() - last_draw_ > Seconds(0.5)) draws_left_ = 1;
   if (source_.refresh(Clock::now())) is_frame_new_ = true;
   gizmo_.flush(mouse_view());  // which may have waited for that
+  if (live != nullptr && std::exchange(rebuilds_, live->shown().rebuilds) != live->shown().rebuilds) {
+    if (interaction_.collider_goal()) interaction_.cancel();  // colliders may have other numbers now
+  }
   if (live != nullptr && live->shown().messages != messages_) {
     messages_ = live->shown().messages;
     say(live->shown().message);

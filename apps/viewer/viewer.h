@@ -159,7 +159,7 @@ class Viewer {
   std::optional<FilmRecorder> film_;
   int target_samples_ = 1;
   std::shared_ptr<const pliant_render::RenderMesh> render_mesh_;
-  std::uint64_t restarts_ = 0;
+  std::uint64_t restarts_ = 0, rebuilds_ = 0;
 
   pliant_render::Bounds bounds_;  // of the current frame
   std::array<float, 2> range_ = {0, 1};

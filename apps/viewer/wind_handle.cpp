@@ -38,7 +38,8 @@ bool WindHandle::is_at(const Vec2f& at, const View& view) const {
 }
 
 bool WindHandle::handle(const MouseEvent& event, const View& view) {
-  constexpr float stronger = 1.1F;  // by a notch of the wheel
+  constexpr Real stronger = 1.1;  // by a notch of the wheel
+  constexpr Seconds pause{0.7};   // that makes another change of it
   switch (event.kind) {
     case MouseEvent::Kind::press: {
       if (is_held_) return true;
@@ -47,7 +48,7 @@ bool WindHandle::handle(const MouseEvent& event, const View& view) {
       const Vec3f velocity = wind.parameter.value.cast<float>();
       const Vec3f direction = velocity.normalized();
       const pliant_render::Viewpoint& eye = view.screen.viewpoint;
-      *this = {};
+      has_turned_ = was_outside_ = false;
       is_held_ = true;
       key_ = wind.key;
       speed_ = velocity.norm();
@@ -65,9 +66,15 @@ bool WindHandle::handle(const MouseEvent& event, const View& view) {
     case MouseEvent::Kind::wheel: {
       if (is_held_) return true;
       if (!is_at(event.place, view)) return false;
-      const Slider& wind = *find_wind(*view.snapshot);
-      key_ = wind.key;
-      send(std::pow(stronger, event.wheel) * wind.parameter.value.cast<float>(), false, view);
+      if (event.wheel == 0) return true;
+      const Clock::time_point now = Clock::now();
+      const bool goes_on = now - std::exchange(last_notch_, now) < pause;
+      post(view, LiveScene::Kind::changes,
+           [key = find_wind(*view.snapshot)->key, factor = std::pow(stronger, event.wheel), goes_on](Session& session) {
+             const std::vector<Slider> all = session.sliders();
+             const auto wind = std::ranges::find(all, key, &Slider::key);
+             if (wind != all.end()) session.set(key, factor * wind->parameter.value, goes_on);
+           });
       return true;
     }
   }

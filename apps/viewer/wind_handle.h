@@ -29,9 +29,10 @@ class WindHandle {
   void turn_to(const Vec2f& at, const MouseInteraction::View& view);
 
   bool is_held_ = false, has_turned_ = false, was_outside_ = false;
-  std::string key_;      // of the parameter
-  float speed_ = 0;      // [m/s]
-  float side_ = 1;       // 1: blows away from the eye, -1: toward it
+  std::string key_;  // of the parameter
+  float speed_ = 0;  // [m/s]
+  float side_ = 1;   // 1: blows away from the eye, -1: toward it
+  Clock::time_point last_notch_{};
   Vec2f grip_ = {0, 0};  // from the mouse to the tip
 };
 

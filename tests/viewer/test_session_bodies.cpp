@@ -254,6 +254,77 @@ TEST_CASE("vertices of pins that are switched off are pinned by hand as any othe
   CHECK(session.is_pinned(80));
 }
 
+TEST_CASE("pins that are switched on again hold the vertices that were pinned by hand meanwhile") {
+  Session session(make_scene);
+  const Vec3f held = place(session, 72);
+  session.switch_on("hooks", false);
+  session.pin(72);
+  session.pin(40);
+  steps(session, 5);
+  session.switch_on("hooks", true);
+  steps(session, 5);
+  CHECK(session.is_pinned(72));
+  CHECK(session.is_pinned(40));
+  CHECK((place(session, 72) - held).norm() < 1e-5F);
+  session.unpin(72);
+  CHECK_FALSE(session.is_pinned(72));
+  session.undo();
+  session.undo();
+  CHECK(session.is_pinned(72));
+  CHECK_FALSE(session.is_pinned(80));
+}
+
+TEST_CASE("what events add later keeps its name, and what they set again cannot be switched off") {
+  const TemporaryFolder folder;
+  Session session([] {
+    return pliant::parse_scene(R"({ "pliant": 1, "bodies": [ { "name": "sheet", "mass": { "total": 1 },
+      "mesh": { "shape": "grid", "columns": 5, "rows": 5 } } ],
+      "colliders": [ { "type": "sphere", "center": [0, 0, -2] } ],
+      "events": [ { "step": 2, "add": { "type": "sphere", "center": [0, 0, -7] } },
+                  { "step": 2, "add": { "type": "wind", "velocity": [1, 0, 0] } },
+                  { "step": 4, "gravity": [0, 0, -1] } ] })",
+                               {}, "sheet");
+  });
+  CHECK_FALSE(session.switches().contains("gravity"));
+  session.add("wind");
+  CHECK(has_force(session, "wind 2"));  // the first is to come
+  steps(session, 3);
+  CHECK(has_force(session, "wind"));
+  CHECK(value(session, "force:wind.velocity") == 1);
+  session.switch_on("sphere", false);
+  CHECK(session.simulation().pose(collider(session, "sphere 2")).position.z() == -7);
+  session.switch_on("sphere", true);
+  CHECK(session.simulation().pose(collider(session, "sphere")).position.z() == -2);
+  steps(session, 3);
+  CHECK(session.note().empty());
+}
+
+TEST_CASE("a collider that would be under the floor is added above the bodies") {
+  Session session([] {
+    return pliant::parse_scene(R"({ "pliant": 1, "bodies": [ { "name": "sheet", "mass": { "total": 1 },
+      "mesh": { "shape": "grid", "columns": 5, "rows": 5 } } ],
+      "colliders": [ { "type": "plane", "position": [0, 0, -0.1] } ] })",
+                               {}, "sheet");
+  });
+  session.add("sphere");
+  CHECK(session.simulation().pose(collider(session, "sphere")).position.z() > 0.1);
+}
+
+TEST_CASE("what is added is left out where the scene's file has come to have its name") {
+  const TemporaryFolder folder;
+  const std::string text = R"({ "pliant": 1, "bodies": [ { "name": "ball", "mass": { "total": 1 },
+      "mesh": { "shape": "sphere" } } ])";
+  const auto file = folder.write("ball.json", text + "}");
+  Session session([file] { return pliant::load_scene(file); });
+  session.add("wind");
+  session.add("pressure", "ball");
+  folder.write("ball.json", R"({ "pliant": 1, "bodies": [ { "name": "globe", "mass": { "total": 1 },
+      "mesh": { "shape": "sphere" } } ], "forces": [ { "type": "wind", "velocity": [7, 0, 0] } ] })");
+  session.restart(true);
+  CHECK(session.simulation().forces().size() == 2);  // gravity, and the file's wind
+  CHECK(value(session, "force:wind.velocity") == 7);
+}
+
 TEST_CASE("names that follow from an order stay when one of them is switched off") {
   const TemporaryFolder folder;
   Session session([] {

@@ -197,6 +197,7 @@ void read_simulation(const Node& root, bool leaves_out_events, Scene& scene) {
   scene.group_names = all_names(scene.simulation.group_names(), std::move(reader.later_groups));
   std::vector<std::string> colliders;
   for (const auto& [id, collider] : scene.simulation.colliders()) colliders.push_back(collider.name);
+  scene.later_places = std::move(reader.later_places);
   scene.collider_names = all_names(std::move(colliders), std::move(reader.later_colliders));
 }
 

@@ -53,6 +53,8 @@ struct Scene {
   /// Where in the scene as one document (scene_document.h) a group, a force or a collider of that name stands, and
   /// gravity: "bodies[0].constraints[1]". Those of materials and what events add have no such place.
   std::map<std::string, std::string> places;
+  /// The same of what events add, by name: "events[2].add"; of those that set gravity "events[2]".
+  std::map<std::string, std::string> later_places;
   /// Entries that name no body and mean the only one of an included text: their places, and the body.
   std::vector<std::pair<std::string, std::string>> implied_bodies;
   /// Events that were left out, as their source asked for: their numbers, ascending, among "moves" and then "events",

@@ -255,6 +255,7 @@ Timeline::Edit EventReader::read_gravity(const Node& value) {
   Gravity gravity;
   pliant::read(value, gravity.acceleration);
   scene_.forces.insert_or_assign(name, ForceEntry{std::nullopt, gravity});
+  scene_.later_places[name] = scene_.entry;
   return [name, gravity](Simulation& simulation, Timeline&) {
     if (const auto force = simulation.find_force(name)) {
       simulation.replace(*force, gravity);
@@ -272,6 +273,7 @@ Timeline::Edit EventReader::read_add(const Node& value) {
     const ForceEntry force = read_force_options(value, {}, scene_);
     const std::string name = scene_.own_name(value, type_of(force));
     scene_.forces.emplace(name, force);
+    scene_.later_places[name] = scene_.entry;
     return [name, force](Simulation& simulation, Timeline&) { add(simulation, force, name); };
   }
   if (is_collider_type(text_of(type))) {
@@ -279,12 +281,14 @@ Timeline::Edit EventReader::read_add(const Node& value) {
     const std::string name = scene_.own_name(value, type_of(collider));
     scene_.colliders.emplace(name, collider);
     scene_.later_colliders.push_back(name);
+    scene_.later_places[name] = scene_.entry;
     return [name, collider](Simulation& simulation, Timeline&) { add(simulation, collider, name); };
   }
   const GroupEntry entry = scene_.read_added_group(value);
   added_group_ = scene_.group_name(value, entry.body, type_of(entry.options));
   scene_.groups.emplace(added_group_, entry);
   scene_.later_groups.push_back(added_group_);
+  scene_.later_places[added_group_] = scene_.entry;
   return [name = added_group_, entry](Simulation& simulation, Timeline&) {
     add(simulation, entry.body, entry.options, name);
   };

@@ -35,10 +35,11 @@ struct SceneReader {
   std::map<std::string, GroupEntry, std::less<>> groups = {};
   std::map<std::string, ForceEntry, std::less<>> forces = {};
   std::map<std::string, ColliderOptions, std::less<>> colliders = {};
-  std::vector<std::string> later_groups = {};      ///< names of groups that events add, each time
-  std::vector<std::string> later_colliders = {};   ///< of colliders
-  bool has_later_surfaces = false;                 ///< an event lets surfaces touch
-  std::string warning_without_surfaces = {};       ///< if these never touch; empty: none
+  std::vector<std::string> later_groups = {};            ///< names of groups that events add, each time
+  std::vector<std::string> later_colliders = {};         ///< of colliders
+  std::map<std::string, std::string> later_places = {};  ///< by the name of what events add, see Scene
+  bool has_later_surfaces = false;                       ///< an event lets surfaces touch
+  std::string warning_without_surfaces = {};             ///< if these never touch; empty: none
   std::vector<std::string> warnings = {};          ///< of what is read otherwise than one might expect, with its place
   std::string entry = {};                          ///< of a list at the top, which is being read: "forces[2]"
   std::map<std::string, std::string> places = {};  ///< see Scene::places

@@ -1,0 +1,80 @@
+// Changes of a scene that a program has made, which has no text.
+#include <algorithm>
+
+#include "pliant/constraints/position.h"
+#include "viewer/body_materials.h"
+#include "viewer/carry_over.h"
+#include "viewer/scene_changes.h"
+
+namespace pliant_viewer {
+
+using pliant::Vec3;
+
+void UnchangedScene::apply(const SceneChanges& changes, pliant::Scene& scene) const {
+  pliant::Simulation& simulation = scene.simulation;
+  for (const auto& [name, material] : changes.materials) {
+    if (const auto body = find_body(name)) {
+      change_material(scene, pliant::BodyId{static_cast<Index>(*body)}, material.name, material.placement);
+    }
+  }
+  for (const auto& [name, what] : changes.switched_off) {
+    if (const auto group = simulation.find_group(name); group && !what.body.empty()) simulation.remove(*group);
+    const bool is_force = what.body.empty() && !what.is_collider;
+    if (const auto force = simulation.find_force(name); force && is_force) simulation.remove(*force);
+    if (const auto collider = simulation.find_collider(name); collider && what.is_collider)
+      simulation.remove(*collider);
+  }
+  std::map<std::string, Vec3> values;
+  for (const auto& [key, changed] : changes.values) values[key] = changed.value;
+  set_values(std::move(values), simulation);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const BodyPart& body = bodies_[i];
+    const pliant::BodyId id{static_cast<Index>(i)};
+    for (const auto& [vertex, pin] : changes.released) {
+      const Index of_body = vertex - body.first_vertex;
+      if (of_body < 0 || of_body >= body.vertex_count) continue;
+      for (const std::string& group : pin.groups) {
+        if (const auto found = simulation.find_group(group)) simulation.release(*found, std::span(&of_body, 1));
+      }
+    }
+    std::vector<Index> held, moved;
+    std::vector<Vec3> targets;
+    for (const auto& [vertex, target] : changes.pins) {
+      const Index of_body = vertex - body.first_vertex;
+      if (of_body < 0 || of_body >= body.vertex_count) continue;
+      (target ? moved : held).push_back(of_body);
+      if (target) targets.push_back(*target);
+    }
+    if (!held.empty()) simulation.add(id, pliant::Position{.on = pliant::Selection(std::move(held))}, body.pins);
+    if (moved.empty()) continue;
+    pliant::Position pin;
+    pin.on = pliant::Selection(std::move(moved));
+    pin.targets = pliant::Points(std::move(targets));
+    simulation.add(id, pin, body.moved_pins);
+  }
+  for (const auto& [vertex, pin] : changes.moved) {
+    const auto group = simulation.find_group(pin.group);
+    if (!group) continue;
+    const std::vector<Index>& numbers = simulation.groups().at(*group).points;
+    const auto place = std::ranges::find(numbers, pin.number);
+    if (place != numbers.end()) simulation.set_target(*group, static_cast<Index>(place - numbers.begin()), pin.target);
+  }
+  for (const auto& [name, position] : changes.collider_positions) {
+    const auto collider = simulation.find_collider(name);
+    if (!collider) continue;
+    pliant::Pose pose = simulation.pose(*collider);
+    pose.position = position;
+    simulation.set_target(*collider, pose);
+  }
+}
+
+void UnchangedScene::set_appearances(const SceneChanges& changes, pliant::Scene& scene) const {
+  scene.appearances = appearances_;
+  for (const auto& [name, appearance] : changes.appearances) {
+    if (const auto body = find_body(name)) {
+      scene.appearances[pliant::BodyId{static_cast<Index>(*body)}] = appearance;
+    }
+  }
+}
+
+}  // namespace pliant_viewer
