@@ -1,34 +1,18 @@
-// What bodies look like, and what is switched off, by hand: set, undone, saved, recorded.
+// What is switched off, and what is added, by hand: undone, saved, recorded.
 #include <doctest/doctest.h>
-#include <nlohmann/json.hpp>
 
 #include "pliant/core/error.h"
 #include "pliant/pliant.h"
 #include "pliant_io/checkpoint/checkpoint.h"
 #include "tests/support/changed_session.h"
+#include "tests/support/replayed_session.h"
 #include "tests/support/temporary_folder.h"
 #include "viewer/added_parts.h"
 
-namespace test_session_bodies {
+namespace test_session_parts {
 
 using namespace pliant_tests;
-using pliant::BodyAppearance;
-using pliant::Pattern;
-
 namespace {
-
-const BodyAppearance striped = {.front = pliant::Color{0.1, 0.2, 0.75},
-                                .back = pliant::Color{1, 1, 1},
-                                .pattern = Pattern::stripes,
-                                .pattern_color = {0.5, 0, 0},
-                                .pattern_size = 0.05};
-
-std::optional<BodyAppearance> appearance(const Session& session, const std::string& body) {
-  for (const auto& [id, looks] : session.scene().appearances) {
-    if (session.simulation().body(id).name == body) return looks;
-  }
-  return {};
-}
 
 bool has_group(const Session& session, const std::string& name) {
   return session.simulation().find_group(name).has_value();
@@ -38,68 +22,7 @@ bool has_force(const Session& session, const std::string& name) {
   return session.simulation().find_force(name).has_value();
 }
 
-/// The session that a file of this one makes, run for so many steps.
-Session replayed(const Session& session, const TemporaryFolder& folder) {
-  const auto file = folder.path() / "some.session";
-  write_session_record(file, session.record(file, session.scene().view));
-  const SessionRecord record = read_session_record(file);
-  Session again(scene_maker_of(record, file));
-  again.replay(record);
-  while (again.is_replaying()) again.step();
-  CHECK(again.replayed().has_ended);
-  CHECK_FALSE(again.replayed().differs_from.has_value());
-  return again;
-}
-
 }  // namespace
-
-TEST_CASE("an appearance is set, undone, done again, kept by a restart, saved and recorded") {
-  const TemporaryFolder folder;
-  Session session(make_scene);
-  const auto original = appearance(session, "sheet");
-  const std::uint64_t looks = session.look_changes(), rebuilds = session.rebuilds();
-  session.set_appearance("sheet", {.front = pliant::Color{1, 0, 0}});
-  session.set_appearance("sheet", striped, true);
-  CHECK(session.look_changes() == looks + 2);
-  CHECK(appearance(session, "sheet") == striped);
-  CHECK(session.undone_next() == "sheet: appearance");
-  session.undo();
-  CHECK(appearance(session, "sheet") == original);
-  CHECK(session.undone_next().empty());  // both were one change
-  session.redo();
-  CHECK(appearance(session, "sheet") == striped);
-  CHECK(session.rebuilds() == rebuilds);
-  steps(session, 5);
-  session.set_material("scarf", "wool");
-  session.pin(4);
-  CHECK(appearance(session, "sheet") == striped);
-  session.restart(true);
-  CHECK(appearance(session, "sheet") == striped);
-  steps(session, 5);
-
-  const auto files = session.save(folder.path() / "striped.json", session.scene().view);
-  CHECK(appearance(session, "sheet") == striped);
-  Session saved([&] { return pliant::load_scene(files.at(0)); });
-  CHECK(appearance(saved, "sheet") == striped);
-  Session resumed([&] { return pliant::read_checkpoint(files.at(1)); });
-  CHECK(appearance(resumed, "sheet") == striped);
-  CHECK(appearance(replayed(session, folder), "sheet") == striped);
-
-  session.restart(false);
-  CHECK(appearance(session, "sheet") == original);
-  CHECK_THROWS_AS(session.set_appearance("nobody", striped), pliant::Error);
-  CHECK(session.undone_next().empty());
-}
-
-TEST_CASE("a change of an appearance that something else follows is one of its own") {
-  Session session(make_scene);
-  session.set_appearance("sheet", {.front = pliant::Color{1, 0, 0}});
-  session.set("group:bend.stiffness", {0.01, 0, 0});
-  session.set_appearance("sheet", striped, true);
-  session.undo();
-  CHECK(appearance(session, "sheet")->front == pliant::Color{1, 0, 0});
-  CHECK(value(session, "group:bend.stiffness") == 0.01);
-}
 
 TEST_CASE("a constraint and a force are switched off and on while time goes on") {
   Session session(make_scene);
@@ -357,13 +280,6 @@ TEST_CASE("another material forgets what was set of groups that are switched off
   CHECK(value(session, "group:sheet.bend.stiffness") == doctest::Approx(usual));
 }
 
-TEST_CASE("colors that no file could have are refused") {
-  Session session(make_scene);
-  CHECK_THROWS_AS(session.set_appearance("sheet", {.front = pliant::Color{1.2, 0, 0}}), pliant::Error);
-  CHECK_THROWS_AS(session.set_appearance("sheet", {.pattern_size = 0}), pliant::Error);
-  CHECK(session.changes().is_empty());
-}
-
 TEST_CASE("groups of a material are switched off by name, and forgotten with it") {
   const TemporaryFolder folder;
   Session session(make_scene);
@@ -514,7 +430,7 @@ TEST_CASE("names that a program has given twice are not switched") {
   CHECK_THROWS_AS(session.switch_on("springs", false), pliant::Error);
 }
 
-TEST_CASE("scenes that a program has made switch, and show bodies otherwise, too") {
+TEST_CASE("scenes that a program has made switch, too") {
   Session session([] {
     pliant::Scene scene;
     const pliant::BodyId sheet =
@@ -523,48 +439,17 @@ TEST_CASE("scenes that a program has made switch, and show bodies otherwise, too
     scene.simulation.add(pliant::Gravity{}, "down");
     return scene;
   });
-  session.set_appearance("sheet", striped);
   session.switch_on("springs", false);
   session.switch_on("down", false);
   CHECK(session.simulation().groups().empty());
   CHECK(session.simulation().forces().empty());
-  CHECK(appearance(session, "sheet") == striped);
   steps(session, 2);
   session.undo();
   session.undo();
   CHECK(has_group(session, "springs"));
   CHECK(has_force(session, "down"));
-  CHECK(appearance(session, "sheet") == striped);
-  session.undo();
-  CHECK(session.scene().appearances.empty());
   CHECK_FALSE(session.can_add());
   CHECK_THROWS_AS(session.add("wind"), pliant::Error);
 }
 
-TEST_CASE("a session file tells what is wrong with an appearance") {
-  const TemporaryFolder folder;
-  Session session(make_scene);
-  session.set_appearance("sheet", striped);
-  const auto file = folder.path() / "some.session";
-  write_session_record(file, session.record(file, session.scene().view));
-  const auto json = nlohmann::ordered_json::parse(TemporaryFolder::read(file));
-  const auto message_with = [&](const char* key, const nlohmann::ordered_json& value) {
-    auto changed = json;
-    changed["actions"][0]["appearance"][key] = value;
-    folder.write("changed.session", changed.dump());
-    try {
-      read_session_record(folder.path() / "changed.session");
-    } catch (const pliant::Error& error) {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
-  CHECK(message_with("front", {0.5, 0.5, 0.5}).empty());
-  CHECK(message_with("front", {0.5, 1.5, 0.5}).find("actions[0].appearance.front[1]: must be from 0 to 1") !=
-        std::string::npos);
-  CHECK(message_with("front", "red").find("must be a list") != std::string::npos);
-  CHECK(message_with("pattern", "dots").find("'dots' is not known") != std::string::npos);
-  CHECK(message_with("pattern_size", 0).find("pattern_size: is out of range") != std::string::npos);
-}
-
-}  // namespace test_session_bodies
+}  // namespace test_session_parts
