@@ -75,6 +75,9 @@ struct SwitchOn {
 struct Add {
   std::string type, body;
 };
+struct Push {
+  std::vector<Index> vertices;
+};
 struct Undo {};
 struct Redo {};
 struct Restart {
@@ -100,7 +103,7 @@ using Action = std::variant<action::Grab, action::PullTo, action::PullStiffness,
                             action::Unpin, action::MovePin, action::DropPin, action::MoveCollider, action::DropCollider,
                             action::Set, action::SetMaterial, action::Undo, action::Redo, action::Restart, action::Save,
                             action::PinVertices, action::UnpinVertices, action::HoldPins, action::MoveHeld,
-                            action::DropHeld, action::SetAppearance, action::SwitchOn, action::Add>;
+                            action::DropHeld, action::SetAppearance, action::SwitchOn, action::Add, action::Push>;
 
 /// An action, and how many steps the session had taken before it.
 struct TimedAction {

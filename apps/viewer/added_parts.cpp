@@ -78,4 +78,12 @@ AddedPart make_part(const std::string& type, const std::string& name, const std:
   return {std::string(found->list), entry.dump()};
 }
 
+AddedPart make_push(const std::string& name, const std::string& body, const std::vector<Index>& vertices,
+                    const pliant::Vec3& force) {
+  const std::string_view type = pliant::TestForce::info.name;
+  const Json entry = {
+      {"type", type}, {"name", name}, {"body", body}, {"vertices", vertices}, {"force", json_of(force)}};
+  return {"forces", entry.dump()};
+}
+
 }  // namespace pliant_viewer

@@ -24,4 +24,8 @@ std::vector<AddableType> addable_types();
 AddedPart make_part(const std::string& type, const std::string& name, const std::string& body,
                     const pliant::BoundingBox& bodies, Real floor);
 
+/// The same for a test force [N] on vertices of a body, by their numbers in it.
+AddedPart make_push(const std::string& name, const std::string& body, const std::vector<Index>& vertices,
+                    const pliant::Vec3& force);
+
 }  // namespace pliant_viewer

@@ -31,9 +31,8 @@ class Session {
 
   const pliant::Simulation& simulation() const { return scene_.simulation; }
   const pliant::Scene& scene() const { return scene_; }
-  void set_threads(Index threads);  ///< for a scene that does not set it; see SolverSettings::threads
-  /// `stop` is asked whether to abandon a step, see Simulation::set_stop.
-  void set_stop(std::function<bool()> stop);
+  void set_threads(Index threads);            ///< for a scene that does not set it; see SolverSettings::threads
+  void set_stop(std::function<bool()> stop);  ///< asked whether to abandon a step, see Simulation::set_stop
   /// Takes a step. Events that are due but can no longer act, because the user removed what they act on, are skipped.
   /// @throws pliant::Error as Scene::step does.
   pliant::StepReport step();
@@ -103,14 +102,15 @@ class Session {
   /// Adds a force or a collider, by the name of its type (added_parts.h), on a body where it needs one.
   /// @throws pliant::Error (input): no such type or body, one that refuses it, or the scene has no text.
   void add(const std::string& type, const std::string& body = {});
+  /// Adds a test force on vertices, of each body one, which holds up its weight. @throws pliant::Error as of add().
+  void push(const std::vector<Index>& vertices);
   bool can_add() const { return unchanged_.has_text(); }
 
   /// What undo() and redo() would take back and do again, "pin"; empty: nothing.
   std::string undone_next() const { return done_.empty() ? "" : done_.back().what; }
   std::string redone_next() const { return undone_.empty() ? "" : undone_.back().what; }
   std::uint64_t edit_count() const { return edit_count_; }  ///< of all changes so far, those taken back too
-  /// Take back the last change, and do it again; what moves stays where it is, and time goes on. Nothing has changed
-  /// when these throw.
+  /// Take back the last change, and do it again, where all is now. Nothing has changed when these throw.
   void undo();
   void redo();
 

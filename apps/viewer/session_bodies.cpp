@@ -1,11 +1,13 @@
 // What bodies look like, which constraints and forces are switched off, and what is added to a scene.
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 #include "pliant/collision/colliders/builtin.h"
 #include "pliant/constraints/position.h"
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
+#include "pliant/forces/builtin.h"
 #include "pliant/materials/change_material.h"
 #include "pliant/simulation/held.h"
 #include "viewer/added_parts.h"
@@ -38,6 +40,14 @@ Real floor_height(const pliant::Simulation& simulation) {
     height = std::max(height, simulation.pose(id).position.z());
   }
   return height;
+}
+
+/// On earth [N].
+Real weight_of(const pliant::Body& body, const pliant::Simulation& simulation) {
+  const std::vector<Real>& masses = simulation.state().masses;
+  const auto first = masses.begin() + body.first_vertex;
+  const pliant::Gravity usual;
+  return usual.acceleration.norm() * std::accumulate(first, first + body.mesh.vertex_count(), Real{0});
 }
 
 /// How often each name is given: programs may give one twice.
@@ -133,6 +143,25 @@ void Session::add(const std::string& type, const std::string& body) {
   const pliant::BoundingBox box = pliant::bounding_box(simulation().state().positions);
   changes.added[name] = make_part(type, name, body, box, floor_height(simulation()));
   change_parts(std::move(changes), "add " + name);
+}
+
+void Session::push(const std::vector<Index>& vertices) {
+  const auto noted = note(action::Push{vertices});
+  if (!can_add()) pliant::fail_input("this scene was made by a program, which is the place to add something to it");
+  std::map<pliant::BodyId, std::vector<Index>> of_bodies;
+  for (const Index vertex : vertices) {
+    const pliant::BodyId body = body_of(vertex);
+    of_bodies[body].push_back(vertex - simulation().body(body).first_vertex);
+  }
+  SceneChanges changes = changes_;
+  for (const auto& [id, numbers] : of_bodies) {
+    const pliant::Body& body = simulation().body(id);
+    const std::string name = unchanged_.free_name(std::string(pliant::TestForce::info.name), changes);
+    const Real weight = weight_of(body, simulation());
+    const pliant::Vec3 force(0, 0, weight / static_cast<Real>(numbers.size()));
+    changes.added[name] = make_push(name, body.name, numbers, force);
+  }
+  if (!of_bodies.empty()) change_parts(std::move(changes), "push");
 }
 
 std::map<std::string, bool> Session::switches() const {

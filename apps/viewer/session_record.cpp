@@ -21,10 +21,11 @@ constexpr int format_version = 1;
 
 /// In the order of Action.
 constexpr std::array<std::string_view, std::variant_size_v<Action>> action_names = {
-    "grab",      "pull_to",   "pull_stiffness", "let_go",         "pin",          "unpin",
-    "move_pin",  "drop_pin",  "move_collider",  "drop_collider",  "set",          "set_material",
-    "undo",      "redo",      "restart",        "save",           "pin_vertices", "unpin_vertices",
-    "hold_pins", "move_held", "drop_held",      "set_appearance", "switch_on",    "add"};
+    "grab",      "pull_to",        "pull_stiffness", "let_go",        "pin",
+    "unpin",     "move_pin",       "drop_pin",       "move_collider", "drop_collider",
+    "set",       "set_material",   "undo",           "redo",          "restart",
+    "save",      "pin_vertices",   "unpin_vertices", "hold_pins",     "move_held",
+    "drop_held", "set_appearance", "switch_on",      "add",           "push"};
 
 /// Calls field(name, value) with what an action has.
 template <class Action, class Field>

@@ -125,6 +125,7 @@ void Session::do_again(const Action& action) {
                  [&](const action::SetAppearance& set) { set_appearance(set.body, set.appearance, set.goes_on); },
                  [&](const action::SwitchOn& switched) { switch_on(switched.name, switched.on); },
                  [&](const action::Add& added) { add(added.type, added.body); },
+                 [&](const action::Push& pushed) { push(pushed.vertices); },
                  [&](const action::Undo&) { undo(); },
                  [&](const action::Redo&) { redo(); },
                  [&](const action::Restart& restarted) { restart(restarted.keep_changes); },

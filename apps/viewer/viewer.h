@@ -3,6 +3,7 @@
 #include <deque>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -63,6 +64,8 @@ class Viewer {
   bool is_help_open() const { return is_help_open_; }
   const ScenePanel& scene_panel() const { return scene_panel_; }
   const PlotsPanel& plots_panel() const { return plots_panel_; }
+  /// Where a button for the selection stands: left, top, right, bottom.
+  const std::array<float, 4>& button_place(const std::string& label) const { return button_places_.at(label); }
   const Tour& tour() const { return tour_; }
   const std::string& message() const { return message_; }
   /// Takes back the last change of the scene, and does it again, as soon as its thread comes to it.
@@ -177,6 +180,7 @@ class Viewer {
   std::uint64_t frame_count_ = 0;
   bool is_help_open_ = false;
   bool wants_picture_ = false;
+  std::map<std::string, std::array<float, 4>> button_places_;
   std::function<std::string(const std::string&)> open_;
   std::function<void(const std::filesystem::path&)> saved_;
   ScenePanel scene_panel_;

@@ -126,10 +126,12 @@ void Viewer::draw_selection_rows(float width) {
   row_label("selected", "arrows and rings move and turn what is pinned of it");
   wrapped_text(text_of(selected, pinned, live->shown()));
   draw_measures(selected, live->shown());
-  const auto button = [width](const char* label, bool is_enabled, const char* help) {
+  const auto button = [&](const char* label, bool is_enabled, const char* help) {
     ImGui::BeginDisabled(!is_enabled);
     const bool is_pressed = ImGui::Button(label, {width, 0});
     ImGui::EndDisabled();
+    const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+    button_places_[label] = {low.x, low.y, high.x, high.y};
     explain(help);
     return is_pressed;
   };
@@ -144,6 +146,12 @@ void Viewer::draw_selection_rows(float width) {
   if (button("Copy", true, "their numbers, as a scene file has them behind \"on\"; of several bodies a line each")) {
     ImGui::SetClipboardText(scene_text_of(selected, *live->shown().render_mesh, *live->shown().body_names).c_str());
     say(selected.size() == 1 ? "copied its number" : fmt::format("copied {} numbers", selected.size()));
+  }
+  ImGui::SameLine();
+  if (button("Push", live->shown().can_add,
+             "a test force on them, which holds up the weight of their body; below, under Forces, it is changed")) {
+    post(mouse_view(), LiveScene::Kind::changes,
+         [vertices = indices(selected)](Session& session) { session.push(vertices); });
   }
   ImGui::SameLine();
   if (button("Clear", true, "Esc: select nothing")) select_.clear();

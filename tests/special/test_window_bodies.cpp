@@ -199,6 +199,24 @@ TEST_CASE("wind and a ball are added from the panel, and the arrow of the wind i
   CHECK(desk.source.frame().content.colliders.size() == 1);
 }
 
+TEST_CASE("what is selected is pushed by a button") {
+  Desk desk([] {
+    return pliant::parse_scene(R"({ "pliant": 1, "bodies": [ { "name": "sheet", "mass": { "total": 1 },
+      "mesh": { "shape": "grid", "columns": 9, "rows": 9, "size": [1, 1], "plane": "xz" },
+      "constraints": [ { "type": "position", "on": [72, 80] }, { "type": "edge_spring", "stiffness": 500 } ] } ] })",
+                               {}, "sheet");
+  });
+  desk.key("ctrl+a");
+  desk.turns(4);
+  CHECK(desk.viewer.selection().selected().size() == 81);
+  desk.click(middle(desk.viewer.button_place("Push")));
+  desk.turn_until([&] { return desk.shown().undone_next == "push"; });
+  desk.turn_until([&] { return desk.parameter("force:test_force.force") == 0; });  // along x
+  desk.key("ctrl+z");
+  desk.turn_until([&] { return desk.shown().undone_next.empty(); });
+  CHECK(desk.shown().note.empty());
+}
+
 int main(int argc, char** argv) {
   return run_on_display(argc, argv);
 }

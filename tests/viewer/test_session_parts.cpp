@@ -394,6 +394,34 @@ TEST_CASE("what is added is moved before the first step, and begins there") {
   }
 }
 
+TEST_CASE("selected vertices are pushed by a test force of each body") {
+  const TemporaryFolder folder;
+  Session session(make_scene);
+  steps(session, 5);
+  session.push({3, 4, 5, 90});
+  CHECK(session.undone_next() == "push");
+  CHECK(has_force(session, "test_force"));
+  CHECK(has_force(session, "test_force 2"));
+  const auto* force = session.simulation().options<pliant::TestForce>(*session.simulation().find_force("test_force"));
+  REQUIRE(force != nullptr);
+  const std::vector<Real>& masses = session.simulation().state().masses;
+  Real weight = 0;
+  for (std::size_t i = 0; i < 81; ++i) weight += 9.81 * masses[i];
+  CHECK(3 * force->force[0].z() == doctest::Approx(weight));
+  const float before = place(session, 4).z();
+  steps(session, 10);
+  CHECK(place(session, 4).z() > before + 0.01F);
+  const Session again = replayed(session, folder);
+  CHECK(positions(again) == positions(session));
+  const auto files = session.save(folder.path() / "pushed.json", session.scene().view);
+  CHECK(pliant::load_scene(files.at(0)).simulation.find_force("test_force 2").has_value());
+  session.undo();
+  CHECK_FALSE(has_force(session, "test_force"));
+  CHECK_THROWS_AS(session.push({100'000}), pliant::Error);
+  session.push({});
+  CHECK(session.undone_next().empty());
+}
+
 TEST_CASE("all that is offered can be added, or says why not") {
   for (const AddableType& type : addable_types()) {
     CAPTURE(type.name);
