@@ -101,7 +101,7 @@ Frame WebScene::frame(const RenderMesh& mesh) {
   frame.positions = pliant_render::to_floats(simulation.state().positions);
   frame.normals = corner_normals(mesh, frame.positions);
   if (view_.colliders) frame.colliders = surfaces_.find(simulation);
-  frame.pins = pliant_render::pinned_vertices(simulation);
+  for (const pliant_viewer::PinnedVertex& pin : session_.pinned_vertices()) frame.pins.push_back(pin.vertex);
   const Bounds bounds = pliant_render::bounds_of(
       {.positions = frame.positions, .values = {}, .markers = {}, .colliders = frame.colliders});
   if (!bounds.is_empty()) {
