@@ -72,6 +72,9 @@ AddedPart make_part(const std::string& type, const std::string& name, const std:
   const std::vector<AddableType> types = addable_types();
   const auto found = std::ranges::find(types, type, &AddableType::name);
   if (found == types.end()) pliant::fail_input("there is no '" + pliant::printable(type) + "' to be added");
+  if (found->is_of_body && body.empty()) {
+    pliant::fail_input("'" + type + "' acts on one body; name it");
+  }
   Json entry = {{"type", type}, {"name", name}};
   if (found->is_of_body) entry["body"] = body;
   if (found->list == "colliders") entry.update(place_beneath(type, bodies, floor));

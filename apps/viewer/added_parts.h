@@ -20,7 +20,8 @@ struct AddableType {
 std::vector<AddableType> addable_types();
 
 /// The entry of a scene file for a force or a collider of that type; a collider stands beneath what is in `bodies` [m],
-/// or above it where it would be under the floor. @throws pliant::Error (input): no such type.
+/// or above it where it would be under the floor. @throws pliant::Error (input): no such type, or no body for one of
+/// a body.
 AddedPart make_part(const std::string& type, const std::string& name, const std::string& body,
                     const pliant::BoundingBox& bodies, Real floor);
 

@@ -12,6 +12,14 @@ Vec2f middle(const std::array<float, 4>& rect) {
   return {(rect[0] + rect[2]) / 2, (rect[1] + rect[3]) / 2};
 }
 
+/// With a text, to which something can be added.
+Scene read_sheet() {
+  return pliant::parse_scene(R"({ "pliant": 1, "bodies": [ { "name": "sheet", "mass": { "total": 1 },
+    "mesh": { "shape": "grid", "columns": 9, "rows": 9, "size": [1, 1], "plane": "xz" },
+    "constraints": [ { "type": "position", "on": [72, 80] }, { "type": "edge_spring", "stiffness": 500 } ] } ] })",
+                             {}, "sheet");
+}
+
 struct BodyDesk : Desk {
   Vec2f widget(const std::string& key) {
     turn_until([&] { return source.body_panel().place_of(key).has_value(); });
@@ -133,12 +141,7 @@ TEST_CASE("constraints and forces are switched off and on by their boxes") {
 }
 
 TEST_CASE("wind and a ball are added from the panel, and the arrow of the wind is turned by the mouse") {
-  Desk desk([] {
-    return pliant::parse_scene(R"({ "pliant": 1, "bodies": [ { "name": "sheet", "mass": { "total": 1 },
-      "mesh": { "shape": "grid", "columns": 9, "rows": 9, "size": [1, 1], "plane": "xz" },
-      "constraints": [ { "type": "position", "on": [72, 80] }, { "type": "edge_spring", "stiffness": 500 } ] } ] })",
-                               {}, "sheet");
-  });
+  Desk desk(read_sheet);
   const auto menu = [&](const char* list) {
     const std::string key = std::string("add ") + list;
     const auto place = [&] { return desk.source.parameter_panel().place_of(key).value(); };
@@ -200,12 +203,7 @@ TEST_CASE("wind and a ball are added from the panel, and the arrow of the wind i
 }
 
 TEST_CASE("what is selected is pushed by a button") {
-  Desk desk([] {
-    return pliant::parse_scene(R"({ "pliant": 1, "bodies": [ { "name": "sheet", "mass": { "total": 1 },
-      "mesh": { "shape": "grid", "columns": 9, "rows": 9, "size": [1, 1], "plane": "xz" },
-      "constraints": [ { "type": "position", "on": [72, 80] }, { "type": "edge_spring", "stiffness": 500 } ] } ] })",
-                               {}, "sheet");
-  });
+  Desk desk(read_sheet);
   desk.key("ctrl+a");
   desk.turns(4);
   CHECK(desk.viewer.selection().selected().size() == 81);

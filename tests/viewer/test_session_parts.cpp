@@ -22,6 +22,28 @@ bool has_force(const Session& session, const std::string& name) {
   return session.simulation().find_force(name).has_value();
 }
 
+/// Holds what a replay, the saved scene, its checkpoint and a restart come to against each other; returns the saved
+/// one.
+pliant::Scene check_kept(Session& session, const TemporaryFolder& folder) {
+  const Session again = replayed(session, folder);
+  CHECK(positions(again) == positions(session));
+  CHECK(again.changes() == session.changes());
+  const auto files = session.save(folder.path() / "kept.json", session.scene().view);
+  REQUIRE(files.size() == 2);
+  pliant::Scene saved = pliant::load_scene(files[0]);
+  pliant::Scene resumed = pliant::read_checkpoint(files[1]);
+  for (int i = 0; i < 20; ++i) {
+    session.step();
+    resumed.step();
+    saved.step();
+  }
+  CHECK(positions(resumed.simulation) == positions(session));
+  session.restart(true);
+  steps(session, 20);
+  CHECK(positions(saved.simulation) == positions(session));
+  return saved;
+}
+
 }  // namespace
 
 TEST_CASE("a constraint and a force are switched off and on while time goes on") {
@@ -78,24 +100,9 @@ TEST_CASE("what is switched off is off in the saved scene, in its checkpoint and
   steps(session, 12);
   session.switch_on("gravity", false);
   steps(session, 6);
-  const Session again = replayed(session, folder);
-  CHECK(positions(again) == positions(session));
-  CHECK(again.changes() == session.changes());
-  const auto files = session.save(folder.path() / "off.json", session.scene().view);
-  REQUIRE(files.size() == 2);
-  pliant::Scene resumed = pliant::read_checkpoint(files[1]);
-  pliant::Scene saved = pliant::load_scene(files[0]);
-  for (int i = 0; i < 20; ++i) {
-    session.step();
-    resumed.step();
-    saved.step();
-  }
-  CHECK(positions(resumed.simulation) == positions(session));
+  const pliant::Scene saved = check_kept(session, folder);
   CHECK_FALSE(saved.simulation.find_group("bend").has_value());
   CHECK_FALSE(saved.simulation.find_force("gravity").has_value());
-  session.restart(true);
-  steps(session, 20);
-  CHECK(positions(saved.simulation) == positions(session));
 }
 
 TEST_CASE("what the scene's own events have acted on from the start on is switched off while they go on") {
@@ -351,26 +358,10 @@ TEST_CASE("forces and colliders are added, changed, switched off, undone, saved 
   session.switch_on("wind 2", false);
   CHECK_FALSE(has_force(session, "wind 2"));
   session.undo();
-  const Session again = replayed(session, folder);
-  CHECK(positions(again) == positions(session));
-  CHECK(again.changes() == session.changes());
-
-  const auto files = session.save(folder.path() / "added.json", session.scene().view);
-  REQUIRE(files.size() == 2);
-  pliant::Scene resumed = pliant::read_checkpoint(files[1]);
-  pliant::Scene saved = pliant::load_scene(files[0]);
-  for (int i = 0; i < 20; ++i) {
-    session.step();
-    resumed.step();
-    saved.step();
-  }
-  CHECK(positions(resumed.simulation) == positions(session));
+  const pliant::Scene saved = check_kept(session, folder);
   CHECK(saved.simulation.find_force("wind 2").has_value());
   CHECK_FALSE(saved.simulation.find_collider("box").has_value());
   CHECK(saved.simulation.options<pliant::SphereCollider>(*saved.simulation.find_collider("sphere"))->radius == 0.05);
-  session.restart(true);
-  steps(session, 20);
-  CHECK(positions(saved.simulation) == positions(session));
   for (int i = 0; i < 9; ++i) session.undo();
   CHECK_FALSE(has_force(session, "wind 2"));
   CHECK_FALSE(session.simulation().find_collider("sphere").has_value());
@@ -436,6 +427,7 @@ TEST_CASE("all that is offered can be added, or says why not") {
     CHECK(session.changes().added.size() == 1);
     const SceneChanges changes = session.changes();
     if (type.is_of_body) CHECK_THROWS_AS(session.add(std::string(type.name), "rope"), pliant::Error);
+    if (type.is_of_body) CHECK_THROWS_AS(session.add(std::string(type.name)), pliant::Error);
     if (type.is_of_body) CHECK_THROWS_AS(session.add(std::string(type.name), "nobody"), pliant::Error);
     CHECK(session.changes() == changes);
   }

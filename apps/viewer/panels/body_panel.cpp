@@ -23,9 +23,9 @@ Color figure_tone() {
 /// What a body has where nobody has chosen anything.
 pliant::BodyTones usual_tones(std::size_t body, const Snapshot& snapshot, const pliant::ViewSettings& view) {
   const pliant_render::RenderMesh& mesh = *snapshot.render_mesh;
-  const auto vertex = std::ranges::find(mesh.bodies, static_cast<std::uint32_t>(body)) - mesh.bodies.begin();
   if (snapshot.appearances->contains((*snapshot.body_names)[body])) return pliant_render::open_tones(body);
   if (snapshot.is_figure.at(body) != 0) return {figure_tone(), figure_tone()};
+  const auto vertex = std::ranges::find(mesh.bodies, static_cast<std::uint32_t>(body)) - mesh.bodies.begin();
   const bool is_given = view.front.has_value() || view.back.has_value();
   const bool has_tone = !is_given && static_cast<std::size_t>(vertex) < mesh.tones.size();
   const pliant::BodyTones tones =
