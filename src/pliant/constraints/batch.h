@@ -91,6 +91,7 @@ class Batch final : public ConstraintGroup {
     ConstraintGroup::sync_parameters(from, order);
     take_in_order(dynamic_cast<const Batch&>(from).fields(), order, Type::fields, std::span<Real>(fields_));
   }
+  std::unique_ptr<ConstraintGroup> copy() const override { return std::make_unique<Batch>(*this); }
   bool freezes_shape() const override { return has_begin_step; }
   bool is_rotation_invariant() const override { return rotates_along; }
   bool is_linear() const override { return has_linear; }

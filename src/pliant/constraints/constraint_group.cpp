@@ -63,6 +63,10 @@ std::span<Real> ConstraintGroup::parameters() {
   return targets();
 }
 
+std::unique_ptr<ConstraintGroup> ConstraintGroup::copy() const {
+  return nullptr;
+}
+
 std::unique_ptr<ConstraintGroup> ConstraintGroup::reordered(std::span<const Index>, std::span<const Index>) const {
   return nullptr;
 }

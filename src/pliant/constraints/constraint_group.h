@@ -105,6 +105,9 @@ class ConstraintGroup {
   /// made of. Never allocates.
   virtual void sync_parameters(const ConstraintGroup& from, std::span<const Index> order);
 
+  /// For a copy of the simulation. Null from a group that cannot.
+  virtual std::unique_ptr<ConstraintGroup> copy() const;
+
   /// Common factor of all weights; 1 where each constraint has a stiffness of its own.
   Real stiffness() const { return stiffness_; }
   /// A changed stiffness is taken up at the next step, with one numeric factorization. Refuses what is not positive.

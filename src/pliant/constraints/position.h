@@ -68,6 +68,7 @@ class HardPins final : public ConstraintGroup {
   std::unique_ptr<ConstraintGroup> reordered(std::span<const Index> order,
                                              std::span<const Index> numbers) const override;
   void sync_parameters(const ConstraintGroup& from, std::span<const Index> order) override;
+  std::unique_ptr<ConstraintGroup> copy() const override { return std::make_unique<HardPins>(*this); }
 
  private:
   std::vector<Index> held_;

@@ -1,6 +1,7 @@
 #pragma once
 // External forces: evaluated at (qₙ, vₙ), before the prediction of a step (thesis Sec. 3.1 and Chapter 5); where energy
 // is kept, conservative ones also at its end, for their work.
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -53,6 +54,9 @@ class Force {
   /// Exchanges the numbers that both were made of with another force of the same type on the same places, so that the
   /// groups of both stay; false, with nothing changed, where that cannot be.
   virtual bool exchange(Force&) { return false; }
+
+  /// For a copy of the simulation, with groups of its own. Null from a force that cannot.
+  virtual std::unique_ptr<Force> copy() const { return nullptr; }
 };
 
 }  // namespace pliant

@@ -34,6 +34,7 @@ class GravityForce final : public Force {
     return energy;
   }
   bool is_conservative() const override { return true; }
+  std::unique_ptr<Force> copy() const override { return std::make_unique<GravityForce>(*this); }
 
  private:
   Vec3 acceleration_;

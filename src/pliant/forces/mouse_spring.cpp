@@ -13,6 +13,7 @@ class MouseSpringForce final : public Force {
   std::string_view type() const override { return MouseSpring::info.name; }
   bool is_conservative() const override { return true; }
   bool is_explicit_spring() const override { return true; }
+  std::unique_ptr<Force> copy() const override { return std::make_unique<MouseSpringForce>(*this); }
 
   void add_to(Positions& forces, const StateView& state, Real) override {
     for (const Index vertex : vertices_) {

@@ -57,6 +57,7 @@ class PressureForce final : public Force {
   std::optional<Index> vertex_out_of_range(Index vertex_count) const override;
   Real potential(const StateView& state) const override;
   bool is_conservative() const override { return true; }
+  std::unique_ptr<Force> copy() const override { return std::make_unique<PressureForce>(*this); }
 
   /// Explicit, at qₙ: stable for itself while h² ω² < 4, with the bound ω² = −dp/dV Σ ‖aᵢ‖²/mᵢ + |p| maxᵢ Σⱼ ‖Hᵢⱼ‖/mᵢ,
   /// a = ∂V/∂x and Hᵢⱼ = ∂²V/∂xᵢ∂xⱼ: the gas as a spring of the one vector a, and the turning of the normals, which

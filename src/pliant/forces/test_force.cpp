@@ -11,6 +11,7 @@ class TimedForce final : public Force {
       : vertices_(std::move(vertices)), options_(options) {}
 
   std::string_view type() const override { return TestForce::info.name; }
+  std::unique_ptr<Force> copy() const override { return std::make_unique<TimedForce>(*this); }
 
   void add_to(Positions& forces, const StateView& state, Real) override {
     if (!options_.is_active(state.step)) return;

@@ -31,6 +31,8 @@ class WindForce final : public Force {
     return true;
   }
 
+  std::unique_ptr<Force> copy() const override { return std::make_unique<WindForce>(surface_, options_); }
+
   void add_to(Positions& forces, const StateView& state, Real) override {
     if (options_.model != WindModel::thesis) return;
     const Vec3 air = air_velocity(options_, state.time);

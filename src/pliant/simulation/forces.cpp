@@ -105,10 +105,6 @@ const ForceRecord& Simulation::record(ForceId id) const {
   return found->second;
 }
 
-const std::string& Simulation::name(ForceId id) const {
-  return record(id).name;
-}
-
 std::optional<ForceId> Simulation::find_force(std::string_view name) const {
   const auto found =
       std::ranges::find(force_records_, name, [](const auto& entry) -> std::string_view { return entry.second.name; });

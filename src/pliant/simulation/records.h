@@ -9,9 +9,12 @@
 #include "pliant/collision/colliders/collider.h"
 #include "pliant/collision/contact/body_contact.h"
 #include "pliant/constraints/constraint_set.h"
+#include "pliant/core/option_visitors.h"
 #include "pliant/forces/force_options.h"
 
 namespace pliant {
+
+class Simulation;
 
 enum class BodyId : Index {};
 enum class GroupId : Index {};
@@ -32,16 +35,73 @@ struct BodyOptions {
   Positions velocities{};  ///< m × 3 [m/s]; default: zero
 };
 
+/// What becomes of the anchors (targets of pins and drags, origins of lines) of a group that is replaced. `kept`: a
+/// constraint of the same vertices has that of its predecessor; `given`: all have what the new options say.
+enum class Anchors { kept, given };
+
+/// The option of a constraint that says where targets or origins are; null for a type without.
+template <class Constraint>
+const Points* anchors_in(const Constraint& options) {
+  if constexpr (requires {
+                  { options.targets } -> std::same_as<const Points&>;
+                }) {
+    return &options.targets;
+  } else if constexpr (requires {
+                         { options.origin } -> std::same_as<const Points&>;
+                       }) {
+    return &options.origin;
+  } else {
+    return nullptr;
+  }
+}
+
 /// The options that something was made of, whatever their type.
 class AnyOptions {
  public:
   virtual ~AnyOptions() = default;
+  virtual void list(OptionLister& lister) const = 0;
+  /// Of constraints, the stiffness that is the common factor of a group, and anchors_in(); null for a type without.
+  virtual const Values* stiffness() const = 0;
+  virtual const Points* anchors() const = 0;
+  /// Makes the group, force or collider of that number, which was made of these, anew: of what it has now, changed.
+  virtual void change(Simulation& simulation, Index number, OptionSetter& setter) const = 0;
 };
+
+/// AnyOptions::change, of options of this type.
+template <class Options, class Owner>
+void change_options(Owner& simulation, Index number, OptionSetter& setter) {
+  const auto changed = [&setter](Options options) {
+    set_options(options, setter);
+    return options;
+  };
+  if constexpr (describes_force<Options>) {
+    simulation.replace(ForceId{number}, changed(*simulation.template options<Options>(ForceId{number})));
+  } else if constexpr (describes_collider<Options>) {
+    simulation.replace(ColliderId{number}, changed(*simulation.template options<Options>(ColliderId{number})));
+  } else {
+    Options options = *simulation.template options<Options>(GroupId{number});
+    set_options(options, setter);
+    const bool gives_anchors = setter.has_changed(anchors_in(options));
+    simulation.replace(GroupId{number}, options, gives_anchors ? Anchors::given : Anchors::kept);
+  }
+}
 
 template <class Options>
 class OptionsOf final : public AnyOptions {
  public:
   explicit OptionsOf(Options given) : options(std::move(given)) {}
+  void list(OptionLister& lister) const override { list_options(options, lister); }
+  const Values* stiffness() const override {
+    if constexpr (requires {
+                    { options.stiffness } -> std::same_as<const Values&>;
+                  })
+      return &options.stiffness;
+    return nullptr;
+  }
+  const Points* anchors() const override { return anchors_in(options); }
+  void change(Simulation& simulation, Index number, OptionSetter& setter) const override {
+    change_options<Options>(simulation, number, setter);
+  }
   const Options options;
 };
 
@@ -90,18 +150,6 @@ Group group_of(BodyId id, const Constraint& options, std::string name, View&& vi
   return group;
 }
 
-/// The option of a constraint that says where targets or origins are; null for a type without.
-template <class Constraint>
-const Points* anchors_in(const Constraint& options) {
-  if constexpr (requires { options.targets; }) {
-    return &options.targets;
-  } else if constexpr (requires { options.origin; }) {
-    return &options.origin;
-  } else {
-    return nullptr;
-  }
-}
-
 template <class Constraint>
 bool gives_anchors(const Constraint& options) {
   const Points* anchors = anchors_in(options);
@@ -138,9 +186,5 @@ struct ColliderRecord {
   Pose pose{};  ///< where it began, or was put last
   ColliderMotion motion{};
 };
-
-/// What becomes of the anchors (targets of pins and drags, origins of lines) of a group that is replaced. `kept`: a
-/// constraint of the same vertices has that of its predecessor; `given`: all have what the new options say.
-enum class Anchors { kept, given };
 
 }  // namespace pliant

@@ -33,6 +33,9 @@ class Simulation : public Colliders {
   ~Simulation();
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
+  /// The same at the same moment, with all ids and the bits of its next steps; set_stop() is not taken over. Refuses
+  /// groups and forces of a user's own that have no copy().
+  Simulation copy() const;
 
   /// Checks the mesh (check_mesh) and the masses (vertex_masses).
   BodyId add_body(Mesh mesh, const Mass& mass, BodyOptions options = {});
@@ -48,8 +51,7 @@ class Simulation : public Colliders {
   void remove(GroupId id);
   const std::map<GroupId, Group>& groups() const { return groups_; }
   std::vector<std::string> group_names() const;
-  /// The group of that name; of several, the one that was added first.
-  std::optional<GroupId> find_group(std::string_view name) const;
+  std::optional<GroupId> find_group(std::string_view name) const;  ///< of several, the one that was added first
 
   /// Makes a group anew from other options, of its type or another one, under its id and name. Targets and origins
   /// that the options leave open stay, where a constraint has the vertices of an old one; else they begin where the
@@ -112,10 +114,10 @@ class Simulation : public Colliders {
   ForceScope scope(std::optional<BodyId> id) const;
   void remove(ForceId id);
   const std::map<ForceId, std::unique_ptr<Force>>& forces() const { return forces_; }
-  const std::string& name(ForceId id) const;
-  /// The force of that name; of several, the one that was added first.
-  std::optional<ForceId> find_force(std::string_view name) const;
-  Index vertex(BodyId id, Index vertex_of_body) const;  ///< its index among all; refuses one out of range
+  const ForceRecord& record(ForceId id) const;
+  const std::string& name(ForceId id) const { return record(id).name; }
+  std::optional<ForceId> find_force(std::string_view name) const;  ///< of several, the one that was added first
+  Index vertex(BodyId id, Index vertex_of_body) const;             ///< its index among all; refuses one out of range
 
   using Colliders::add, Colliders::name, Colliders::options, Colliders::remove, Colliders::replace;
   using Colliders::set_target, Colliders::target;
@@ -172,7 +174,6 @@ class Simulation : public Colliders {
   GroupId add_group(Group added);
   void replace_group(GroupId id, Group renewed, Anchors anchors);
   void exchange_group(GroupId id, Group renewed);
-  const ForceRecord& record(ForceId id) const;
   ForceId add_force(ForceRecord record, std::unique_ptr<Force> force);
   void exchange_force(ForceId id, ForceRecord record, std::unique_ptr<Force> force);
   void forces_have_changed(const Force& force);
@@ -192,8 +193,7 @@ class Simulation : public Colliders {
   std::set<ForceId> warned_forces_;  // whose warning stands in warnings_ and still holds
   Index next_group_ = 0;
   Index next_force_ = 0;
-  bool groups_changed_ = true;
-  bool forces_changed_ = true;
+  bool groups_changed_ = true, forces_changed_ = true;
 };
 
 }  // namespace pliant

@@ -1,0 +1,91 @@
+// Types of a user's own: what they name can be listed and set like that of the built-in ones.
+#include <doctest/doctest.h>
+
+#include "own_types.h"
+#include "pliant/core/error.h"
+#include "pliant/mesh/shapes.h"
+#include "pliant/simulation/parameters.h"
+#include "run.h"
+
+namespace test_own_types {
+
+using namespace pliant;
+using namespace pliant_tests;
+
+namespace {
+
+struct OwnTypes {
+  Simulation simulation{{.iterations = 5, .threads = 1}};
+  BodyId cloth = simulation.add_body(grid({.columns = 5, .rows = 5, .plane = Plane::xy}), Mass::area_density(0.2));
+  GroupId ball = simulation.add(cloth, OutsideBall{.center = {0.5, 0.5, -0.1}, .radius = 0.2}, "ball");
+  ForceId whirl = simulation.add(Whirl{});
+  ColliderId egg = simulation.add(EggCollider{.center = {0, 0, -2}});
+};
+
+Vec3 value_of(const Simulation& simulation, const ParameterOwner& owner, const char* option) {
+  return parameter(simulation, {owner, option}).value;
+}
+
+}  // namespace
+
+TEST_CASE("the options that a constraint of one's own names are listed with unit, kind and range") {
+  OwnTypes own;
+  const std::vector<Parameter> list = list_parameters(own.simulation, own.ball);
+  REQUIRE(list.size() == 5);
+  CHECK(list[0].handle.option == "stiffness");
+  CHECK(list[0].value[0] == 1e3);
+  CHECK(list[0].unit == "N/m");
+  CHECK(list[1].kind == ParameterKind::vector);
+  CHECK(list[1].value == Vec3(0.5, 0.5, -0.1));
+  CHECK(list[2].name == "ball");
+  CHECK(list[2].type == "outside_ball");
+  CHECK(list[2].range.excludes_min);
+  CHECK(list[3].kind == ParameterKind::choice);
+  CHECK(list[3].choices == std::vector<std::string>{"as_given", "double"});
+  CHECK(list[4].kind == ParameterKind::flag);
+}
+
+TEST_CASE("setting them makes the constraints anew") {
+  OwnTypes own;
+  const auto nearest = [&] {
+    const Vec3 center = own.simulation.options<OutsideBall>(own.ball)->center;
+    return (own.simulation.state().positions.rowwise() - center.transpose()).rowwise().norm().minCoeff();
+  };
+  set_parameter(own.simulation, {own.ball, "stiffness"}, {1e5, 0, 0});
+  CHECK(value_of(own.simulation, own.ball, "stiffness")[0] == 1e5);
+  advance(own.simulation, 20);
+  CHECK(nearest() == doctest::Approx(0.2).epsilon(0.05));
+  set_parameter(own.simulation, {own.ball, "size"}, {1, 0, 0});
+  advance(own.simulation, 20);
+  CHECK(nearest() == doctest::Approx(0.4).epsilon(0.05));
+  set_parameter(own.simulation, {own.ball, "is_hollow"}, {1, 0, 0});
+  const auto options = own.simulation.options<OutsideBall>(own.ball);
+  CHECK(options->is_hollow);
+  CHECK(options->size == BallSize::double_);
+  CHECK(own.simulation.stiffness(own.ball) == 1e5);
+  CHECK_THROWS_WITH_AS(set_parameter(own.simulation, {own.ball, "radius"}, {0, 0, 0}),
+                       "outside_ball: radius: 0 is out of range; give a finite number above 0 [m]", Error);
+  CHECK_THROWS_AS(set_parameter(own.simulation, {own.ball, "passed_over"}, {1, 0, 0}), Error);
+}
+
+TEST_CASE("forces and colliders of one's own are set as well") {
+  OwnTypes own;
+  CHECK(list_parameters(own.simulation, own.whirl).size() == 1);
+  set_parameter(own.simulation, {own.whirl, "strength"}, {0, 0, 0});
+  own.simulation.step();
+  CHECK(own.simulation.state().velocities.leftCols(2).cwiseAbs().maxCoeff() < 1e-12);
+  set_parameter(own.simulation, {own.whirl, "strength"}, {4, 0, 0});
+  own.simulation.step();
+  CHECK(own.simulation.state().velocities.leftCols(2).cwiseAbs().maxCoeff() > 1e-2);
+  CHECK_THROWS_AS(set_parameter(own.simulation, {own.whirl, "strength"}, {51, 0, 0}), Error);
+
+  set_parameter(own.simulation, {own.egg, "velocity"}, {0, 0, 1});
+  const Real before = own.simulation.pose(own.egg).position.z();
+  own.simulation.step();
+  CHECK(own.simulation.pose(own.egg).position.z() == doctest::Approx(before + 1.0 / 60));
+  set_parameter(own.simulation, {own.egg, "height"}, {0.5, 0, 0});
+  CHECK(own.simulation.options<EggCollider>(own.egg)->height == 0.5);
+  CHECK(own.simulation.collider(own.egg).shape->distance({0, 0, 1}).distance == doctest::Approx(0.5));
+}
+
+}  // namespace test_own_types
