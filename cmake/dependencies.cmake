@@ -35,18 +35,26 @@ if(PLIANT_BUILD_IO)
   find_package(nlohmann_json 3.11 REQUIRED)
 endif()
 
+# What pliant::viewer links besides: windows, with their mouse and keys; OpenGL, with and without a display; what is drawn
+# flat on it; WebP decodes the pictures of the list of scenes. Each module of pkg-config has its own name in capitals.
+set(pliant_viewer_packages "glfw3 3.3")
+set(pliant_viewer_modules "epoxy>=1.5" "egl" "imgui" "libwebp>=1.0")
+if(PLIANT_BUILD_VIEWER)
+  foreach(package IN LISTS pliant_viewer_packages)
+    separate_arguments(package UNIX_COMMAND "${package}")
+    find_package(${package} REQUIRED)
+  endforeach()
+  find_package(PkgConfig REQUIRED)
+  foreach(module IN LISTS pliant_viewer_modules)
+    string(REGEX REPLACE ">=.*" "" name "${module}")
+    string(TOUPPER "${name}" name)
+    pkg_check_modules(${name} REQUIRED IMPORTED_TARGET "${module}")
+  endforeach()
+  # Headers that encode PNG files.
+  pkg_check_modules(STB REQUIRED IMPORTED_TARGET stb)
+endif()
 if(PLIANT_BUILD_CLI)
   find_package(CLI11 2.1 REQUIRED)
-  # OpenGL, with and without a display, and what is drawn flat on it; stb encodes PNG files, WebP decodes the pictures of
-  # the list of scenes.
-  find_package(PkgConfig REQUIRED)
-  pkg_check_modules(EPOXY REQUIRED IMPORTED_TARGET epoxy>=1.5)
-  pkg_check_modules(EGL REQUIRED IMPORTED_TARGET egl)
-  pkg_check_modules(IMGUI REQUIRED IMPORTED_TARGET imgui)
-  pkg_check_modules(STB REQUIRED IMPORTED_TARGET stb)
-  pkg_check_modules(WEBP REQUIRED IMPORTED_TARGET libwebp>=1.0)
-  # Windows, with their mouse and keys.
-  find_package(glfw3 3.3 REQUIRED)
 endif()
 # The Python module is for the system's Python where there is one, whatever else stands first in PATH.
 if(PLIANT_BUILD_PYTHON)

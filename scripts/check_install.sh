@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs a finished build to a place of its own, sees that all is there, then builds and runs examples/consumer against
-# what was installed; then builds (without optimizing, which is quick) and installs the algorithm alone, with headers in
+# what was installed, and examples/window, which without a display says so; then builds (without optimizing, which is quick) and installs the algorithm alone, with headers in
 # the way that refuse JSON, zlib and XML, and examples/algorithm_only.
 #   scripts/check_install.sh [PRESET]   release when none is given; it must have been built
 set -euo pipefail
@@ -19,16 +19,31 @@ for file in bin/pliant share/man/man1/pliant.1 share/bash-completion/completions
   fi
 done
 
-# Builds and runs an example against what was installed under a prefix, away from this tree, so that nothing else is found.
-#   run_example NAME PREFIX [CMAKE_OPTION...]
-run_example() {
+# Builds an example against what was installed under a prefix, away from this tree, so that nothing else is found.
+#   build_example NAME PREFIX [CMAKE_OPTION...]
+build_example() {
   cp -r "examples/$1" "$work/$1"
   cmake -S "$work/$1" -B "$work/$1/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$2" "${@:3}"
   cmake --build "$work/$1/build"
+}
+# The same, and runs it.
+run_example() {
+  build_example "$@"
   (cd "$work/$1/build" && "./$1")
 }
 run_example consumer "$work/prefix"
 (cd "$work" && prefix/bin/pliant --version)
+display=()
+if command -v xvfb-run >/dev/null; then display=(xvfb-run -a -s "-screen 0 1280x800x24 -noreset"); fi
+build_example window "$work/prefix"
+if ((${#display[@]} > 0)); then
+  (cd "$work/window/build" && "${display[@]}" ./window 0.5)
+fi
+if (cd "$work/window/build" && env -u DISPLAY -u WAYLAND_DISPLAY ./window 0.5 2>"$work/refusal"); then
+  echo "check_install.sh: examples/window ran without a display" >&2
+  exit 1
+fi
+grep -q "there is no display for a window" "$work/refusal"
 
 mkdir -p "$work/refused/nlohmann"
 echo '#error "the algorithm needs no JSON"' >"$work/refused/nlohmann/json.hpp"

@@ -5,7 +5,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
-#include <thread>
 #include <utility>
 
 #include <fmt/format.h>
@@ -44,15 +43,6 @@ void check(const ViewArguments& arguments) {
   check_session(arguments);
   check_checkpoint(arguments, "change it in the window, or its scene file");
   if (arguments.overrides.steps) pliant::fail_input("--steps: a window goes on until it is closed; leave it out");
-}
-
-/// A driver that draws with the processor and the simulation each leave one to the other, unless their user has said
-/// something else.
-int spare_threads() {
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1);
-}
-void limit_software_driver() {
-  setenv("LP_NUM_THREADS", std::to_string(spare_threads()).c_str(), 0);
 }
 
 bool is_run(const ViewArguments& arguments) {
@@ -104,7 +94,7 @@ Shown show_run(const ViewArguments& arguments) {
 }
 
 int threads_beside(const pliant_viewer::Window& window) {
-  return window.is_software() ? spare_threads() : 0;
+  return window.is_software() ? pliant_viewer::spare_threads() : 0;
 }
 
 /// A recorded session, and its scene as it was opened.
@@ -262,7 +252,7 @@ int view_scene(const ViewArguments& given) {
 int view(const ViewArguments& arguments) {
   check(arguments);
   catch_interrupts();
-  limit_software_driver();
+  pliant_viewer::limit_software_driver();
   pliant_viewer::Window::require_display();  // before anyone waits for a scene to be read
   if (is_session(arguments)) return view_session(arguments);
   return is_run(arguments) ? view_run(arguments) : view_scene(arguments);

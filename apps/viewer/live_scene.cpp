@@ -64,6 +64,16 @@ LiveScene::LiveScene(MakeScene make, Index threads, bool is_playing, std::functi
 }
 
 LiveScene::~LiveScene() {
+  end();
+}
+
+pliant::Scene LiveScene::close() {
+  end();
+  return session_.close();
+}
+
+void LiveScene::end() {
+  if (!thread_.joinable()) return;
   {
     const std::lock_guard lock(mutex_);
     is_closing_ = true;
@@ -344,7 +354,7 @@ void LiveScene::publish() {
   back_.edits = session_.edit_count();
   back_.is_replaying = session_.is_replaying();
   back_.replayed = session_.replayed();
-  back_.can_add = session_.can_add();
+  back_.has_text = session_.has_text();
   back_.has_unsaved_changes = session_.has_unsaved_changes();
   back_.restarts = session_.restarts();
   back_.rebuilds = session_.rebuilds();

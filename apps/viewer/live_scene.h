@@ -47,7 +47,7 @@ struct Snapshot {
   std::string redone_next;
   std::uint64_t edits = 0;           ///< changes so far
   bool has_unsaved_changes = false;  ///< of the scene
-  bool can_add = false;              ///< forces and colliders
+  bool has_text = false;             ///< see Session::has_text
   bool is_replaying = false;         ///< a recorded session
   ReplayReport replayed;             ///< how far that is
   std::uint64_t restarts = 0;        ///< number of restarts so far
@@ -89,6 +89,9 @@ class LiveScene {
   LiveScene(const LiveScene&) = delete;
   LiveScene& operator=(const LiveScene&) = delete;
 
+  /// Ends the simulation's thread, in the middle of a step if there is one, and hands the scene out: the last call.
+  pliant::Scene close();
+
   /// Queues a command; if it throws, the message becomes the note of a snapshot. Returns its number, to be compared
   /// with Snapshot::commands.
   std::uint64_t post(Command command, Kind kind = Kind::changes);
@@ -109,6 +112,7 @@ class LiveScene {
   Real suggested_pull() const { return suggested_pull_; }
 
  private:
+  void end();
   void work();
   void turn();
   void run_commands();

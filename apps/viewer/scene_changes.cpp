@@ -128,7 +128,8 @@ UnchangedScene::UnchangedScene(const pliant::Scene& scene) {
 
 std::string UnchangedScene::free_name(const std::string& base, const SceneChanges& changes) const {
   const auto is_taken = [&](const std::string& name) {
-    return as_read_.places.contains(name) || as_read_.later_places.contains(name) || changes.added.contains(name) ||
+    return groups_.contains(name) || as_read_.places.contains(name) || as_read_.later_places.contains(name) ||
+           changes.added.contains(name) ||
            std::ranges::find(as_read_.group_names, name) != as_read_.group_names.end() ||
            std::ranges::find(as_read_.collider_names, name) != as_read_.collider_names.end();
   };

@@ -1,9 +1,7 @@
 #include "viewer/session.h"
 
 #include <algorithm>
-#include <tuple>
 
-#include "pliant/collision/colliders/builtin.h"
 #include "pliant/constraints/drag.h"
 #include "pliant/core/error.h"
 
@@ -35,16 +33,11 @@ pliant::Drag drag_of(const Pull& pull, Index first_vertex) {
 }
 
 /// Ends what a collider does by itself.
-template <class... Types>
-void stop_collider(std::tuple<Types...>*, pliant::Simulation& simulation, pliant::ColliderId id) {
-  const auto stop_as = [&]<class Type>(Type*) {
-    const auto* options = simulation.options<Type>(id);
-    if (options == nullptr || (options->velocity.isZero(0) && options->angular_velocity.isZero(0))) return;
-    Type at_rest = *options;
-    at_rest.velocity = at_rest.angular_velocity = pliant::Vec3::Zero();
-    simulation.replace(id, at_rest);
-  };
-  (stop_as(static_cast<Types*>(nullptr)), ...);
+void stop_collider(pliant::Simulation& simulation, pliant::ColliderId id) {
+  for (const pliant::Parameter& each : list_parameters(simulation, id)) {
+    const bool moves_it = each.handle.option == "velocity" || each.handle.option == "angular_velocity";
+    if (moves_it && !each.value.isZero(0)) set_parameter(simulation, each.handle, pliant::Vec3::Zero());
+  }
 }
 
 }  // namespace
@@ -52,8 +45,9 @@ void stop_collider(std::tuple<Types...>*, pliant::Simulation& simulation, pliant
 Session::Session(MakeScene make)
     : make_(std::move(make)),
       scene_(make_()),
-      unchanged_(scene_.simulation.state().step == 0 ? UnchangedScene(scene_)
-                                                     : UnchangedScene(parse_scene(scene_.source))),
+      unchanged_(scene_.simulation.state().step == 0 || scene_.source.texts.empty()
+                     ? UnchangedScene(scene_)
+                     : UnchangedScene(parse_scene(scene_.source))),
       collider_speed_(suggest_collider_speed(scene_.simulation)) {
   begin_record(scene_);
 }
@@ -61,6 +55,12 @@ Session::Session(MakeScene make)
 void Session::set_stop(std::function<bool()> stop) {
   stop_ = std::move(stop);
   scene_.simulation.set_stop(stop_);
+}
+
+pliant::Scene Session::close() {
+  let_go();
+  set_stop({});
+  return std::move(scene_);
 }
 
 void Session::set_threads(Index threads) {
@@ -71,6 +71,7 @@ void Session::set_threads(Index threads) {
 
 pliant::StepReport Session::step() {
   do_what_is_due();
+  if (hooks_.before_step) hooks_.before_step(scene_.simulation);
   steer_colliders();
   pliant::StepReport report;
   try {
@@ -126,7 +127,7 @@ void Session::move_collider(pliant::ColliderId collider, const Vec3f& position) 
   const auto noted = note(action::MoveCollider{static_cast<Index>(collider), position});
   scene_.timeline.leave_alone(simulation, collider);
   left_alone_.insert(collider);
-  stop_collider(static_cast<pliant::BuiltinColliders*>(nullptr), simulation, collider);
+  stop_collider(simulation, collider);
   collider_goals_[collider] = position.cast<Real>();
 }
 

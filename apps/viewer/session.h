@@ -13,6 +13,7 @@
 #include "viewer/body_materials.h"
 #include "viewer/edit.h"
 #include "viewer/history.h"
+#include "viewer/program_hooks.h"
 #include "viewer/scene_changes.h"
 #include "viewer/session_log.h"
 #include "viewer/session_record.h"
@@ -33,10 +34,12 @@ class Session {
   const pliant::Scene& scene() const { return scene_; }
   void set_threads(Index threads);            ///< for a scene that does not set it; see SolverSettings::threads
   void set_stop(std::function<bool()> stop);  ///< asked whether to abandon a step, see Simulation::set_stop
+  void set_hooks(ProgramHooks hooks) { hooks_ = std::move(hooks); }
   /// Takes a step. Events that are due but can no longer act, because the user removed what they act on, are skipped.
-  /// @throws pliant::Error as Scene::step does.
+  /// @throws pliant::Error as Scene::step does, and what before_step throws.
   pliant::StepReport step();
   pliant::Scene& measured_scene() { return scene_; }  ///< to be measured, for plots; nothing of it is changed
+  pliant::Scene close();                              ///< hands the scene out, without a pull: the end of this session
 
   /// Makes the scene again, without a pull. `keep_changes`: values, materials, pins, and what was moved before the
   /// first step, are as they were changed, where the scene still has such a parameter, body or vertex; otherwise they
@@ -51,7 +54,6 @@ class Session {
   void let_go();
   const std::optional<Pull>& pull() const { return pull_; }
   const std::string& note() const { return note_; }  ///< on the last step for the user; empty: none
-
   /// Pins a vertex, by its index in the simulation, where it is now; does nothing if it is pinned already. After a
   /// restart it is pinned where it begins.
   void pin(Index vertex);
@@ -87,12 +89,10 @@ class Session {
   /// Sets a parameter by the key of its slider; does nothing where there is none. `goes_on`: with the change before it
   /// this is one for undo(). @throws pliant::Error (input): a value out of range.
   void set(const std::string& key, const pliant::Vec3& value, bool goes_on = false);
-
-  std::vector<BodyMaterial> materials() const { return list_materials(scene_, figures()); }  ///< of the bodies
+  std::vector<BodyMaterial> materials() const { return list_materials(scene_, figures()); }
   /// Makes the body of that name of another material, where it is. Values that were set of the groups that go are
   /// forgotten. @throws pliant::Error (input): no such body or material, or one that the body cannot be made of.
   void set_material(const std::string& body, const std::string& material);
-
   /// What the body of that name looks like. `goes_on`: as of set(). @throws pliant::Error (input): no such body.
   void set_appearance(const std::string& body, const pliant::BodyAppearance& appearance, bool goes_on = false);
   /// Takes a group of constraints, a force or a collider away, or brings it back as the scene begins with it and as its
@@ -104,8 +104,7 @@ class Session {
   void add(const std::string& type, const std::string& body = {});
   /// Adds a test force on vertices, of each body one, which holds up its weight. @throws pliant::Error as of add().
   void push(const std::vector<Index>& vertices);
-  bool can_add() const { return unchanged_.has_text(); }
-
+  bool has_text() const { return unchanged_.has_text(); }  ///< see UnchangedScene
   /// What undo() and redo() would take back and do again, "pin"; empty: nothing.
   std::string undone_next() const { return done_.empty() ? "" : done_.back().what; }
   std::string redone_next() const { return undone_.empty() ? "" : undone_.back().what; }
@@ -122,7 +121,6 @@ class Session {
 
   /// The text of the scene that save() writes to `file`, from where paths in it start; writes nothing.
   std::string text(const std::filesystem::path& file, const pliant::ViewSettings& view) const;
-
   bool has_unsaved_changes() const { return !(changes_ == saved_changes_); }  ///< since it was saved, or read
   std::uint64_t rebuilds() const { return rebuilds_; }  ///< with other changes, so far: groups have other ids then
   std::uint64_t restarts() const { return restarts_; }  ///< so far
@@ -176,6 +174,7 @@ class Session {
   MakeScene make_;
   pliant::Scene scene_;
   std::function<bool()> stop_;
+  ProgramHooks hooks_;
   UnchangedScene unchanged_;
   SceneChanges changes_, saved_changes_;
   std::vector<Edit> done_, undone_;

@@ -136,7 +136,7 @@ void Session::change_parts(SceneChanges changes, std::string what) {
 
 void Session::add(const std::string& type, const std::string& body) {
   const auto noted = note(action::Add{type, body});
-  if (!can_add()) pliant::fail_input("this scene was made by a program, which is the place to add something to it");
+  if (!has_text()) pliant::fail_input("this scene was made by a program, which is the place to add something to it");
   if (!body.empty()) find_body(body);
   SceneChanges changes = changes_;
   const std::string name = unchanged_.free_name(type, changes);
@@ -147,7 +147,7 @@ void Session::add(const std::string& type, const std::string& body) {
 
 void Session::push(const std::vector<Index>& vertices) {
   const auto noted = note(action::Push{vertices});
-  if (!can_add()) pliant::fail_input("this scene was made by a program, which is the place to add something to it");
+  if (!has_text()) pliant::fail_input("this scene was made by a program, which is the place to add something to it");
   std::map<pliant::BodyId, std::vector<Index>> of_bodies;
   for (const Index vertex : vertices) {
     const pliant::BodyId body = body_of(vertex);

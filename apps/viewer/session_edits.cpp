@@ -318,6 +318,7 @@ void Session::restart(bool keep_changes) {
   note_.clear();
   settle(std::move(scene));
   ++restarts_;
+  if (hooks_.restarted) hooks_.restarted(scene_.simulation);
   if (!is_fresh && !is_as_opened) opened_.was_changed = true;
 }
 

@@ -107,12 +107,12 @@ void Viewer::draw_edit_buttons(float width) {
   ImGui::SameLine();
   if (button("Redo", !shown.redone_next.empty(), "Ctrl + Shift + Z: redo " + shown.redone_next)) redo();
   ImGui::SameLine();
-  if (button("Save", true,
-             "Ctrl + S: the scene with its changes and this view, and a checkpoint of this moment;\n"
-             "Ctrl + Shift + S: under a new name\n"
-             "Ctrl + R: the session, all that was done so far, to be replayed or filmed")) {
-    save_scene();
-  }
+  const std::string saving =
+      shown.has_text ? "Ctrl + S: the scene with its changes and this view, and a checkpoint of this moment;\n"
+                       "Ctrl + Shift + S: under a new name\n"
+                       "Ctrl + R: the session, all that was done so far, to be replayed or filmed"
+                     : "a program has made this scene, so it cannot be saved as a scene file";
+  if (button("Save", shown.has_text, saving)) save_scene();
 }
 
 }  // namespace pliant_viewer

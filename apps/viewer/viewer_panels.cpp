@@ -63,7 +63,7 @@ void Viewer::draw_main_panel() {
   ImGui::SameLine();
   if (ImGui::Button("Restart", {third, 0})) source_.restart(true);
   explain(source_.live() != nullptr ? "R: from the start, with what was changed here\n"
-                                      "Shift + R: all as the scene's file has it"
+                                      "Shift + R: without what was changed"
                                     : "R: to the first frame");
   draw_edit_buttons(third);
   draw_file_buttons(third);

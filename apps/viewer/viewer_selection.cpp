@@ -148,7 +148,7 @@ void Viewer::draw_selection_rows(float width) {
     say(selected.size() == 1 ? "copied its number" : fmt::format("copied {} numbers", selected.size()));
   }
   ImGui::SameLine();
-  if (button("Push", live->shown().can_add,
+  if (button("Push", live->shown().has_text,
              "a test force on them, which holds up the weight of their body; below, under Forces, it is changed")) {
     post(mouse_view(), LiveScene::Kind::changes,
          [vertices = indices(selected)](Session& session) { session.push(vertices); });

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <thread>
 #include <utility>
 
 #define GLFW_INCLUDE_NONE
@@ -44,6 +45,14 @@ bool is_control_down(GLFWwindow* handle) {
 }
 
 }  // namespace
+
+int spare_threads() {
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1);
+}
+
+void limit_software_driver() {
+  setenv("LP_NUM_THREADS", std::to_string(spare_threads()).c_str(), 0);
+}
 
 void Window::require_display() {
   if (glfwInit() == GLFW_TRUE) return;

@@ -36,6 +36,11 @@ struct KeyEvent {
   unsigned int character = 0;  ///< its code point
 };
 
+/// How many threads a simulation has beside a driver that draws with the processor: both leave one to the other.
+int spare_threads();
+/// Tells such a driver, unless its user has said something else; to be called before the first window.
+void limit_software_driver();
+
 class Window {
  public:
   /// @throws pliant::Error (input) if there is no display

@@ -468,7 +468,7 @@ TEST_CASE("scenes that a program has made switch, too") {
   session.undo();
   CHECK(has_group(session, "springs"));
   CHECK(has_force(session, "down"));
-  CHECK_FALSE(session.can_add());
+  CHECK_FALSE(session.has_text());
   CHECK_THROWS_AS(session.add("wind"), pliant::Error);
 }
 

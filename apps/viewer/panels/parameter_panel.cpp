@@ -125,7 +125,7 @@ void ParameterPanel::draw_forces(std::span<const Slider> sliders, const Snapshot
 
 /// A menu of what can be added to a list of the scene.
 void ParameterPanel::draw_adder(std::string_view list, const Snapshot& snapshot, LiveScene& live) {
-  if (!snapshot.can_add) return;
+  if (!snapshot.has_text) return;
   const std::string key = "add " + std::string(list);
   const bool is_force = list == "forces";
   ImGui::SetNextItemWidth(-1);
