@@ -17,7 +17,7 @@ namespace {
 using pliant::Index;
 using pliant::Vec3;
 
-//! [own force]
+//! [own_force]
 /// Draws every vertex to a point.
 struct Magnet {
   static constexpr pliant::ForceInfo info{"magnet", "s m (c − x) / (‖c − x‖² + 0.01 m²)", "",
@@ -53,7 +53,7 @@ std::unique_ptr<pliant::Force> build(const pliant::ForceScope&, const Magnet& ma
   pliant::check_options(Magnet::info.name, magnet);
   return std::make_unique<MagnetForce>(magnet);
 }
-//! [own force]
+//! [own_force]
 
 constexpr Index side = 50;
 
