@@ -1,4 +1,5 @@
 // Values and selections from numbers and groups that come with a mesh.
+#include <algorithm>
 #include <string>
 
 #include <doctest/doctest.h>
@@ -176,5 +177,50 @@ TEST_CASE("meshes of every format, scaled and turned") {
 }
 
 }  // namespace
+
+TEST_CASE("stiffness factors: lists and maps, for groups of materials and of one's own") {
+  const Files files;
+  const auto measures = [&](const std::string& factors, const std::string& group) {
+    const Scene scene = files.load("strip.ply", R"(, "constraints": [{"type": "edge_spring"}], "stiffness_factors": )" +
+                                                    factors + R"(, "material": "cotton", "name": "strip")");
+    const auto& batches = scene.simulation.groups().at(scene.simulation.find_group(group).value()).set.batches;
+    return std::vector<Real>(batches[0]->rest_measure().begin(), batches[0]->rest_measure().end());
+  };
+  for (const std::string group : {"strip.edge_spring", "strip.warp"}) {
+    const std::vector<Real> plain = measures("{}", group);
+    const std::vector<Real> tripled = measures("{\"" + group + "\": [3, 3, 3, 3, 3, 3]}", group);
+    const std::vector<Real> mapped =
+        measures("{\"" + group + R"(": {"map": {"name": "weight"}, "from": 2, "to": 4}})", group);
+    REQUIRE(tripled.size() == plain.size());
+    Real least = 100, most = 0;
+    for (std::size_t i = 0; i < plain.size(); ++i) {
+      CHECK(tripled[i] == doctest::Approx(3 * plain[i]));
+      least = std::min(least, mapped[i] / plain[i]);
+      most = std::max(most, mapped[i] / plain[i]);
+    }
+    CHECK(least >= 2);
+    CHECK(least < 2.7);
+    CHECK(most <= 4);
+    CHECK(most > 3.3);
+  }
+  const std::string springs = R"(, "constraints": [{"type": "edge_spring"}, {"type": "position", "on": [0]}])";
+  const auto message = [&](const std::string& factors) {
+    return files.message_of("strip.ply", springs + R"(, "stiffness_factors": )" + factors);
+  };
+  CHECK(
+      message(R"({"body 0.edge_sprin": [1, 1, 1, 1, 1, 1]})") ==
+      "s.json: bodies[0].stiffness_factors.body 0.edge_sprin: 'body 0.edge_sprin' is no group with a stiffness on the "
+      "body 'body 0'; did you mean 'body 0.edge_spring'? (known: body 0.edge_spring)");
+  CHECK(message(R"({"body 0.position": [1, 1, 1, 1, 1, 1]})").find("is no group with a stiffness") !=
+        std::string::npos);
+  CHECK(message(R"({"body 0.edge_spring": [1, 1]})") ==
+        "s.json: bodies[0].stiffness_factors.body 0.edge_spring: the list has 2 entries; give 6 (one a vertex), or an object "
+        "with a map");
+  CHECK(message(R"({"body 0.edge_spring": [1, 1, 0, 1, 1, 1]})").find("at vertex 2 is out of range") !=
+        std::string::npos);
+  CHECK(message(R"({"body 0.edge_spring": {"map": {"file": "negative.txt"}}})").find("at vertex 3 is out of range") !=
+        std::string::npos);
+  CHECK(message("[1]") != "(no error)");
+}
 
 }  // namespace test_maps

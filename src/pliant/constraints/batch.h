@@ -121,6 +121,7 @@ class Batch final : public ConstraintGroup {
   }
 
  private:
+  std::span<Real> own_measures() override { return rest_measure_; }
   static constexpr std::size_t size = Type::rows * 3;
   static constexpr bool has_targets = requires { Type::has_targets; };
   static constexpr bool has_kernel = requires { Type::kernel; };

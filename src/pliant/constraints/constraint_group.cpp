@@ -67,6 +67,14 @@ std::unique_ptr<ConstraintGroup> ConstraintGroup::copy() const {
   return nullptr;
 }
 
+bool ConstraintGroup::scale_measures(std::span<const Real> factors) {
+  const std::span<Real> measures = own_measures();
+  if (measures.size() != factors.size()) return false;
+  for (std::size_t i = 0; i < measures.size(); ++i) measures[i] *= factors[i];
+  changed();
+  return true;
+}
+
 std::unique_ptr<ConstraintGroup> ConstraintGroup::reordered(std::span<const Index>, std::span<const Index>) const {
   return nullptr;
 }

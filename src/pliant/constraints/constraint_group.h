@@ -108,6 +108,9 @@ class ConstraintGroup {
   /// For a copy of the simulation. Null from a group that cannot.
   virtual std::unique_ptr<ConstraintGroup> copy() const;
 
+  /// Multiplies the rest measures, by constraint. False, with nothing changed, from a group that cannot.
+  bool scale_measures(std::span<const Real> factors);
+
   /// Common factor of all weights; 1 where each constraint has a stiffness of its own.
   Real stiffness() const { return stiffness_; }
   /// A changed stiffness is taken up at the next step, with one numeric factorization. Refuses what is not positive.
@@ -122,6 +125,9 @@ class ConstraintGroup {
   void set_driven(bool is_driven) { is_driven_ = is_driven; }
 
  private:
+  /// Those of rest_measure(); none from a group that does not let them be scaled.
+  virtual std::span<Real> own_measures() { return {}; }
+
   Real stiffness_ = 1;
   std::uint64_t revision_ = 0;
   bool is_driven_ = false;

@@ -1,5 +1,6 @@
 // Constraint groups that come, change and go.
 #include <algorithm>
+#include <cmath>
 
 #include "pliant/constraints/position.h"
 #include "pliant/core/error.h"
@@ -84,6 +85,46 @@ Position with_rest(const Position& given, std::span<const Index> stays, const St
 /// "stretch on body 'cloth'".
 std::string place_of(const Group& group, const Body& body) {
   return group.name + " on body '" + body.name + "'";
+}
+
+/// The mean of the factors over the vertices of each constraint of a batch.
+std::vector<Real> means_of(const std::vector<Real>& factors, const ConstraintGroup& batch, Index first_vertex) {
+  const auto n = static_cast<std::size_t>(batch.shape().vertices);
+  std::vector<Real> means(batch.rest_measure().size());
+  for (std::size_t i = 0; i < means.size(); ++i) {
+    for (const Index vertex : batch.stencil().subspan(i * n, n)) {
+      means[i] += factors[static_cast<std::size_t>(vertex - first_vertex)];
+    }
+    means[i] /= static_cast<Real>(n);  // exactly 1 of ones
+  }
+  return means;
+}
+
+/// Of a group that was just made: multiplies its stiffnesses by its factors.
+void scale(Group& made, const Body& body) {
+  if (made.factors.empty()) return;
+  for (const auto& batch : made.set.batches) {
+    const std::vector<Real> means = means_of(made.factors, *batch, body.first_vertex);
+    if (!batch->scale_measures(means)) {
+      fail_input(place_of(made, body) + ": its type '" + std::string(batch->type()) +
+                 "' takes no factors of the stiffness; override own_measures() in it");
+    }
+  }
+  if (std::ranges::all_of(made.factors, [](Real factor) { return factor == 1; })) made.factors.clear();
+}
+
+void check_factors(const std::vector<Real>& factors, const Group& group, const Body& body) {
+  const std::string place = place_of(group, body);
+  if (group.other) fail_input(place + ": ties between bodies take no factors of the stiffness");
+  if (!factors.empty() && factors.size() != static_cast<std::size_t>(body.mesh.vertex_count())) {
+    fail_input(place + ": " + std::to_string(factors.size()) + " factors of the stiffness for " +
+               std::to_string(body.mesh.vertex_count()) + " vertices; give one for each");
+  }
+  for (std::size_t i = 0; i < factors.size(); ++i) {
+    if (factors[i] > 0 && std::isfinite(factors[i])) continue;
+    fail_input(place + ": the factor of the stiffness at vertex " + std::to_string(i) + " is out of range; give a " +
+               "finite number above 0");
+  }
 }
 
 /// The vertices that a group pins, ascending.
@@ -190,6 +231,8 @@ void Simulation::replace_set(GroupId id, ConstraintSet set, std::string type, An
 
 void Simulation::replace_group(GroupId id, Group renewed, Anchors anchors) {
   const Group& old = group(id);
+  if (renewed.factors.empty()) renewed.factors = old.factors;
+  scale(renewed, body(renewed.body));
   check_group_of(renewed, id);
   std::multimap<Identity, Anchored> olds = anchors_of(old);
   renewed.next_point = old.next_point;
@@ -216,6 +259,7 @@ void Simulation::release(GroupId id, std::span<const Index> vertices) {
   std::vector<Index> released;
   for (const Index v : vertices) released.push_back(vertex(old.body, v));
   Group rest{old.name, old.type, old.body, nullptr, pliant::release(old.set, released), {}, old.next_point};
+  rest.factors = old.factors;
   std::ranges::sort(released);
   std::vector<Index> stays;  // places of constraints
   Stencils stencils;         // of the body
@@ -250,6 +294,24 @@ void Simulation::set_stiffness(GroupId id, Real stiffness) {
   for (const auto& batch : owner.set.batches) {
     if (batch->shape().count > 0) batch->set_stiffness(stiffness);
   }
+}
+
+void Simulation::set_stiffness_factors(GroupId id, std::vector<Real> factors) {
+  const Group& owner = group(id);
+  check_factors(factors, owner, body(owner.body));
+  if (owner.source == nullptr) {
+    fail_input(place_of(owner, body(owner.body)) + ": constraints that were made elsewhere take no factors of the " +
+               "stiffness; make them with those");
+  }
+  if (!stiffness(id)) fail_input("group '" + owner.name + "' has no stiffness; hard pins have none");
+  const auto see = [this](BodyId body) { return view(body); };
+  std::optional<Group> renewed = owner.source->make_group(owner.body, owner.name, see);
+  for (const auto& batch : renewed->set.batches) {
+    if (batch->shape().count > 0) batch->set_stiffness(*stiffness(id));
+  }
+  if (factors.empty()) factors.assign(static_cast<std::size_t>(body(owner.body).mesh.vertex_count()), 1);
+  renewed->factors = std::move(factors);
+  replace_group(id, *std::move(renewed), Anchors::kept);
 }
 
 std::optional<Real> Simulation::stiffness(GroupId id) const {

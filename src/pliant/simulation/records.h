@@ -6,20 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "pliant/collision/colliders/collider.h"
 #include "pliant/collision/contact/body_contact.h"
-#include "pliant/constraints/constraint_set.h"
-#include "pliant/core/option_visitors.h"
-#include "pliant/forces/force_options.h"
+#include "pliant/simulation/any_options.h"
 
 namespace pliant {
-
-class Simulation;
-
-enum class BodyId : Index {};
-enum class GroupId : Index {};
-enum class ForceId : Index {};
-enum class ColliderId : Index {};
 
 /// One body. Its vertices are [first_vertex, first_vertex + mesh.vertex_count()) of the simulation.
 struct Body {
@@ -35,88 +25,6 @@ struct BodyOptions {
   Positions velocities{};  ///< m × 3 [m/s]; default: zero
 };
 
-/// What becomes of the anchors (targets of pins and drags, origins of lines) of a group that is replaced. `kept`: a
-/// constraint of the same vertices has that of its predecessor; `given`: all have what the new options say.
-enum class Anchors { kept, given };
-
-/// The option of a constraint that says where targets or origins are; null for a type without.
-template <class Constraint>
-const Points* anchors_in(const Constraint& options) {
-  if constexpr (requires {
-                  { options.targets } -> std::same_as<const Points&>;
-                }) {
-    return &options.targets;
-  } else if constexpr (requires {
-                         { options.origin } -> std::same_as<const Points&>;
-                       }) {
-    return &options.origin;
-  } else {
-    return nullptr;
-  }
-}
-
-/// The options that something was made of, whatever their type.
-class AnyOptions {
- public:
-  virtual ~AnyOptions() = default;
-  virtual void list(OptionLister& lister) const = 0;
-  /// Of constraints, the stiffness that is the common factor of a group, and anchors_in(); null for a type without.
-  virtual const Values* stiffness() const = 0;
-  virtual const Points* anchors() const = 0;
-  /// Makes the group, force or collider of that number, which was made of these, anew: of what it has now, changed.
-  virtual void change(Simulation& simulation, Index number, OptionSetter& setter) const = 0;
-};
-
-/// AnyOptions::change, of options of this type.
-template <class Options, class Owner>
-void change_options(Owner& simulation, Index number, OptionSetter& setter) {
-  const auto changed = [&setter](Options options) {
-    set_options(options, setter);
-    return options;
-  };
-  if constexpr (describes_force<Options>) {
-    simulation.replace(ForceId{number}, changed(*simulation.template options<Options>(ForceId{number})));
-  } else if constexpr (describes_collider<Options>) {
-    simulation.replace(ColliderId{number}, changed(*simulation.template options<Options>(ColliderId{number})));
-  } else {
-    Options options = *simulation.template options<Options>(GroupId{number});
-    set_options(options, setter);
-    const bool gives_anchors = setter.has_changed(anchors_in(options));
-    simulation.replace(GroupId{number}, options, gives_anchors ? Anchors::given : Anchors::kept);
-  }
-}
-
-template <class Options>
-class OptionsOf final : public AnyOptions {
- public:
-  explicit OptionsOf(Options given) : options(std::move(given)) {}
-  void list(OptionLister& lister) const override { list_options(options, lister); }
-  const Values* stiffness() const override {
-    if constexpr (requires {
-                    { options.stiffness } -> std::same_as<const Values&>;
-                  })
-      return &options.stiffness;
-    return nullptr;
-  }
-  const Points* anchors() const override { return anchors_in(options); }
-  void change(Simulation& simulation, Index number, OptionSetter& setter) const override {
-    change_options<Options>(simulation, number, setter);
-  }
-  const Options options;
-};
-
-template <class Options>
-std::shared_ptr<const AnyOptions> source_of(const Options& options) {
-  return std::make_shared<const OptionsOf<Options>>(options);
-}
-
-/// What a group or a force was made of; null where it was made of options of another type, or of none.
-template <class Options, class Record>
-const Options* options_in(const Record& record) {
-  const auto* source = dynamic_cast<const OptionsOf<Options>*>(record.source.get());
-  return source == nullptr ? nullptr : &source->options;
-}
-
 /// Constraints of one type on one body, or between two, as a user sees them.
 struct Group {
   std::string name;
@@ -128,6 +36,7 @@ struct Group {
   std::vector<Index> points{};  ///< of each target a number, which it keeps when others come and go; at first 0, 1, ...
   Index next_point = 0;         ///< the number of the next new target
   std::optional<BodyId> other{};  ///< that it ties `body` to, which may be the same; none: it is on `body` alone
+  std::vector<Real> factors{};    ///< of the stiffness, by vertex of the body; empty: none (set_stiffness_factors)
 };
 
 /// Constraints that tie a body to another one.
@@ -148,6 +57,15 @@ Group group_of(BodyId id, const Constraint& options, std::string name, View&& vi
     group.set = build(view(id), options);
   }
   return group;
+}
+
+template <class Options>
+std::optional<Group> OptionsOf<Options>::make_group(BodyId id, std::string name, const SeeBody& see) const {
+  if constexpr (describes_force<Options> || describes_collider<Options>) {
+    return std::nullopt;
+  } else {
+    return group_of(id, options, std::move(name), see);
+  }
 }
 
 template <class Constraint>

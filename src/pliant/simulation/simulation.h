@@ -39,7 +39,6 @@ class Simulation : public Colliders {
 
   /// Checks the mesh (check_mesh) and the masses (vertex_masses).
   BodyId add_body(Mesh mesh, const Mass& mass, BodyOptions options = {});
-
   /// Adds a built-in constraint type, or any other with `info`, `visit` and a `build(BodyView, options)`; or an
   /// Attachment, which ties the body to another, `options.to`, and has a `build(BodyView, BodyView, options)`.
   template <class Constraint>
@@ -72,16 +71,17 @@ class Simulation : public Colliders {
   }
   /// Lets vertices of a group of positions go; the others stay as they are. Vertices have the indices of their body.
   void release(GroupId id, std::span<const Index> vertices);
-
   /// New common factor of a group's weights: costs one numeric factorization at the next step.
   void set_stiffness(GroupId id, Real stiffness);
   std::optional<Real> stiffness(GroupId id) const;  ///< that factor; none for hard pins
+  /// Multiplies the stiffness of each constraint of a group on one body by the mean of these, > 0, over its vertices:
+  /// one for each vertex of the body, or none. They stay when the group is replaced. Costs what replacing does.
+  void set_stiffness_factors(GroupId id, std::vector<Real> factors);
   /// Movable points of a group (positions, drags), in the order of its constraints.
   Index target_count(GroupId id) const;
   Vec3 target(GroupId id, Index i) const;
   /// Moves point i from the next step on; costs nothing.
   void set_target(GroupId id, Index i, const Vec3& target);
-
   /// Adds a built-in force, or any other with `info`, `visit` and a `build(ForceScope, options)`: on one body, or as
   /// its ForceReach says. Default name: the type, with the first free number from 2 behind where that is taken.
   template <describes_force Options>

@@ -84,6 +84,14 @@ std::string short_text(const SchemaJson& json, const std::string& indent = "") {
   return json.is_object() ? "{" + text + '\n' + indent + '}' : "[" + text + '\n' + indent + ']';
 }
 
+SchemaJson factors_schema() {
+  const SchemaJson values = {
+      {"anyOf", {list_schema(number_schema("number", positive)), schema_reference("mapped_values")}}};
+  return {{"type", "object"},
+          {"additionalProperties", values},
+          {"description", "by the names of groups: what their stiffness is multiplied by at each vertex"}};
+}
+
 SchemaJson body_schema() {
   SchemaJson schema = object_schema({{"name", text_schema("what others refer to it by; default \"body 0\", ...")},
                                      {"mesh", mesh_schema()},
@@ -97,7 +105,8 @@ SchemaJson body_schema() {
                                      {"contact", schema_reference("body_contact")},
                                      {"animation", schema_reference("animation")},
                                      {"solid", schema_reference("solid")},
-                                     {"appearance", object_schema(options_properties<BodyAppearance>())}},
+                                     {"appearance", object_schema(options_properties<BodyAppearance>())},
+                                     {"stiffness_factors", factors_schema()}},
                                     {"mesh"});
   schema["anyOf"] = {{{"required", {"mass"}}}, {{"required", {"material"}}}, {{"required", {"animation"}}}};
   return schema;

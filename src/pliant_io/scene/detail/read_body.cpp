@@ -3,6 +3,7 @@
 #include "pliant/timeline/animated_body.h"
 #include "pliant_io/scene/detail/option_reader.h"
 #include "pliant_io/scene/detail/read_animation.h"
+#include "pliant_io/scene/detail/read_factors.h"
 #include "pliant_io/scene/detail/read_mesh.h"
 #include "pliant_io/scene/detail/read_solid.h"
 #include "pliant_io/scene/detail/scene_reader.h"
@@ -50,7 +51,7 @@ Mass read_body_mass(const Node& body, const Mesh& mesh, const std::string& name,
 
 void SceneReader::read_body(const Node& node) {
   node.check_keys({"name", "mesh", "transform", "mass", "start_positions", "velocity", "velocities", "constraints",
-                   "contact", "animation", "material", "solid", "appearance"});
+                   "contact", "animation", "material", "solid", "appearance", "stiffness_factors"});
   BodyOptions options;
   options.name = fmt::format("body {}", bodies.size());
   read_optional(node, "name", options.name);
@@ -108,6 +109,7 @@ void SceneReader::read_body(const Node& node) {
     }
   }
   if (node.has("solid")) carry_surface(simulation, id, 0, free_name(name + ".surface"));
+  if (const auto factors = node.find("stiffness_factors")) read_stiffness_factors(*factors, id, simulation);
 }
 
 void SceneReader::add_material(const Node& node, BodyId id, const BodyMaterial& given) {
