@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "pliant/constraints/position.h"
+#include "pliant/simulation/held.h"
 #include "viewer/body_materials.h"
 #include "viewer/carry_over.h"
 #include "viewer/scene_changes.h"
@@ -9,6 +10,20 @@
 namespace pliant_viewer {
 
 using pliant::Vec3;
+
+namespace {
+
+/// The groups of pins of a name that hold a vertex of the simulation; a program may give a name more than once.
+std::vector<pliant::GroupId> holders(const pliant::Simulation& simulation, const std::string& name, Index vertex) {
+  std::vector<pliant::GroupId> found;
+  for (const auto& [id, group] : simulation.groups()) {
+    if (group.name != name || group.type != pliant::Position::info.name) continue;
+    if (std::ranges::count(vertices_of_pins(group), vertex) > 0) found.push_back(id);
+  }
+  return found;
+}
+
+}  // namespace
 
 void UnchangedScene::apply(const SceneChanges& changes, pliant::Scene& scene) const {
   pliant::Simulation& simulation = scene.simulation;
@@ -34,7 +49,9 @@ void UnchangedScene::apply(const SceneChanges& changes, pliant::Scene& scene) co
       const Index of_body = vertex - body.first_vertex;
       if (of_body < 0 || of_body >= body.vertex_count) continue;
       for (const std::string& group : pin.groups) {
-        if (const auto found = simulation.find_group(group)) simulation.release(*found, std::span(&of_body, 1));
+        for (const pliant::GroupId holder : holders(simulation, group, vertex)) {
+          simulation.release(holder, std::span(&of_body, 1));
+        }
       }
     }
     std::vector<Index> held, moved;
@@ -53,11 +70,10 @@ void UnchangedScene::apply(const SceneChanges& changes, pliant::Scene& scene) co
     simulation.add(id, pin, body.moved_pins);
   }
   for (const auto& [vertex, pin] : changes.moved) {
-    const auto group = simulation.find_group(pin.group);
-    if (!group) continue;
-    const std::vector<Index>& numbers = simulation.groups().at(*group).points;
-    const auto place = std::ranges::find(numbers, pin.number);
-    if (place != numbers.end()) simulation.set_target(*group, static_cast<Index>(place - numbers.begin()), pin.target);
+    for (const pliant::GroupId group : holders(simulation, pin.group, vertex)) {
+      const std::vector<Index> held = vertices_of_pins(simulation.groups().at(group));
+      simulation.set_target(group, static_cast<Index>(std::ranges::find(held, vertex) - held.begin()), pin.target);
+    }
   }
   for (const auto& [name, position] : changes.collider_positions) {
     const auto collider = simulation.find_collider(name);

@@ -76,7 +76,7 @@ pliant::TimelineState timeline_for(const pliant::Scene& from, const pliant::Scen
   for (pliant::StiffnessRamp& ramp : state.ramps) {
     const auto group = from.simulation.groups().find(ramp.group);
     if (group == from.simulation.groups().end()) continue;
-    const auto same = to.simulation.find_group(group->second.name);
+    const auto same = find_same(to.simulation, ramp.group, group->second);
     if (!same || rules.removed.contains(group->second.name)) continue;
     ramp.group = *same;
     renumbered.ramps.push_back(ramp);
@@ -109,8 +109,13 @@ bool have_same_numbers(const Group& a, const Group& b) {
 
 /// Rest lengths that have crept, origins, whatever else constraints but pins keep.
 void carry_numbers(const Simulation& from, Simulation& to, const NotCarried& rules) {
+  std::map<GroupId, std::string> keys;
+  for (const Slider& slider : list_sliders(to)) {
+    const auto* owner = std::get_if<GroupId>(&slider.parameter.handle.owner);
+    if (owner != nullptr && slider.parameter.handle.option == "stiffness") keys[*owner] = slider.key;
+  }
   for (const auto& [id, group] : to.groups()) {
-    const auto found = from.find_group(group.name);
+    const auto found = find_same(from, id, group);
     if (!found || group.type == pliant::Position::info.name || rules.bodies.contains(to.body(group.body).name))
       continue;
     const Group& same = from.groups().at(*found);
@@ -118,8 +123,9 @@ void carry_numbers(const Simulation& from, Simulation& to, const NotCarried& rul
     for (std::size_t i = 0; i < group.set.batches.size(); ++i) {
       std::ranges::copy(same.set.batches[i]->parameters(), group.set.batches[i]->parameters().begin());
     }
-    const auto key = "group:" + group.name + ".stiffness";
-    if (const auto stiffness = from.stiffness(*found); stiffness && !rules.values.contains(key)) {
+    const auto key = keys.find(id);
+    const bool is_given = key != keys.end() && rules.values.contains(key->second);
+    if (const auto stiffness = from.stiffness(*found); stiffness && !is_given) {
       to.set_stiffness(id, *stiffness);
     }
   }
@@ -181,6 +187,13 @@ void carry_colliders(const Simulation& from, const Simulation& to, pliant::Conta
 }
 
 }  // namespace
+
+std::optional<GroupId> find_same(const Simulation& in, GroupId id, const Group& group) {
+  const auto found = in.groups().find(id);
+  const bool is_same = found != in.groups().end() && found->second.name == group.name &&
+                       found->second.type == group.type && found->second.body == group.body;
+  return is_same ? std::optional(id) : in.find_group(group.name);
+}
 
 void set_values(std::map<std::string, Vec3> values, Simulation& simulation) {
   const auto set = [&](const std::string& key, const Vec3& value) {

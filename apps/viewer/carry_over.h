@@ -22,6 +22,10 @@ struct NotCarried {
   std::function<bool(pliant::GroupId)> is_hidden = {};      ///< as of list_sliders, of `from`
 };
 
+/// A group of another simulation, in this one: that of its number where it is called alike on the same body, as in a
+/// copy, whose groups may share a name; else that of its name.
+std::optional<pliant::GroupId> find_same(const pliant::Simulation& in, pliant::GroupId id, const pliant::Group& group);
+
 /// Sets values where each is allowed only after another: a smallest stretch may be so only below the largest one.
 /// Keys that there are not are left out. @throws pliant::Error (input): one that is never allowed.
 void set_values(std::map<std::string, pliant::Vec3> values, pliant::Simulation& simulation);

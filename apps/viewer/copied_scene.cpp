@@ -20,16 +20,48 @@ bool have_same_parameters(const Simulation& a, const Simulation& b) {
   return std::ranges::equal(list_parameters(a), list_parameters(b), is_same);
 }
 
-/// Targets, rest lengths and whatever else constraints keep.
-bool have_same_constraint_numbers(const Simulation& a, const Simulation& b) {
-  const auto is_same_batch = [](const auto& one, const auto& other) {
-    return std::ranges::equal(one->parameters(), other->parameters()) &&
-           std::ranges::equal(one->targets(), other->targets());
-  };
-  return std::ranges::equal(a.groups(), b.groups(), [&](const auto& one, const auto& other) {
+bool are_same(pliant::ConstraintGroup& a, pliant::ConstraintGroup& b) {
+  return std::ranges::equal(a.stencil(), b.stencil()) && std::ranges::equal(a.reduction(), b.reduction()) &&
+         std::ranges::equal(a.rest_measure(), b.rest_measure()) &&
+         std::ranges::equal(a.pinned_vertices(), b.pinned_vertices()) &&
+         std::ranges::equal(a.parameters(), b.parameters()) && std::ranges::equal(a.targets(), b.targets());
+}
+
+bool have_same_constraints(const Simulation& a, const Simulation& b) {
+  return std::ranges::equal(a.groups(), b.groups(), [](const auto& one, const auto& other) {
     return one.first == other.first &&
-           std::ranges::equal(one.second.set.batches, other.second.set.batches, is_same_batch);
+           std::ranges::equal(one.second.set.batches, other.second.set.batches,
+                              [](const auto& x, const auto& y) { return are_same(*x, *y); });
   });
+}
+
+/// On the same bodies, and doing the same now.
+bool have_same_forces(const Simulation& a, const Simulation& b) {
+  const auto force_of = [](const Simulation& simulation, pliant::ForceId id) {
+    pliant::Positions sum = pliant::Positions::Zero(simulation.state().vertex_count(), 3);
+    const std::unique_ptr<pliant::Force> copy = simulation.forces().at(id)->copy();
+    if (copy != nullptr) copy->add_to(sum, simulation.state().view(), simulation.settings().time_step);
+    return sum;
+  };
+  return std::ranges::equal(a.forces(), b.forces(), [&](const auto& one, const auto& other) {
+    return one.first == other.first && a.record(one.first).body == b.record(other.first).body &&
+           force_of(a, one.first) == force_of(b, other.first);
+  });
+}
+
+bool have_same_contacts(const Simulation& a, const Simulation& b) {
+  return std::ranges::equal(a.bodies(), b.bodies(), [](const pliant::Body& one, const pliant::Body& other) {
+    return one.name == other.name && one.contact.ignores == other.contact.ignores;
+  });
+}
+
+/// What is to come, and what is under way: animated bodies are from the start.
+bool have_same_plans(const pliant::Timeline& a, const pliant::Timeline& b) {
+  const pliant::TimelineState one = a.state(), other = b.state();
+  const auto is_same_motion = [](const auto& x, const auto& y) { return x.event == y.event && x.order == y.order; };
+  return a.event_count() == b.event_count() && one.applied == other.applied &&
+         std::ranges::equal(one.motions, other.motions, is_same_motion) &&
+         one.collider_motions.size() == other.collider_motions.size() && one.ramps.size() == other.ramps.size();
 }
 
 bool have_same_state(const pliant::State& a, const pliant::State& b) {
@@ -47,8 +79,8 @@ bool is_as_read(const Scene& scene) {
   const Scene read = parse_scene(scene.source);
   const Simulation &now = scene.simulation, &then = read.simulation;
   return have_same_state(now.state(), then.state()) && now.group_names() == then.group_names() &&
-         now.forces().size() == then.forces().size() && have_same_parameters(now, then) &&
-         have_same_constraint_numbers(now, then) && scene.timeline.event_count() == read.timeline.event_count();
+         have_same_parameters(now, then) && have_same_constraints(now, then) && have_same_forces(now, then) &&
+         have_same_contacts(now, then) && have_same_plans(scene.timeline, read.timeline);
 }
 
 /// All but what it was read from.
@@ -76,34 +108,47 @@ Scene copy_of(const Scene& scene) {
   return copy;
 }
 
-MakeScene read_again(Scene scene) {
-  return [source = scene.source, name = scene.name, view = scene.view, appearances = scene.appearances,
-          first = std::make_shared<std::optional<Scene>>(std::move(scene))] {
-    if (first->has_value()) return std::move(*std::exchange(*first, std::nullopt));
-    Scene again = parse_scene(source);
-    again.name = name;
-    again.view = view;
-    again.appearances = appearances;
-    return again;
-  };
+/// What a program may change of a scene without a change of its text, beside the scene that was read from that.
+void take_run(const Scene& from, Scene& to) {
+  to.name = from.name;
+  to.description = from.description;
+  to.steps = from.steps;
+  to.output = from.output;
+  to.view = from.view;
+  to.appearances = from.appearances;
 }
 
 }  // namespace
 
-MakeScene maker_of(Scene scene, bool is_program) {
-  if (!is_program && is_as_read(scene)) return read_again(std::move(scene));
-  scene.source = {};
-  std::shared_ptr<Scene> at_start;
+Remaker remaker_of(const Scene& scene, bool is_program) {
   std::string reason;
   try {
-    at_start = std::make_shared<Scene>(copy_of(scene));
-  } catch (const pliant::Error& error) {
+    if (!is_program && is_as_read(scene)) {
+      auto run = std::make_shared<Scene>();
+      take_run(scene, *run);
+      const auto make = [source = scene.source, run] {
+        Scene again = parse_scene(source);
+        take_run(*run, again);
+        return again;
+      };
+      return {make, true};
+    }
+  } catch (const std::exception&) {  // its files have gone or changed
+  }
+  try {
+    return {[start = std::make_shared<Scene>(copy_of(scene))] { return copy_of(*start); }, false};
+  } catch (const std::exception& error) {
     reason = error.what();
   }
-  return [at_start, reason, first = std::make_shared<std::optional<Scene>>(std::move(scene))] {
+  return {[reason]() -> Scene { pliant::fail_input("this cannot start over: " + reason); }, false};
+}
+
+MakeScene maker_of(Scene scene, Remaker again) {
+  if (!again.reads_text) scene.source = {};
+  const auto first = std::make_shared<std::optional<Scene>>(std::move(scene));
+  return [first, again = std::move(again.make)] {
     if (first->has_value()) return std::move(*std::exchange(*first, std::nullopt));
-    if (at_start == nullptr) pliant::fail_input("this cannot start over: " + reason);
-    return copy_of(*at_start);
+    return again();
   };
 }
 

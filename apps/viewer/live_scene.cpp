@@ -321,6 +321,7 @@ void LiveScene::update_sliders() {
 
 void LiveScene::publish() {
   const pliant::Simulation& simulation = session_.simulation();
+  if (simulation.bodies().size() != body_names_->size()) update_render_mesh();  // a program has added some
   back_.render_mesh = render_mesh_;
   back_.body_names = body_names_;
   back_.frame = pliant_render::capture_frame(simulation, *render_mesh_, context_.color, surfaces_);

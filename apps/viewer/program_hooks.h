@@ -10,6 +10,7 @@ namespace pliant_viewer {
 struct ProgramHooks {
   std::function<void(pliant::Simulation&)> before_step{};
   std::function<void(pliant::Simulation&)> restarted{};
+  std::function<void(pliant::Simulation&)> rebuilt{};
 };
 
 }  // namespace pliant_viewer

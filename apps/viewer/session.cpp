@@ -1,6 +1,8 @@
 #include "viewer/session.h"
 
 #include <algorithm>
+#include <stdexcept>
+#include <utility>
 
 #include "pliant/constraints/drag.h"
 #include "pliant/core/error.h"
@@ -40,6 +42,17 @@ void stop_collider(pliant::Simulation& simulation, pliant::ColliderId id) {
   }
 }
 
+/// Whatever it throws is told in the window.
+void call(const std::function<void(pliant::Simulation&)>& hook, pliant::Simulation& simulation) {
+  try {
+    hook(simulation);
+  } catch (const std::exception&) {
+    throw;
+  } catch (...) {
+    throw std::runtime_error("before_step has thrown something that is no std::exception");
+  }
+}
+
 }  // namespace
 
 Session::Session(MakeScene make)
@@ -71,7 +84,7 @@ void Session::set_threads(Index threads) {
 
 pliant::StepReport Session::step() {
   do_what_is_due();
-  if (hooks_.before_step) hooks_.before_step(scene_.simulation);
+  if (hooks_.before_step) call(hooks_.before_step, scene_.simulation);
   steer_colliders();
   pliant::StepReport report;
   try {
@@ -115,9 +128,9 @@ void Session::set_pull_stiffness(Real stiffness) {
 
 void Session::let_go() {
   const auto noted = note(action::LetGo{});
-  if (pull_group_) scene_.simulation.remove(*pull_group_);
-  pull_group_.reset();
+  const auto group = std::exchange(pull_group_, {});
   pull_.reset();
+  if (group && scene_.simulation.groups().contains(*group)) scene_.simulation.remove(*group);  // an event may have
 }
 
 void Session::move_collider(pliant::ColliderId collider, const Vec3f& position) {

@@ -220,6 +220,7 @@ void Session::take(pliant::Scene next) {
   if (simulation().settings().threads != threads) set_threads(threads);
   if (const std::optional<Pull> pull = std::exchange(pull_, {})) grab(*pull);
   ++rebuilds_;
+  if (hooks_.rebuilt) hooks_.rebuilt(scene_.simulation);
 }
 
 void Session::go(const Edit& edit, const SceneChanges& from, const SceneChanges& to) {

@@ -22,7 +22,8 @@ Overloaded(Cases...) -> Overloaded<Cases...>;
 void Session::begin_record(const pliant::Scene& scene) {
   opened_ = {scene.source, scene.files, {}};
   // Of one that goes on from a checkpoint the source tells the start alone.
-  if (scene.simulation.state().step > 0) opened_.checkpoint = pliant::checkpoint_bytes(scene, {});
+  const bool can_be_saved = !scene.source.texts.empty();
+  if (can_be_saved && scene.simulation.state().step > 0) opened_.checkpoint = pliant::checkpoint_bytes(scene, {});
   log_.clear();
 }
 

@@ -21,7 +21,10 @@ bool is_dark(const pliant::Color& background) {
 }  // namespace
 
 Ui::Ui(Window& window, const pliant::Color& background)
-    : context_(ImGui::CreateContext()), ink_(pliant_render::ink_on(background)), window_(window) {
+    : former_context_(ImGui::GetCurrentContext()),
+      context_(ImGui::CreateContext()),
+      ink_(pliant_render::ink_on(background)),
+      window_(window) {
   ImGui::SetCurrentContext(context_);
   ImGui::GetIO().IniFilename = nullptr;
   const float scale = window.content_scale();
@@ -45,6 +48,7 @@ Ui::~Ui() {
   ImGui_ImplOpenGL3_Shutdown();
   ImGui_ImplGlfw_Shutdown();
   ImGui::DestroyContext(context_);
+  ImGui::SetCurrentContext(former_context_);
 }
 
 void Ui::begin() {

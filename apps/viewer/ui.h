@@ -41,6 +41,7 @@ class Ui {
   pliant_render::Vec3f panel_color() const;
 
  private:
+  ImGuiContext* former_context_;  // of the program, if it has one
   ImGuiContext* context_;
   ImFont* font_ = nullptr;
   PanelStyle style_;

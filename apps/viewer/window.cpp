@@ -14,7 +14,13 @@
 namespace pliant_viewer {
 namespace {
 
+bool is_glfw_ours = false;  // to be ended: no program around this one had begun with it
+
 constexpr const char* way_out = "`pliant render` makes pictures and films without a window";
+
+void end_glfw() {
+  if (std::exchange(is_glfw_ours, false)) glfwTerminate();
+}
 
 std::string last_error() {
   const char* text = nullptr;
@@ -55,7 +61,12 @@ void limit_software_driver() {
 }
 
 void Window::require_display() {
-  if (glfwInit() == GLFW_TRUE) return;
+  glfwGetError(nullptr);
+  const bool is_ready = glfwGetTimerFrequency() > 0;
+  if (glfwInit() == GLFW_TRUE) {
+    is_glfw_ours = is_glfw_ours || !is_ready;
+    return;
+  }
   const std::string reason = last_error();
   pliant::fail_input(has_display() ? "no window can be opened (" + reason + "); " + way_out
                                    : std::string("there is no display for a window; ") + way_out);
@@ -76,10 +87,11 @@ Window::Window(const std::string& title, int width, int height) {
   window_ = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
   if (window_ == nullptr) {
     const std::string reason = last_error();
-    glfwTerminate();
+    end_glfw();
     pliant::fail_input("OpenGL: the display has no OpenGL 3.3 (" + reason +
                        "); install libgl1-mesa-dri, which draws with the processor, or: " + way_out);
   }
+  former_context_ = glfwGetCurrentContext();
   glfwMakeContextCurrent(window_);
   glfwSwapInterval(1);
   glfwSetWindowSizeLimits(window_, 320, 240, GLFW_DONT_CARE, GLFW_DONT_CARE);
@@ -89,7 +101,8 @@ Window::Window(const std::string& title, int width, int height) {
 
 Window::~Window() {
   glfwDestroyWindow(window_);
-  glfwTerminate();
+  if (former_context_ != nullptr) glfwMakeContextCurrent(former_context_);
+  end_glfw();
 }
 
 /// Where the mouse was when an event came that does not say so.

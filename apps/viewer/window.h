@@ -87,6 +87,7 @@ class Window {
   Vec2f cursor() const;
 
   GLFWwindow* window_ = nullptr;
+  GLFWwindow* former_context_ = nullptr;  // that was current, if the program has one
   std::string driver_;
   std::vector<MouseEvent> mouse_;
   std::optional<Vec2f> cursor_;  // by the last event: it may be elsewhere by now

@@ -85,10 +85,12 @@ int main(int argc, char** argv) try {
 
   pliant::ViewOptions options;
   const auto turn_rail = [rail](pliant::Simulation& moving) {
+    if (!moving.groups().contains(rail)) return;  // switched off in the window
     const double angle = 0.6 * std::sin(moving.state().time);
-    for (Index i = 0; i < side; ++i) {
-      const double way = static_cast<double>(i) / (side - 1) - 0.5;
-      moving.set_target(rail, i, {0.5 + way * std::cos(angle), way * std::sin(angle), 1});
+    const std::vector<Index>& points = moving.groups().at(rail).points;  // those that were not let go
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const double way = static_cast<double>(points[i]) / (side - 1) - 0.5;
+      moving.set_target(rail, static_cast<Index>(i), {0.5 + way * std::cos(angle), way * std::sin(angle), 1});
     }
   };
   options.before_step = turn_rail;
@@ -104,7 +106,7 @@ int main(int argc, char** argv) try {
   pliant::view(scene, options);  // returns once the window is closed
   std::printf("closed after %.2f simulated seconds\n", simulation.state().time);
   //! [view]
-  return 0;
+  return argc > 1 && simulation.state().time < end ? 1 : 0;
 } catch (const std::exception& error) {
   std::fprintf(stderr, "error: %s\n", error.what());
   return 1;

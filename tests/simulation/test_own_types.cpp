@@ -22,6 +22,43 @@ struct OwnTypes {
   ColliderId egg = simulation.add(EggCollider{.center = {0, 0, -2}});
 };
 
+ConstraintSet no_springs(const BodyView& body, Real stiffness) {
+  auto batch = std::make_unique<Batch<OutsideBallProjection>>(stiffness);
+  const Real one = 1;
+  const std::array<Real, 4> ball = {};
+  batch->add({&body.first_vertex, 1}, {&one, 1}, 1, ball);
+  ConstraintSet set;
+  set.count = 1;
+  set.batches.push_back(std::move(batch));
+  return set;
+}
+
+enum class Unnamed { one, other };
+
+/// With a stiffness of which the builder makes another one, and an option of a kind that nobody knows.
+struct OwnStiffness {
+  static constexpr ConstraintInfo info{"own_stiffness", "x", "a point", "", ""};
+  Real stiffness = 70;
+  Unnamed unnamed = Unnamed::one;
+  template <class Self, class Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field(OptionInfo{"stiffness", "N/m", "half of what it is", positive}, self.stiffness);
+    field(OptionInfo{"unnamed", "", "without names"}, self.unnamed);
+  }
+};
+ConstraintSet build(const BodyView& body, const OwnStiffness& options) {
+  return no_springs(body, 2 * options.stiffness);
+}
+
+struct NoStiffness {
+  static constexpr ConstraintInfo info{"no_stiffness", "x", "a point", "", ""};
+  template <class Self, class Visitor>
+  static void visit(Self&, Visitor&&) {}
+};
+ConstraintSet build(const BodyView& body, const NoStiffness&) {
+  return no_springs(body, 9);
+}
+
 Vec3 value_of(const Simulation& simulation, const ParameterOwner& owner, const char* option) {
   return parameter(simulation, {owner, option}).value;
 }
@@ -66,6 +103,22 @@ TEST_CASE("setting them makes the constraints anew") {
   CHECK_THROWS_WITH_AS(set_parameter(own.simulation, {own.ball, "radius"}, {0, 0, 0}),
                        "outside_ball: radius: 0 is out of range; give a finite number above 0 [m]", Error);
   CHECK_THROWS_AS(set_parameter(own.simulation, {own.ball, "passed_over"}, {1, 0, 0}), Error);
+}
+
+TEST_CASE("a stiffness that is a number, or none at all: the factor of the group stays to be set") {
+  OwnTypes own;
+  const GroupId numbered = own.simulation.add(own.cloth, OwnStiffness{});
+  CHECK(value_of(own.simulation, numbered, "stiffness")[0] == 70);
+  set_parameter(own.simulation, {numbered, "stiffness"}, {80, 0, 0});
+  CHECK(own.simulation.options<OwnStiffness>(numbered)->stiffness == 80);
+  CHECK(own.simulation.stiffness(numbered) == 160);  // what its builder makes of it
+  const GroupId nameless = own.simulation.add(own.cloth, NoStiffness{});
+  const std::vector<Parameter> list = list_parameters(own.simulation, nameless);
+  REQUIRE(list.size() == 1);
+  CHECK(list[0].handle.option == "stiffness");
+  CHECK(list[0].value[0] == 9);
+  set_parameter(own.simulation, {nameless, "stiffness"}, {5, 0, 0});
+  CHECK(own.simulation.stiffness(nameless) == 5);
 }
 
 TEST_CASE("forces and colliders of one's own are set as well") {

@@ -17,7 +17,12 @@ constexpr const char* text = R"({ "pliant": 1, "bodies": [ { "name": "sheet", "m
   "mesh": { "shape": "grid", "columns": 5, "rows": 5, "plane": "xz" },
   "constraints": [ { "type": "position", "on": [20, 24] }, { "type": "edge_spring", "stiffness": 500 } ] } ],
   "colliders": [ { "type": "sphere", "center": [0, 0, -2] } ],
+  "forces": [ { "type": "test_force", "name": "push", "vertices": [3], "force": [0, 0, 1] } ],
   "events": [ { "step": 3, "release": "sheet.position", "vertices": [20] } ] })";
+
+/// What goes along a path from the start on.
+constexpr const char* dancing = R"({ "pliant": 1, "contact": {}, "bodies": [ { "name": "ball",
+  "mesh": { "shape": "sphere", "subdivisions": 1 }, "animation": { "velocity": [1, 0, 0] } } ] })";
 
 Scene read() {
   return parse_scene(text, {}, "sheet");
@@ -79,6 +84,19 @@ TEST_CASE("a scene keeps its text where nothing was changed since it was read, a
     scene.simulation.set_target(scene.simulation.find_collider("sphere").value(), {{0, 0, -1}});
   }));
   CHECK_FALSE(is_text_after([](Scene& scene) { scene.timeline.add(When::at_step(5), [](Simulation&) {}); }));
+  CHECK_FALSE(is_text_after([](Scene& scene) {
+    const GroupId pins = scene.simulation.find_group("sheet.position").value();
+    scene.timeline.start(scene.simulation, pins, straight_path(MoveKind::offset, Vec3(0, 1, 0), 1));
+  }));
+  CHECK_FALSE(is_text_after([](Scene& scene) {
+    const GroupId springs = scene.simulation.find_group("sheet.edge_spring").value();
+    scene.simulation.set_stiffness_factors(springs, std::vector<Real>(25, 2));
+  }));
+  CHECK_FALSE(is_text_after([](Scene& scene) {
+    const ForceId push = scene.simulation.find_force("push").value();
+    scene.simulation.replace(push, BodyId{0}, TestForce{.vertices = {3}, .force = Vec3(0, 0, 2)});
+  }));
+  CHECK(Session(maker_of(parse_scene(dancing, {}, "dancing"), false)).has_text());
 }
 
 TEST_CASE("what a program has made starts over with the same bits, its events and its own types as well") {
@@ -130,6 +148,80 @@ TEST_CASE("a scene that stands elsewhere than at its start starts over from ther
   CHECK(session.simulation().state().positions == there);
   CHECK(session.pinned_vertices().size() == 1);  // the event has acted, and does not act again
   CHECK(positions_after(session, 5) == then);
+  session.pin(12);
+  session.undo();
+  CHECK_FALSE(session.is_pinned(12));
+  session.switch_on("whirl", false);
+  session.step();
+  session.undo();
+  CHECK(session.simulation().find_force("whirl").has_value());
+  CHECK(session.pinned_vertices().size() == 1);
+}
+
+TEST_CASE("groups that a program has left without a name are not mixed up") {
+  Scene scene;
+  scene.simulation.set_settings({.iterations = 5, .threads = 1});
+  std::vector<GroupId> springs;
+  for (const Real height : {0.0, 1.0}) {
+    Mesh mesh = grid({.columns = 5, .rows = 5, .plane = Plane::xy});
+    mesh.vertices.col(2).array() += height;
+    const BodyId sheet = scene.simulation.add_body(std::move(mesh), Mass::area_density(0.2));
+    springs.push_back(scene.simulation.add(sheet, EdgeSpring{.stiffness = 100 * (1 + 9 * height)}));
+    scene.simulation.add(sheet, Position{.on = {0, 4}});
+    scene.simulation.add(sheet, Position{.on = {20}});
+  }
+  Session session(maker_of(std::move(scene), false));
+  positions_after(session, 2);
+  session.pin(12);
+  session.undo();
+  CHECK(session.simulation().stiffness(springs[0]) == 100);
+  CHECK(session.simulation().stiffness(springs[1]) == 1000);
+  session.set("group:edge_spring:2.stiffness", {5000, 0, 0});
+  session.pin(12);
+  session.undo();
+  CHECK(session.simulation().stiffness(springs[1]) == 5000);
+  session.undo();
+  CHECK(session.simulation().stiffness(springs[1]) == 1000);
+  session.unpin(25 + 4);   // of the first group of the second body
+  session.unpin(25 + 20);  // of its second one
+  session.restart(true);
+  CHECK_FALSE(session.is_pinned(25 + 4));
+  CHECK_FALSE(session.is_pinned(25 + 20));
+  for (const Index pinned : {0, 4, 20, 25}) CHECK(session.is_pinned(pinned));
+  session.move_pin(20, {3, 0, 0});
+  session.drop_pin(20);
+  session.restart(true);
+  for (const PinnedVertex& pin : session.pinned_vertices()) {
+    if (pin.vertex == 20) CHECK(pin.target == Vec3f(3, 0, 0));
+    if (pin.vertex == 0) CHECK(pin.target != Vec3f(3, 0, 0));
+  }
+}
+
+TEST_CASE("hooks: before each step, after restarts and rebuilds; a body that is added is there") {
+  Session session(maker_of(make(), true));
+  int steps = 0, restarts = 0, rebuilds = 0;
+  session.set_hooks({.before_step = [&](Simulation&) { ++steps; },
+                     .restarted = [&](Simulation& now) { restarts += now.state().step == 0 ? 1 : 100; },
+                     .rebuilt = [&](Simulation& now) { rebuilds += now.state().step == 4 ? 1 : 100; }});
+  positions_after(session, 4);
+  session.pin(12);
+  session.undo();
+  session.set("force:whirl.strength", {3, 0, 0});
+  session.undo();
+  session.restart(true);
+  CHECK(std::array{steps, restarts, rebuilds} == std::array{4, 1, 1});
+  session.set_hooks(
+      {.before_step = [](Simulation& now) { now.add_body(grid({.columns = 3, .rows = 3}), Mass::total(1)); }});
+  session.step();
+  CHECK(session.simulation().bodies().size() == 2);
+  session.pin(26);  // of the new one
+  session.set_hooks({});
+  CHECK_THROWS_AS(session.undo(), Error);  // it is not in the copy
+  session.step();
+  CHECK(session.is_pinned(26));
+  session.set_hooks({.before_step = [](Simulation&) { throw 7; }});
+  CHECK_THROWS_WITH_AS(session.step(), "before_step has thrown something that is no std::exception",
+                       std::runtime_error);
 }
 
 TEST_CASE("what cannot be copied runs, and says why it does not start over") {

@@ -53,12 +53,17 @@ inline constexpr bool is_one_of = (std::is_same_v<Option, Kinds> || ...);
 template <class Option>
 inline constexpr bool is_listed = is_one_of<Option, Real, Index, std::optional<Real>, bool, Vec3, Values, Points>;
 
+template <class Option>
+concept is_choice = std::is_enum_v<Option> && !std::is_const_v<Option> && requires {
+  choice_names(Option{});
+};
+
 }  // namespace detail
 
 template <class Options>
 void list_options(const Options& options, OptionLister& lister) {
   Options::visit(options, [&lister]<class Option>(const OptionInfo& info, const Option& option) {
-    if constexpr (std::is_enum_v<Option>) {
+    if constexpr (detail::is_choice<Option>) {
       static constexpr auto names = choice_names(Option{});
       lister.list(info, names, static_cast<int>(option));
     } else if constexpr (detail::is_listed<Option>) {
@@ -70,7 +75,7 @@ void list_options(const Options& options, OptionLister& lister) {
 template <class Options>
 void set_options(Options& options, OptionSetter& setter) {
   Options::visit(options, [&setter]<class Option>(const OptionInfo& info, Option& option) {
-    if constexpr (std::is_enum_v<Option>) {
+    if constexpr (detail::is_choice<Option>) {
       int chosen = static_cast<int>(option);
       setter.set_choice(info, chosen);
       option = static_cast<Option>(chosen);

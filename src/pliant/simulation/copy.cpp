@@ -12,8 +12,8 @@ namespace {
 }
 
 Group copy_of(const Group& group) {
-  Group copy{group.name, group.type, group.body, group.source, {}, group.points, group.next_point, group.other,
-             group.factors};
+  Group copy{group.name,   group.type,       group.body,  group.source, {},
+             group.points, group.next_point, group.other, group.factors};
   copy.set.count = group.set.count;
   copy.set.skipped = group.set.skipped;
   copy.set.skipped_reason = group.set.skipped_reason;

@@ -141,7 +141,21 @@ void list_group(const Simulation& simulation, GroupId id, std::vector<Parameter>
   if (group.source == nullptr) return lister.add_stiffness(stiffness_alone, false);
   lister.stiffnesses = group.source->stiffness();
   lister.anchors = group.source->anchors();
+  const auto first = static_cast<std::ptrdiff_t>(list.size());
   group.source->list(lister);
+  if (lister.stiffnesses != nullptr) return;
+  const auto is_stiffness = [](const Parameter& each) { return each.handle.option == stiffness_alone.name; };
+  if (std::none_of(list.begin() + first, list.end(), is_stiffness)) lister.add_stiffness(stiffness_alone, false);
+}
+
+/// Whether "stiffness" is the common factor of a group, and no option that its constraints are made anew of.
+bool is_factor_of(const Group& group) {
+  if (group.source == nullptr || group.source->stiffness() != nullptr) return true;
+  std::vector<Parameter> options;
+  ParameterLister lister({}, "", "", options);
+  group.source->list(lister);
+  return std::ranges::none_of(options,
+                              [](const Parameter& each) { return each.handle.option == stiffness_alone.name; });
 }
 
 void list_force(const Simulation& simulation, ForceId id, std::vector<Parameter>& list) {
@@ -193,9 +207,11 @@ Settings changed(Settings settings, const Parameter& parameter, const Vec3& valu
 }
 
 void set_of_group(Simulation& simulation, GroupId id, const Parameter& parameter, const Vec3& value) {
-  const std::shared_ptr<const AnyOptions> source = group_with(simulation, id).source;  // is exchanged meanwhile
-  const bool is_factor = source == nullptr || source->stiffness() != nullptr;
-  if (is_factor && parameter.handle.option == stiffness_alone.name) return simulation.set_stiffness(id, value[0]);
+  const Group& group = group_with(simulation, id);
+  const std::shared_ptr<const AnyOptions> source = group.source;  // is exchanged meanwhile
+  if (parameter.handle.option == stiffness_alone.name && is_factor_of(group)) {
+    return simulation.set_stiffness(id, value[0]);
+  }
   ParameterSetter setter(parameter.handle.option, value);
   source->change(simulation, static_cast<Index>(id), setter);
 }

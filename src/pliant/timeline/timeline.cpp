@@ -371,9 +371,11 @@ TimelineState Timeline::state() const {
 }
 
 void Timeline::replay(Simulation& simulation, const TimelineState& state) {
-  if (!applied_.empty()) fail_input("replay: this timeline has begun already; make a new one");
-  all_or_nothing(simulation, [&] {
-    for (const Index event : state.applied) {
+  const bool has_same_past =
+      applied_.size() <= state.applied.size() && std::equal(applied_.begin(), applied_.end(), state.applied.begin());
+  if (!has_same_past) fail_input("replay: this timeline has begun already, and otherwise; make a new one");
+  all_or_nothing(simulation, [&, past = applied_.size()] {
+    for (const Index event : std::span(state.applied).subspan(past)) {
       if (event < 0 || static_cast<std::size_t>(event) >= events_.size() || !is_waiting(event)) {
         fail_input(fmt::format("replay: event {} is not of this timeline; make it as it was", event));
       }
