@@ -23,6 +23,13 @@ struct Pull {
   Real stiffness = 1;        ///< [N/m]
 };
 
+/// What a brush leaves of a stiffness.
+struct PaintDab {
+  std::vector<Index> vertices{};  ///< in the simulation, of one body
+  std::vector<Real> shares{};     ///< of the way to the factor, by ratios, 0 to 1, of each
+  Real factor = 1;                ///< that the stiffness is to be multiplied by, 0.001 to 1000
+};
+
 /// Each is called like the member of Session that does it, and has what that is given.
 namespace action {
 struct Grab {
@@ -78,6 +85,11 @@ struct Add {
 struct Push {
   std::vector<Index> vertices;
 };
+struct Paint {
+  std::string group;
+  PaintDab dab;
+  bool goes_on = false;
+};
 struct Undo {};
 struct Redo {};
 struct Restart {
@@ -99,11 +111,12 @@ struct MoveHeld {
 struct DropHeld {};
 }  // namespace action
 
-using Action = std::variant<action::Grab, action::PullTo, action::PullStiffness, action::LetGo, action::PinVertex,
-                            action::Unpin, action::MovePin, action::DropPin, action::MoveCollider, action::DropCollider,
-                            action::Set, action::SetMaterial, action::Undo, action::Redo, action::Restart, action::Save,
-                            action::PinVertices, action::UnpinVertices, action::HoldPins, action::MoveHeld,
-                            action::DropHeld, action::SetAppearance, action::SwitchOn, action::Add, action::Push>;
+using Action =
+    std::variant<action::Grab, action::PullTo, action::PullStiffness, action::LetGo, action::PinVertex, action::Unpin,
+                 action::MovePin, action::DropPin, action::MoveCollider, action::DropCollider, action::Set,
+                 action::SetMaterial, action::Undo, action::Redo, action::Restart, action::Save, action::PinVertices,
+                 action::UnpinVertices, action::HoldPins, action::MoveHeld, action::DropHeld, action::SetAppearance,
+                 action::SwitchOn, action::Add, action::Push, action::Paint>;
 
 /// An action, and how many steps the session had taken before it.
 struct TimedAction {

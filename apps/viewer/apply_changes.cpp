@@ -42,6 +42,9 @@ void UnchangedScene::apply(const SceneChanges& changes, pliant::Scene& scene) co
   std::map<std::string, Vec3> values;
   for (const auto& [key, changed] : changes.values) values[key] = changed.value;
   set_values(std::move(values), simulation);
+  for (const auto& [name, painted] : changes.painted) {
+    if (const auto group = simulation.find_group(name)) simulation.set_stiffness_factors(*group, painted.factors);
+  }
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const BodyPart& body = bodies_[i];
     const pliant::BodyId id{static_cast<Index>(i)};

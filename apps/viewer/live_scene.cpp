@@ -16,8 +16,40 @@ constexpr Seconds longest_wait{1};             // a huge time step would overflo
 constexpr Seconds freshness{0.008};            // age at which a snapshot is replaced
 constexpr std::size_t most_measured = 16'384;  // steps that a window which takes no snapshots leaves waiting
 
+/// Blue where it is softer, gray as it was, orange where it is stiffer; full at a tenth and at tenfold.
+std::array<std::uint8_t, 4> color_of_factor(Real factor) {
+  constexpr std::array<float, 3> soft = {36, 84, 168}, plain = {222, 220, 216}, stiff = {208, 88, 16};
+  const auto share = static_cast<float>(std::clamp(std::log10(factor), -1.0, 1.0));
+  std::array<std::uint8_t, 4> color = {0, 0, 0, 255};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const float end = share < 0 ? soft[i] : stiff[i];
+    color[i] = static_cast<std::uint8_t>(std::lround(plain[i] + std::abs(share) * (end - plain[i])));
+  }
+  return color;
+}
+
+/// What bodies look like, but for one whose painted stiffness is shown.
+std::vector<pliant_render::VertexLook> looks_of(const Session& session, const std::string& painted) {
+  const pliant::Simulation& simulation = session.simulation();
+  std::vector<pliant_render::VertexLook> looks =
+      pliant_render::vertex_looks(simulation.bodies(), session.scene().appearances);
+  const auto id = painted.empty() ? std::nullopt : simulation.find_group(painted);
+  if (!id) return looks;
+  looks.resize(static_cast<std::size_t>(simulation.state().vertex_count()));
+  const pliant::Group& group = simulation.groups().at(*id);
+  const pliant::Body& body = simulation.body(group.body);
+  for (Index v = 0; v < body.mesh.vertex_count(); ++v) {
+    const Real factor = group.factors.empty() ? 1 : group.factors[static_cast<std::size_t>(v)];
+    pliant_render::VertexLook& look = looks[static_cast<std::size_t>(body.first_vertex + v)];
+    look = {};
+    look.front = look.back = color_of_factor(factor);
+    look.back[3] = static_cast<std::uint8_t>(pliant::Pattern::none);
+  }
+  return looks;
+}
+
 /// What was pinned by hand keeps its tone, all of a body too.
-pliant_render::RenderMesh make_mesh_of(const Session& session) {
+pliant_render::RenderMesh make_mesh_of(const Session& session, const std::string& painted) {
   const std::vector<pliant::Body>& bodies = session.simulation().bodies();
   const std::vector<char> is_figure = session.figures();
   std::vector<std::uint32_t> held;
@@ -26,7 +58,7 @@ pliant_render::RenderMesh make_mesh_of(const Session& session) {
     for (Index v = 0; v < count; ++v) held.push_back(static_cast<std::uint32_t>(bodies[i].first_vertex + v));
   }
   pliant_render::RenderMesh mesh = pliant_render::make_render_mesh(bodies, held);
-  mesh.looks = pliant_render::vertex_looks(bodies, session.scene().appearances);
+  mesh.looks = looks_of(session, painted);
   return mesh;
 }
 
@@ -232,8 +264,9 @@ void LiveScene::follow_session() {
     rebuilds_seen_ = session_.rebuilds();
     update_render_mesh();
   }
-  if (session_.look_changes() != looks_seen_) {
+  if (session_.look_changes() != looks_seen_ || context_.painted != painted_seen_) {
     looks_seen_ = session_.look_changes();
+    painted_seen_ = context_.painted;
     update_looks();
   }
   if (session_.restarts() == restarts_seen_) return;
@@ -281,7 +314,7 @@ void LiveScene::step() {
 }
 
 void LiveScene::update_render_mesh() {
-  auto render_mesh = std::make_shared<const pliant_render::RenderMesh>(make_mesh_of(session_));
+  auto render_mesh = std::make_shared<const pliant_render::RenderMesh>(make_mesh_of(session_, context_.painted));
   if (render_mesh_ == nullptr || !have_same_shape(*render_mesh, *render_mesh_) ||
       render_mesh->looks != render_mesh_->looks)
     render_mesh_ = std::move(render_mesh);
@@ -292,7 +325,7 @@ void LiveScene::update_render_mesh() {
 
 void LiveScene::update_looks() {
   auto render_mesh = std::make_shared<pliant_render::RenderMesh>(*render_mesh_);
-  render_mesh->looks = pliant_render::vertex_looks(session_.simulation().bodies(), session_.scene().appearances);
+  render_mesh->looks = looks_of(session_, context_.painted);
   render_mesh_ = std::move(render_mesh);
 }
 

@@ -62,6 +62,7 @@ struct CommandContext {
   bool is_playing = false;
   std::int64_t single_steps = 0;  ///< still to take while paused
   pliant::ColorBy color = pliant::ColorBy::none;
+  std::string painted = {};  ///< the group whose painted stiffness is shown; empty: none
   Measuring measuring = {};
   std::string message = {};  ///< for the user; empty: none
 
@@ -156,6 +157,7 @@ class LiveScene {
   std::uint64_t commands_published_ = 0;
   std::uint64_t restarts_seen_ = 0;
   std::uint64_t rebuilds_seen_ = 0, looks_seen_ = 0;
+  std::string painted_seen_;
   std::string message_;
   std::uint64_t messages_ = 0;
   std::shared_ptr<const std::vector<Slider>> sliders_;

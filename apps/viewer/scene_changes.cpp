@@ -104,6 +104,9 @@ UnchangedScene::UnchangedScene(const pliant::Scene& scene) {
     const bool is_tie = group.type == pliant::Attachment::info.name && !scene.places.contains(group.name);
     if (is_tie && std::ranges::find(scene.group_names, group.name) != scene.group_names.end()) ties_.insert(group.name);
   }
+  for (const auto& [id, group] : simulation.groups()) {
+    if (!group.factors.empty()) factors_[group.name] = {simulation.body(group.body).name, group.factors};
+  }
   for (const auto& [id, collider] : simulation.colliders()) collider_starts_[collider.name] = collider.pose.position;
   has_surfaces_ = simulation.contact().surfaces;
   appearances_ = scene.appearances;
@@ -182,6 +185,7 @@ SceneDocument UnchangedScene::with(const SceneChanges& changes, std::vector<std:
   write_pins(changes, document);
   write_names(changes, document);
   write_appearances(changes, document);
+  write_factors(changes, document);
   write_materials(changes, document);
   write_added(changes, document);
   for (const std::string& group : removed_by_events(changes)) append_event(document, "remove", group, Json::object());

@@ -62,6 +62,13 @@ struct AddedPart {
   bool operator==(const AddedPart&) const = default;
 };
 
+/// Factors of the stiffness of a group, by vertex of its body; none where the group has gone.
+struct PaintedStiffness {
+  std::string body;
+  std::vector<Real> factors;
+  bool operator==(const PaintedStiffness&) const = default;
+};
+
 /// Vertices have their indices in the simulation.
 struct SceneChanges {
   std::map<std::string, ChangedValue> values;                 ///< by the key of the slider
@@ -71,6 +78,7 @@ struct SceneChanges {
   std::map<Index, MovedPin> moved;                            ///< of the scene's, before the first step
   std::map<std::string, pliant::Vec3> collider_positions;     ///< where they begin [m]
   std::map<std::string, pliant::BodyAppearance> appearances;  ///< by body
+  std::map<std::string, PaintedStiffness> painted;            ///< by group
   std::map<std::string, AddedPart> added;                     ///< by name
   std::map<std::string, SwitchedOff> switched_off;            ///< by the name of what is off
 
@@ -106,6 +114,11 @@ class UnchangedScene {
   std::string free_name(const std::string& base, const SceneChanges& changes = {}) const;
   /// Shows bodies as they were changed, or else as they were read.
   void set_appearances(const SceneChanges& changes, pliant::Scene& scene) const;
+  /// By what the stiffness of a group is multiplied, and of all groups of a body that have factors, or had some.
+  std::vector<Real> factors_of(const std::string& group, const SceneChanges& changes) const;
+  std::map<std::string, std::vector<Real>> painted_of(const std::string& body, const SceneChanges& changes) const;
+  /// Whether an event adds a group of that name.
+  bool comes_later(const std::string& group) const { return as_read_.later_places.contains(group); }
   /// Of what is switched off the groups of materials, which have no place in a text that could go.
   std::set<std::string> removed_by_events(const SceneChanges& changes) const;
   /// Whether a scene can do without what has that name.
@@ -136,6 +149,7 @@ class UnchangedScene {
   void write_colliders(const SceneChanges& changes, pliant::SceneDocument& document) const;
   void write_added(const SceneChanges& changes, pliant::SceneDocument& document) const;
   void write_appearances(const SceneChanges& changes, pliant::SceneDocument& document) const;
+  void write_factors(const SceneChanges& changes, pliant::SceneDocument& document) const;
   void remove_entries(const SceneChanges& changes, pliant::SceneDocument& document) const;
 
   pliant::Scene as_read_;  // its texts alone
@@ -145,6 +159,7 @@ class UnchangedScene {
   std::map<std::string, std::set<Index>> pin_numbers_;   // of them, by group: what a move can name
   std::set<std::string> ties_;                           // of them, those of carried surfaces
   std::map<std::string, pliant::Vec3> collider_starts_;  // [m]
+  std::map<std::string, PaintedStiffness> factors_;      // that groups have from the start
   std::map<pliant::BodyId, pliant::BodyAppearance> appearances_;
   bool has_text_ = false;
   bool has_surfaces_ = false;

@@ -72,18 +72,15 @@ class Session {
   void hold_pins(const std::vector<Index>& vertices);
   /// Moves them from where they were then; the last motion counts. Does nothing without such pins.
   void move_held(const RigidMotion& motion);
-
   /// Takes a collider there in the steps to come, no faster than three times the size of the bodies in a second, and
   /// leaves it at rest. It is the user's until the scene starts over: velocities of its own end, and motions of the
   /// scene no longer move it. Does nothing with a collider that has no end.
   void move_collider(pliant::ColliderId collider, const Vec3f& position);
-
   /// What is moved has been let go. Before the first step the scene begins with it there from now on; later that is
   /// one of the things that happened, which a restart forgets.
   void drop_pin(Index vertex);
   void drop_held();
   void drop_collider(pliant::ColliderId collider);
-
   /// Of settings, groups, forces, colliders, contact and its bodies; the pull and pins that were set by hand have none.
   std::vector<Slider> sliders() const;
   /// Sets a parameter by the key of its slider; does nothing where there is none. `goes_on`: with the change before it
@@ -104,6 +101,8 @@ class Session {
   void add(const std::string& type, const std::string& body = {});
   /// Adds a test force on vertices, of each body one, which holds up its weight. @throws pliant::Error as of add().
   void push(const std::vector<Index>& vertices);
+  /// Paints the stiffness of a group by its name; `goes_on`: as of set(). @throws pliant::Error (input): no such group.
+  void paint(const std::string& group, const PaintDab& dab, bool goes_on = false);
   bool has_text() const { return unchanged_.has_text(); }  ///< see UnchangedScene
   /// What undo() and redo() would take back and do again, "pin"; empty: nothing.
   std::string undone_next() const { return done_.empty() ? "" : done_.back().what; }
@@ -170,6 +169,8 @@ class Session {
   void renumber_colliders(const pliant::Simulation& next);
   void take(pliant::Scene next);
   void set_looks(const SceneChanges& changes);
+  void set_painted(const SceneChanges& from, const SceneChanges& to);
+  void keep_paint_of(const std::string& body);
 
   MakeScene make_;
   pliant::Scene scene_;

@@ -13,8 +13,9 @@
 namespace pliant_viewer {
 namespace {
 
-constexpr std::size_t most_edits = 1000;      // that can be taken back
-constexpr std::size_t most_pins = 4'000'000;  // that these may name together, some 100 bytes each
+constexpr std::size_t most_edits = 1000;  // that can be taken back
+constexpr std::size_t most_pins =
+    4'000'000;  // that these may name together, some 100 bytes each; twelve factors are one
 
 /// The keys by which two maps differ.
 template <class Key, class Value>
@@ -35,6 +36,7 @@ std::size_t pin_count(const Edit& edit) {
   std::size_t count = edit.held.size();
   for (const SceneChanges* changes : {&edit.before, &edit.after}) {
     count += changes->pins.size() + changes->released.size() + changes->moved.size();
+    for (const auto& [group, painted] : changes->painted) count += painted.factors.size() / 12;
   }
   return count;
 }
@@ -43,6 +45,7 @@ std::size_t pin_count(const Edit& edit) {
 bool differ_in_what_is_set_alone(const SceneChanges& a, SceneChanges b) {
   b.values = a.values;
   b.appearances = a.appearances;
+  b.painted = a.painted;
   return a == b;
 }
 
@@ -106,6 +109,7 @@ void Session::set_material(const std::string& body, const std::string& material)
   });
   changes_.values.erase("contact:" + body + ".friction");
   changes_.materials[body] = {material, placement->second};
+  keep_paint_of(body);
   for (const pliant::Parameter& now : list_parameters(simulation(), {})) {  // the settings
     const auto old = std::ranges::find(before, "settings." + now.handle.option, &Slider::key);
     if (old == before.end() || old->parameter.value == now.value) continue;
@@ -237,6 +241,7 @@ void Session::go(const Edit& edit, const SceneChanges& from, const SceneChanges&
     }
     set_values(std::move(values), scene_.simulation);
     if (!(from.appearances == to.appearances)) set_looks(to);
+    if (!(from.painted == to.painted)) set_painted(from, to);
     changes_ = to;
     return;
   }

@@ -21,11 +21,11 @@ constexpr int format_version = 1;
 
 /// In the order of Action.
 constexpr std::array<std::string_view, std::variant_size_v<Action>> action_names = {
-    "grab",      "pull_to",        "pull_stiffness", "let_go",        "pin",
-    "unpin",     "move_pin",       "drop_pin",       "move_collider", "drop_collider",
-    "set",       "set_material",   "undo",           "redo",          "restart",
-    "save",      "pin_vertices",   "unpin_vertices", "hold_pins",     "move_held",
-    "drop_held", "set_appearance", "switch_on",      "add",           "push"};
+    "grab",      "pull_to",   "pull_stiffness", "let_go",         "pin",          "unpin",
+    "move_pin",  "drop_pin",  "move_collider",  "drop_collider",  "set",          "set_material",
+    "undo",      "redo",      "restart",        "save",           "pin_vertices", "unpin_vertices",
+    "hold_pins", "move_held", "drop_held",      "set_appearance", "switch_on",    "add",
+    "push",      "paint"};
 
 /// Calls field(name, value) with what an action has.
 template <class Action, class Field>
@@ -41,6 +41,12 @@ void visit_fields(Action& action, const Field& field) {
     field("rotation", action.motion.rotation);
     field("translation", action.motion.translation);
   }
+  if constexpr (requires { action.dab; }) {
+    field("vertices", action.dab.vertices);
+    field("shares", action.dab.shares);
+    field("factor", action.dab.factor);
+  }
+  if constexpr (requires { action.group; }) field("group", action.group);
   if constexpr (requires { action.vertices; }) field("vertices", action.vertices);
   if constexpr (requires { action.vertex; }) field("vertex", action.vertex);
   if constexpr (requires { action.collider; }) field("collider", action.collider);
@@ -128,7 +134,8 @@ class Node {
     check_size(3);
     for (std::size_t i = 0; i < 3; ++i) at(i).read(values[i]);
   }
-  void read(std::vector<Index>& values) const {
+  template <class Number>
+  void read(std::vector<Number>& values) const {
     values.resize(size());
     for (std::size_t i = 0; i < values.size(); ++i) at(i).read(values[i]);
   }

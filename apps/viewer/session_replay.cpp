@@ -127,6 +127,7 @@ void Session::do_again(const Action& action) {
                  [&](const action::SwitchOn& switched) { switch_on(switched.name, switched.on); },
                  [&](const action::Add& added) { add(added.type, added.body); },
                  [&](const action::Push& pushed) { push(pushed.vertices); },
+                 [&](const action::Paint& painted) { paint(painted.group, painted.dab, painted.goes_on); },
                  [&](const action::Undo&) { undo(); },
                  [&](const action::Redo&) { redo(); },
                  [&](const action::Restart& restarted) { restart(restarted.keep_changes); },

@@ -109,6 +109,7 @@ bool Viewer::turn(double most_wait) {
   if (live != nullptr && live->step_age() > Seconds(1) && Clock::now() - last_draw_ > Seconds(0.5)) draws_left_ = 1;
   if (source_.refresh(Clock::now())) is_frame_new_ = true;
   gizmo_.flush(mouse_view());  // which may have waited for that
+  brush_.flush(mouse_view());
   if (live != nullptr && std::exchange(rebuilds_, live->shown().rebuilds) != live->shown().rebuilds) {
     if (interaction_.collider_goal()) interaction_.cancel();  // colliders may have other numbers now
   }
@@ -121,6 +122,7 @@ bool Viewer::turn(double most_wait) {
     interaction_.cancel();
     gizmo_.cancel();
     wind_.cancel();
+    brush_.cancel();
     select_.restart(source_.frame().content.positions.size());
     has_ground_ = false;
   }

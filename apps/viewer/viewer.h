@@ -12,6 +12,7 @@
 #include "render/render_target.h"
 #include "render/renderer.h"
 #include "viewer/auto_range.h"
+#include "viewer/brush_tool.h"
 #include "viewer/frame_statistics.h"
 #include "viewer/mouse_interaction.h"
 #include "viewer/panels/film_panel.h"
@@ -56,6 +57,7 @@ class Viewer {
   const MouseInteraction& interaction() const { return interaction_; }
   const SelectTool& selection() const { return select_; }
   const PinGizmo& gizmo() const { return gizmo_; }
+  BrushTool& brush() { return brush_; }
   /// As the mouse sees it now.
   MouseInteraction::View mouse_view();
   const pliant::ViewSettings& appearance() const { return appearance_; }
@@ -96,7 +98,6 @@ class Viewer {
   void change_color();
   void frame_everything();
   void view_as_at_first();
-
   // viewer_selection.cpp
   void toggle_pins();
   void pin_selected(bool shall_pin);
@@ -104,7 +105,10 @@ class Viewer {
   void update_selection();
   void draw_selection_rows(float width);
   void draw_hand(const pliant_render::AnnotationCanvas& canvas);
-
+  // viewer_brush.cpp
+  void choose_brush(const BrushTool::Subject& subject);
+  void draw_brush_rows(float width);
+  void fill_with_brush(Real factor);
   void film();
   bool waits_for_film() const;
   void draw();
@@ -150,6 +154,7 @@ class Viewer {
   SelectTool select_;
   PinGizmo gizmo_;
   WindHandle wind_;
+  BrushTool brush_;
   std::optional<std::uint64_t> drawn_selection_;  // its version
   std::optional<Index> lit_collider_;             // that the mouse would take
   std::deque<KeyEvent> keys_;                     // that the panels and the shortcuts have not taken yet

@@ -80,6 +80,7 @@ void Viewer::draw_main_panel() {
     }
   }
   draw_selection_rows(third);
+  draw_brush_rows(third);
   source_.draw_panel();
   if (section_header("Picture") &&
       draw_appearance_panel(appearance_, samples_, quality_.choose(appearance_.quality), source_))

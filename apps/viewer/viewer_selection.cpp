@@ -173,14 +173,18 @@ void Viewer::draw_hand(const pliant_render::AnnotationCanvas& canvas) {
   const MouseInteraction::View view = mouse_view();
   const Vec2f mouse = ui_.mouse();
   const bool is_in_picture = (mouse.array() >= 0).all() && mouse.x() <= screen_.size.x() && !ui_.has_panel_at(mouse);
-  const bool is_busy = interaction_.is_busy() || gizmo_.is_busy() || select_.is_busy() || wind_.is_busy();
+  const bool is_busy =
+      interaction_.is_busy() || gizmo_.is_busy() || select_.is_busy() || wind_.is_busy() || brush_.is_busy();
+  if (const auto point = is_in_picture ? brush_.point_at(mouse, view) : std::nullopt; point && !gizmo_.is_busy()) {
+    brush_.draw(point->position(positions), view, canvas.list);
+  }
   const bool is_free = is_in_picture && !is_busy;
   const bool is_at_wind = is_free && wind_.is_at(mouse, view);
   wind_.draw(view, is_at_wind, canvas.list);
   const PinGizmo::Part part = is_free && !is_at_wind ? gizmo_.part_at(mouse, view) : PinGizmo::Part::none;
   gizmo_.draw(view, part, canvas.list);
   if (is_at_wind || part != PinGizmo::Part::none) return Ui::show_hand();
-  if (!is_free) return;
+  if (!is_free || brush_.point_at(mouse, view)) return;
   const MouseInteraction::PickTarget under = MouseInteraction::pick(mouse, view);
   if (under.pin) {
     draw_ring(screen_, positions[*under.pin], unit, canvas.list);
