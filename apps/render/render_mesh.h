@@ -22,6 +22,10 @@ struct VertexLook {
 
   bool operator==(const VertexLook&) const = default;
 };
+/// A number of a pattern beside those of appearances: from the front's color on both sides to the back's where `place`
+/// has -1 as its x, and to the second one where that is 1.
+inline constexpr std::uint8_t gradient_pattern = 3;
+static_assert(choice_names(pliant::Pattern{}).size() == gradient_pattern);
 /// What a body has where its appearance leaves colors open, by its place in the list.
 const pliant::BodyTones& open_tones(std::size_t body);
 /// One for each vertex, by the bodies at rest; none where no body has an appearance.

@@ -46,6 +46,10 @@ vec3 in_turn(vec3 at) {
 
 vec3 own_tone() {
   int pattern = int(255.0 * back_here.a + 0.5);
+  if (pattern == 3) {
+    float share = clamp(in_pattern_here.x, -1.0, 1.0);
+    return mix(front_here.rgb, share < 0.0 ? back_here.rgb : second_here.rgb, abs(share));
+  }
   vec3 base = gl_FrontFacing ? front_here.rgb : back_here.rgb;
   vec3 turns = in_turn(in_pattern_here);
   float turn = pattern == 1 ? turns.x * turns.y * turns.z : turns.x;

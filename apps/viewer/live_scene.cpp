@@ -17,15 +17,13 @@ constexpr Seconds freshness{0.008};            // age at which a snapshot is rep
 constexpr std::size_t most_measured = 16'384;  // steps that a window which takes no snapshots leaves waiting
 
 /// Blue where it is softer, gray as it was, orange where it is stiffer; full at a tenth and at tenfold.
-std::array<std::uint8_t, 4> color_of_factor(Real factor) {
-  constexpr std::array<float, 3> soft = {36, 84, 168}, plain = {222, 220, 216}, stiff = {208, 88, 16};
-  const auto share = static_cast<float>(std::clamp(std::log10(factor), -1.0, 1.0));
-  std::array<std::uint8_t, 4> color = {0, 0, 0, 255};
-  for (std::size_t i = 0; i < 3; ++i) {
-    const float end = share < 0 ? soft[i] : stiff[i];
-    color[i] = static_cast<std::uint8_t>(std::lround(plain[i] + std::abs(share) * (end - plain[i])));
-  }
-  return color;
+pliant_render::VertexLook look_of_factor(Real factor) {
+  pliant_render::VertexLook look;
+  look.front = {222, 220, 216, 255};
+  look.back = {36, 84, 168, pliant_render::gradient_pattern};
+  look.second = {208, 88, 16, 0};
+  look.place.x() = static_cast<float>(std::log10(factor));
+  return look;
 }
 
 /// What bodies look like, but for one whose painted stiffness is shown.
@@ -40,10 +38,7 @@ std::vector<pliant_render::VertexLook> looks_of(const Session& session, const st
   const pliant::Body& body = simulation.body(group.body);
   for (Index v = 0; v < body.mesh.vertex_count(); ++v) {
     const Real factor = group.factors.empty() ? 1 : group.factors[static_cast<std::size_t>(v)];
-    pliant_render::VertexLook& look = looks[static_cast<std::size_t>(body.first_vertex + v)];
-    look = {};
-    look.front = look.back = color_of_factor(factor);
-    look.back[3] = static_cast<std::uint8_t>(pliant::Pattern::none);
+    looks[static_cast<std::size_t>(body.first_vertex + v)] = look_of_factor(factor);
   }
   return looks;
 }
