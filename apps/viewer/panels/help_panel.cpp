@@ -14,11 +14,12 @@ struct Key {
   const char* what;
 };
 
-constexpr std::array<Key, 6> body_keys = {Key{"drag a body", "pull at it by a spring; it stays at its depth"},
+constexpr std::array<Key, 7> body_keys = {Key{"drag a body", "pull at it by a spring; it stays at its depth"},
                                           Key{"click a body", "pin the nearest vertex"},
                                           Key{"click a pin", "let it go"},
                                           Key{"drag a pin", "move it"},
                                           Key{"drag a collider", "move it; it stays where you leave it"},
+                                          Key{"drag with the brush", "paint (in the panel); with Shift: take it off"},
                                           Key{"drag the wind's arrow", "turn the wind; wheel: stronger or weaker"}};
 constexpr std::array<Key, 7> selection_keys = {
     Key{"Ctrl + drag", "select what is inside a box, or a lasso"},
