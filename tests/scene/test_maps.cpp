@@ -214,7 +214,8 @@ TEST_CASE("stiffness factors: lists and maps, for groups of materials and of one
   CHECK(message(R"({"body 0.position": [1, 1, 1, 1, 1, 1]})").find("is no group with a stiffness") !=
         std::string::npos);
   CHECK(message(R"({"body 0.edge_spring": [1, 1]})") ==
-        "s.json: bodies[0].stiffness_factors.body 0.edge_spring: the list has 2 entries; give 6 (one a vertex), or an object "
+        "s.json: bodies[0].stiffness_factors.body 0.edge_spring: the list has 2 entries; give 6 (one a vertex), or an "
+        "object "
         "with a map");
   CHECK(message(R"({"body 0.edge_spring": [1, 1, 0, 1, 1, 1]})").find("at vertex 2 is out of range") !=
         std::string::npos);
