@@ -30,6 +30,19 @@ struct PaintDab {
   Real factor = 1;                ///< that the stiffness is to be multiplied by, 0.001 to 1000
 };
 
+/// A group whose stiffness can be painted, and its body.
+struct PaintableGroup {
+  std::string group;
+  std::string body;
+};
+
+/// A stroke of paint under way.
+struct PaintStroke {
+  std::string group{};
+  std::vector<Real> before{};  ///< the factors when it began
+  std::vector<Real> shares{};  ///< the largest so far, by vertex of the body
+};
+
 /// Each is called like the member of Session that does it, and has what that is given.
 namespace action {
 struct Grab {

@@ -43,7 +43,11 @@ void UnchangedScene::apply(const SceneChanges& changes, pliant::Scene& scene) co
   for (const auto& [key, changed] : changes.values) values[key] = changed.value;
   set_values(std::move(values), simulation);
   for (const auto& [name, painted] : changes.painted) {
-    if (const auto group = simulation.find_group(name)) simulation.set_stiffness_factors(*group, painted.factors);
+    const auto group = group_of_body(simulation, name, painted.body);
+    const auto body = find_body(painted.body);
+    const bool fits = body && (painted.factors.empty() ||
+                               painted.factors.size() == static_cast<std::size_t>(bodies_[*body].vertex_count));
+    if (group && fits) simulation.set_stiffness_factors(*group, painted.factors);
   }
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const BodyPart& body = bodies_[i];

@@ -26,6 +26,10 @@ struct NotCarried {
 /// copy, whose groups may share a name; else that of its name.
 std::optional<pliant::GroupId> find_same(const pliant::Simulation& in, pliant::GroupId id, const pliant::Group& group);
 
+/// The first group of that name on the body of that name.
+std::optional<pliant::GroupId> group_of_body(const pliant::Simulation& simulation, const std::string& name,
+                                             const std::string& body);
+
 /// Sets values where each is allowed only after another: a smallest stretch may be so only below the largest one.
 /// Keys that there are not are left out. @throws pliant::Error (input): one that is never allowed.
 void set_values(std::map<std::string, pliant::Vec3> values, pliant::Simulation& simulation);

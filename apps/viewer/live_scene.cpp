@@ -17,12 +17,20 @@ constexpr Seconds freshness{0.008};            // age at which a snapshot is rep
 constexpr std::size_t most_measured = 16'384;  // steps that a window which takes no snapshots leaves waiting
 
 /// Blue where it is softer, gray as it was, orange where it is stiffer; full at a tenth and at tenfold.
-pliant_render::VertexLook look_of_factor(Real factor) {
+/// Ropes have one color from end to end of an edge.
+pliant_render::VertexLook look_of_factor(Real factor, bool has_surface) {
   pliant_render::VertexLook look;
   look.front = {222, 220, 216, 255};
   look.back = {36, 84, 168, pliant_render::gradient_pattern};
   look.second = {208, 88, 16, 0};
   look.place.x() = static_cast<float>(std::log10(factor));
+  if (has_surface) return look;
+  const float share = std::clamp(look.place.x(), -1.0F, 1.0F);
+  const std::array<std::uint8_t, 4>& end = share < 0 ? look.back : look.second;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto from = static_cast<float>(look.front[i]), to = static_cast<float>(end[i]);
+    look.front[i] = static_cast<std::uint8_t>(std::lround(from + std::abs(share) * (to - from)));
+  }
   return look;
 }
 
@@ -36,9 +44,10 @@ std::vector<pliant_render::VertexLook> looks_of(const Session& session, const st
   looks.resize(static_cast<std::size_t>(simulation.state().vertex_count()));
   const pliant::Group& group = simulation.groups().at(*id);
   const pliant::Body& body = simulation.body(group.body);
+  const bool has_surface = !(body.mesh.triangles.empty() && body.mesh.tetrahedra.empty());
   for (Index v = 0; v < body.mesh.vertex_count(); ++v) {
     const Real factor = group.factors.empty() ? 1 : group.factors[static_cast<std::size_t>(v)];
-    looks[static_cast<std::size_t>(body.first_vertex + v)] = look_of_factor(factor);
+    looks[static_cast<std::size_t>(body.first_vertex + v)] = look_of_factor(factor, has_surface);
   }
   return looks;
 }
@@ -332,6 +341,14 @@ void LiveScene::update_bodies() {
   }
   appearances_ = std::move(appearances);
   materials_ = std::make_shared<const std::vector<BodyMaterial>>(session_.materials());
+  std::vector<PaintableGroup> paintable = session_.paintable();
+  const std::vector<char> is_figure = session_.figures();
+  const auto is_of_figure = [&](const PaintableGroup& each) {
+    const auto place = std::ranges::find(*body_names_, each.body) - body_names_->begin();
+    return is_figure.at(static_cast<std::size_t>(place)) != 0;
+  };
+  std::erase_if(paintable, is_of_figure);
+  paintable_ = std::make_shared<const std::vector<PaintableGroup>>(std::move(paintable));
   switches_ = std::make_shared<const std::map<std::string, bool>>(session_.switches());
   switched_off_ = std::make_shared<const std::map<std::string, SwitchedOff>>(session_.changes().switched_off);
 }
@@ -363,6 +380,7 @@ void LiveScene::publish() {
   update_sliders();
   back_.sliders = sliders_;
   back_.materials = materials_;
+  back_.paintable = paintable_;
   back_.appearances = appearances_;
   back_.switches = switches_;
   back_.switched_off = switched_off_;

@@ -28,6 +28,7 @@ struct Snapshot {
   std::optional<Pull> pull;
   std::shared_ptr<const std::vector<Slider>> sliders;
   std::shared_ptr<const std::vector<BodyMaterial>> materials;
+  std::shared_ptr<const std::vector<PaintableGroup>> paintable;  ///< but for those of figures
   std::shared_ptr<const std::map<std::string, pliant::BodyAppearance>>
       appearances;                                                         ///< by body, of those that have one
   std::shared_ptr<const std::map<std::string, bool>> switches;             ///< by name, see Session::switches
@@ -162,6 +163,7 @@ class LiveScene {
   std::uint64_t messages_ = 0;
   std::shared_ptr<const std::vector<Slider>> sliders_;
   std::shared_ptr<const std::vector<BodyMaterial>> materials_;
+  std::shared_ptr<const std::vector<PaintableGroup>> paintable_;
   std::shared_ptr<const std::map<std::string, pliant::BodyAppearance>> appearances_;
   std::shared_ptr<const std::map<std::string, bool>> switches_;
   std::shared_ptr<const std::map<std::string, SwitchedOff>> switched_off_;

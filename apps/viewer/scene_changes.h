@@ -117,8 +117,10 @@ class UnchangedScene {
   /// By what the stiffness of a group is multiplied, and of all groups of a body that have factors, or had some.
   std::vector<Real> factors_of(const std::string& group, const SceneChanges& changes) const;
   std::map<std::string, std::vector<Real>> painted_of(const std::string& body, const SceneChanges& changes) const;
-  /// Whether an event adds a group of that name.
-  bool comes_later(const std::string& group) const { return as_read_.later_places.contains(group); }
+  /// Whether a scene with the changes begins with a group of that name.
+  bool begins_with(const std::string& group, const SceneChanges& changes) const {
+    return groups_.contains(group) || (!has_text_ && !changes.materials.empty()) || is_of_material(group, changes);
+  }
   /// Of what is switched off the groups of materials, which have no place in a text that could go.
   std::set<std::string> removed_by_events(const SceneChanges& changes) const;
   /// Whether a scene can do without what has that name.

@@ -43,17 +43,24 @@ void stop_collider(pliant::Simulation& simulation, pliant::ColliderId id) {
 }
 
 /// Whatever it throws is told in the window.
-void call(const std::function<void(pliant::Simulation&)>& hook, pliant::Simulation& simulation) {
+void call_one(const std::function<void(pliant::Simulation&)>& hook, const char* name, pliant::Simulation& simulation) {
+  if (!hook) return;
   try {
     hook(simulation);
   } catch (const std::exception&) {
     throw;
   } catch (...) {
-    throw std::runtime_error("before_step has thrown something that is no std::exception");
+    throw std::runtime_error(std::string(name) + " has thrown something that is no std::exception");
   }
 }
 
 }  // namespace
+
+void HookCaller::call(std::uint64_t restarts, std::uint64_t rebuilds, pliant::Simulation& simulation) {
+  if (std::exchange(restarts_, restarts) != restarts) call_one(hooks_.restarted, "restarted", simulation);
+  if (std::exchange(rebuilds_, rebuilds) != rebuilds) call_one(hooks_.rebuilt, "rebuilt", simulation);
+  call_one(hooks_.before_step, "before_step", simulation);
+}
 
 Session::Session(MakeScene make)
     : make_(std::move(make)),
@@ -84,7 +91,7 @@ void Session::set_threads(Index threads) {
 
 pliant::StepReport Session::step() {
   do_what_is_due();
-  if (hooks_.before_step) call(hooks_.before_step, scene_.simulation);
+  hooks_.call(restarts_, rebuilds_, scene_.simulation);
   steer_colliders();
   pliant::StepReport report;
   try {

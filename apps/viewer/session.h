@@ -34,7 +34,7 @@ class Session {
   const pliant::Scene& scene() const { return scene_; }
   void set_threads(Index threads);            ///< for a scene that does not set it; see SolverSettings::threads
   void set_stop(std::function<bool()> stop);  ///< asked whether to abandon a step, see Simulation::set_stop
-  void set_hooks(ProgramHooks hooks) { hooks_ = std::move(hooks); }
+  void set_hooks(ProgramHooks hooks) { hooks_.set(std::move(hooks)); }
   /// Takes a step. Events that are due but can no longer act, because the user removed what they act on, are skipped.
   /// @throws pliant::Error as Scene::step does, and what before_step throws.
   pliant::StepReport step();
@@ -62,8 +62,7 @@ class Session {
   void pin(const std::vector<Index>& vertices);
   void unpin(const std::vector<Index>& vertices);
   bool is_pinned(Index vertex) const { return find_pin(vertex).has_value(); }
-  /// By vertex, each once, but for figures.
-  std::vector<PinnedVertex> pinned_vertices() const;
+  std::vector<PinnedVertex> pinned_vertices() const;  ///< by vertex, each once, but for figures
   /// Of each body, whether the scene's own hard pins hold all of it. Such pins are not the user's.
   std::vector<char> figures() const;
   /// Moves a pin to `target` [m]; motions of the scene that are under way no longer move it.
@@ -101,7 +100,8 @@ class Session {
   void add(const std::string& type, const std::string& body = {});
   /// Adds a test force on vertices, of each body one, which holds up its weight. @throws pliant::Error as of add().
   void push(const std::vector<Index>& vertices);
-  /// Paints the stiffness of a group by its name; `goes_on`: as of set(). @throws pliant::Error (input): no such group.
+  std::vector<PaintableGroup> paintable() const;  ///< groups whose stiffness can be painted
+  /// Paints one; `goes_on`: the stroke before goes on. @throws pliant::Error (input): no such group.
   void paint(const std::string& group, const PaintDab& dab, bool goes_on = false);
   bool has_text() const { return unchanged_.has_text(); }  ///< see UnchangedScene
   /// What undo() and redo() would take back and do again, "pin"; empty: nothing.
@@ -170,12 +170,12 @@ class Session {
   void take(pliant::Scene next);
   void set_looks(const SceneChanges& changes);
   void set_painted(const SceneChanges& from, const SceneChanges& to);
-  void keep_paint_of(const std::string& body);
+  void keep_paint_of(const std::string& body, const std::set<std::string>& removed);
 
   MakeScene make_;
   pliant::Scene scene_;
   std::function<bool()> stop_;
-  ProgramHooks hooks_;
+  HookCaller hooks_;
   UnchangedScene unchanged_;
   SceneChanges changes_, saved_changes_;
   std::vector<Edit> done_, undone_;
@@ -188,6 +188,7 @@ class Session {
   std::optional<Replay> replay_;
   ReplayReport replayed_;
   bool is_doing_again_ = false, have_held_moved_ = false;
+  PaintStroke stroke_;
   std::optional<Pull> pull_;
   std::optional<pliant::GroupId> pull_group_;
   std::map<Index, pliant::Vec3> held_pins_;  // that are moved together, and where they were when they were taken [m]

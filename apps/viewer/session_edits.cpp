@@ -98,18 +98,28 @@ void Session::set_material(const std::string& body, const std::string& material)
     const auto* group = std::get_if<pliant::GroupId>(&slider.parameter.handle.owner);
     if (group != nullptr && simulation().groups().at(*group).body == id) of_body.insert(slider.key);
   }
+  const auto names_of_body = [&] {
+    std::set<std::string> names;
+    for (const auto& [group_id, group] : simulation().groups()) {
+      if (group.body == id) names.insert(group.name);
+    }
+    return names;
+  };
+  std::set<std::string> removed = names_of_body();
   change_material(scene_, id, material, placement->second);
+  for (const std::string& name : names_of_body()) removed.erase(name);
   Edit edit{.what = body + ": " + material, .before = changes_};
   for (const std::string& key : of_body) changes_.values.erase(key);
   std::erase_if(changes_.switched_off, [&](const auto& off) {
     if (off.second.body != body || !off.second.goes_with_material) return false;
+    removed.insert(off.first);
     std::erase_if(changes_.values,
                   [&](const auto& value) { return value.first.starts_with("group:" + off.first + "."); });
     return true;
   });
   changes_.values.erase("contact:" + body + ".friction");
   changes_.materials[body] = {material, placement->second};
-  keep_paint_of(body);
+  keep_paint_of(body, removed);
   for (const pliant::Parameter& now : list_parameters(simulation(), {})) {  // the settings
     const auto old = std::ranges::find(before, "settings." + now.handle.option, &Slider::key);
     if (old == before.end() || old->parameter.value == now.value) continue;
@@ -224,7 +234,6 @@ void Session::take(pliant::Scene next) {
   if (simulation().settings().threads != threads) set_threads(threads);
   if (const std::optional<Pull> pull = std::exchange(pull_, {})) grab(*pull);
   ++rebuilds_;
-  if (hooks_.rebuilt) hooks_.rebuilt(scene_.simulation);
 }
 
 void Session::go(const Edit& edit, const SceneChanges& from, const SceneChanges& to) {
@@ -324,7 +333,6 @@ void Session::restart(bool keep_changes) {
   note_.clear();
   settle(std::move(scene));
   ++restarts_;
-  if (hooks_.restarted) hooks_.restarted(scene_.simulation);
   if (!is_fresh && !is_as_opened) opened_.was_changed = true;
 }
 

@@ -4,6 +4,7 @@
 
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
+#include "viewer/carry_over.h"
 #include "viewer/json_of.h"
 #include "viewer/session.h"
 
@@ -19,6 +20,13 @@ Real rounded(Real factor) {
   return digits < 1 ? whole / std::round(1 / digits) : whole * digits;
 }
 
+/// So much of the way to a factor; where three digits do not tell a step, to its end.
+Real painted(Real before, Real factor, Real share) {
+  constexpr Real least_share = 0.02;
+  const Real now = rounded(std::exp((1 - share) * std::log(before) + share * std::log(factor)));
+  return now == rounded(before) && share > least_share ? rounded(factor) : now;
+}
+
 void check(const PaintDab& dab) {
   if (dab.vertices.size() != dab.shares.size()) pliant::fail_input("a dab of paint needs a share for each vertex");
   if (!(dab.factor >= least_factor && dab.factor <= most_factor)) {
@@ -30,36 +38,56 @@ void check(const PaintDab& dab) {
 
 }  // namespace
 
+std::optional<pliant::GroupId> group_of_body(const pliant::Simulation& simulation, const std::string& name,
+                                             const std::string& body) {
+  for (const auto& [id, group] : simulation.groups()) {
+    if (group.name == name && simulation.body(group.body).name == body) return id;
+  }
+  return {};
+}
+
+std::vector<PaintableGroup> Session::paintable() const {
+  std::map<std::string, int> counts;
+  for (const auto& [id, group] : simulation().groups()) ++counts[group.name];
+  std::vector<PaintableGroup> list;
+  for (const auto& [id, group] : simulation().groups()) {
+    const bool takes_factors = group.source != nullptr && !group.other && simulation().stiffness(id).has_value();
+    const bool is_alone = counts.at(group.name) == 1 && !is_hidden(id) && unchanged_.begins_with(group.name, changes_);
+    if (takes_factors && is_alone) list.push_back({group.name, simulation().body(group.body).name});
+  }
+  return list;
+}
+
 void Session::paint(const std::string& group, const PaintDab& dab, bool goes_on) {
   const auto noted = note(action::Paint{group, dab, goes_on});
   check(dab);
-  const auto is_named = [&](const auto& entry) { return entry.second.name == group; };
-  const auto& groups = simulation().groups();
-  const auto found = std::ranges::find_if(groups, is_named);
-  if (found == groups.end() || is_hidden(found->first) || !simulation().stiffness(found->first)) {
-    pliant::fail_input("there is no group '" + pliant::printable(group) + "' with a stiffness to be painted");
+  const std::vector<PaintableGroup> groups = paintable();
+  if (std::ranges::find(groups, group, &PaintableGroup::group) == groups.end()) {
+    pliant::fail_input("'" + pliant::printable(group) + "' is no group whose stiffness can be painted");
   }
-  if (std::ranges::count_if(groups, is_named) > 1 || unchanged_.comes_later(group)) {
-    pliant::fail_input("'" + pliant::printable(group) + "' cannot be painted: " +
-                       (unchanged_.comes_later(group) ? "an event adds it" : "several groups have this name"));
-  }
-  const pliant::Body& body = simulation().body(found->second.body);
-  std::vector<Real> factors = found->second.factors;
-  factors.resize(static_cast<std::size_t>(body.mesh.vertex_count()), 1);
-  for (std::size_t i = 0; i < dab.vertices.size(); ++i) {
-    const Index place = dab.vertices[i] - body.first_vertex;
-    if (place < 0 || place >= body.mesh.vertex_count()) {
-      pliant::fail_input("vertex " + std::to_string(dab.vertices[i]) + " is not on '" + body.name + "'");
-    }
-    Real& factor = factors[static_cast<std::size_t>(place)];
-    const Real share = dab.shares[i];
-    factor = rounded(std::exp((1 - share) * std::log(factor) + share * std::log(dab.factor)));
+  const pliant::GroupId id = *simulation().find_group(group);
+  const pliant::Body& body = simulation().body(simulation().groups().at(id).body);
+  const auto count = static_cast<std::size_t>(body.mesh.vertex_count());
+  for (const Index vertex : dab.vertices) {
+    if (vertex >= body.first_vertex && vertex < body.first_vertex + body.mesh.vertex_count()) continue;
+    pliant::fail_input("vertex " + std::to_string(vertex) + " is not on '" + body.name + "'");
   }
   Edit edit{.what = "paint " + group, .before = changes_};
-  scene_.simulation.set_stiffness_factors(found->first, factors);
+  const bool is_same_stroke = goes_on && stroke_.group == group && stroke_.before.size() == count && !done_.empty() &&
+                              done_.back().what == edit.what && done_.back().after == edit.before;
+  std::vector<Real> factors = simulation().groups().at(id).factors;
+  factors.resize(count, 1);
+  if (!is_same_stroke) stroke_ = {group, factors, std::vector<Real>(count, 0)};
+  for (std::size_t i = 0; i < dab.vertices.size(); ++i) {
+    const auto place = static_cast<std::size_t>(dab.vertices[i] - body.first_vertex);
+    Real& share = stroke_.shares[place];
+    share = std::max(share, dab.shares[i]);
+    factors[place] = painted(stroke_.before[place], dab.factor, share);
+  }
+  scene_.simulation.set_stiffness_factors(id, factors);
   changes_.painted[group] = {body.name, std::move(factors)};
   ++look_changes_;
-  if (goes_on && !done_.empty() && done_.back().what == edit.what && done_.back().after == edit.before) {
+  if (is_same_stroke) {
     done_.back().after = changes_;
     undone_.clear();
   } else {
@@ -71,20 +99,20 @@ void Session::paint(const std::string& group, const PaintDab& dab, bool goes_on)
 void Session::set_painted(const SceneChanges& from, const SceneChanges& to) {
   for (const auto* changes : {&from, &to}) {
     for (const auto& [group, painted] : changes->painted) {
-      const auto id = simulation().find_group(group);
-      if (id) scene_.simulation.set_stiffness_factors(*id, unchanged_.factors_of(group, to));
+      if (const auto id = group_of_body(simulation(), group, painted.body)) {
+        scene_.simulation.set_stiffness_factors(*id, unchanged_.factors_of(group, to));
+      }
     }
   }
   ++look_changes_;
 }
 
-/// After another material: groups that stay keep their paint, of others it is gone.
-void Session::keep_paint_of(const std::string& body) {
+/// After another material: groups that it has too keep their paint, that of those which it has removed is gone.
+void Session::keep_paint_of(const std::string& body, const std::set<std::string>& removed) {
   for (const auto& [group, factors] : unchanged_.painted_of(body, changes_)) {
-    const auto id = simulation().find_group(group);
-    if (id) {
+    if (const auto id = group_of_body(simulation(), group, body)) {
       scene_.simulation.set_stiffness_factors(*id, factors);
-    } else {
+    } else if (removed.contains(group)) {
       changes_.painted[group] = {body, {}};
     }
   }
@@ -120,7 +148,8 @@ void UnchangedScene::write_factors(const SceneChanges& changes, pliant::SceneDoc
     if (std::ranges::none_of(painted, is_changed)) continue;
     Json json = Json::object();
     for (const auto& [group, factors] : painted) {
-      if (!factors.empty() && !is_off(group)) json[group] = factors;
+      const bool fits = factors.size() == static_cast<std::size_t>(bodies_[i].vertex_count);
+      if (fits && !is_off(group) && begins_with(group, changes)) json[group] = factors;
     }
     const std::string place = "bodies[" + std::to_string(i) + "].stiffness_factors";
     if (json.empty()) {

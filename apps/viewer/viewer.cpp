@@ -109,7 +109,6 @@ bool Viewer::turn(double most_wait) {
   if (live != nullptr && live->step_age() > Seconds(1) && Clock::now() - last_draw_ > Seconds(0.5)) draws_left_ = 1;
   if (source_.refresh(Clock::now())) is_frame_new_ = true;
   gizmo_.flush(mouse_view());  // which may have waited for that
-  brush_.flush(mouse_view());
   if (live != nullptr && std::exchange(rebuilds_, live->shown().rebuilds) != live->shown().rebuilds) {
     if (interaction_.collider_goal()) interaction_.cancel();  // colliders may have other numbers now
   }
@@ -126,6 +125,7 @@ bool Viewer::turn(double most_wait) {
     select_.restart(source_.frame().content.positions.size());
     has_ground_ = false;
   }
+  brush_.flush(mouse_view());
   if (!is_frame_new_ && draws_left_ == 0 && !wants_picture_) return false;
   if (draws_left_ == 0 && !wants_picture_ && waits_for_film()) return false;
   draws_left_ = std::max(draws_left_ - 1, 0);

@@ -11,26 +11,14 @@
 namespace pliant_viewer {
 namespace {
 
-/// A group whose stiffness can be painted.
-struct Paintable {
-  std::string group, label;
-  std::uint32_t body = 0;
-};
+/// "cloth: bend" for "cloth.bend".
+std::string label_of(const PaintableGroup& each) {
+  const bool has_body = each.group.starts_with(each.body + ".");
+  return has_body ? each.body + ": " + each.group.substr(each.body.size() + 1) : each.group;
+}
 
-/// In the order of the panel.
-std::vector<Paintable> paintable_groups(const Snapshot& snapshot) {
-  std::vector<Paintable> list;
-  for (const Slider& slider : *snapshot.sliders) {
-    const auto& handle = slider.parameter.handle;
-    if (!std::holds_alternative<pliant::GroupId>(handle.owner) || handle.option != "stiffness") continue;
-    const auto body = std::ranges::find(*snapshot.body_names, slider.body) - snapshot.body_names->begin();
-    const auto number = static_cast<std::uint32_t>(body);
-    if (number >= snapshot.is_figure.size() || snapshot.is_figure[number] != 0) continue;
-    const std::string& name = slider.parameter.name;
-    const bool has_body = name.starts_with(slider.body + ".");
-    list.push_back({name, has_body ? slider.body + ": " + name.substr(slider.body.size() + 1) : name, number});
-  }
-  return list;
+std::uint32_t body_number(const PaintableGroup& each, const Snapshot& snapshot) {
+  return static_cast<std::uint32_t>(std::ranges::find(*snapshot.body_names, each.body) - snapshot.body_names->begin());
 }
 
 /// Its extent at rest or wherever it is now [m].
@@ -48,7 +36,7 @@ float size_of_body(std::uint32_t body, const Snapshot& snapshot) {
 /// A name that is empty puts the brush away.
 void Viewer::choose_brush(const BrushTool::Subject& subject) {
   LiveScene* live = source_.live();
-  brush_.cancel();
+  brush_.finish(mouse_view());
   const bool is_other_body = !brush_.is_on() || brush_.subject.body != subject.body;
   brush_.subject = subject;
   live->post([group = subject.group](CommandContext& context) { context.painted = group; });
@@ -62,8 +50,8 @@ void Viewer::choose_brush(const BrushTool::Subject& subject) {
 void Viewer::draw_brush_rows(float width) {
   const LiveScene* live = source_.live();
   if (live == nullptr || render_mesh_ == nullptr) return;
-  const std::vector<Paintable> groups = paintable_groups(live->shown());
-  const auto chosen = std::ranges::find(groups, brush_.subject.group, &Paintable::group);
+  const std::vector<PaintableGroup>& groups = *live->shown().paintable;
+  const auto chosen = std::ranges::find(groups, brush_.subject.group, &PaintableGroup::group);
   if (brush_.is_on() && chosen == groups.end()) choose_brush({});  // it has gone
   if (groups.empty()) return;
   const auto note_place = [this](const char* name) {
@@ -73,12 +61,12 @@ void Viewer::draw_brush_rows(float width) {
   row_label("paint",
             "with a brush, where a stiffness is larger or smaller: blue is softer, orange stiffer\n"
             "a drag paints, with Shift it takes the paint off; Esc puts the brush away");
-  if (ImGui::BeginCombo("##paint", brush_.is_on() && chosen != groups.end() ? chosen->label.c_str() : "nothing")) {
+  if (ImGui::BeginCombo("##paint", brush_.is_on() && chosen != groups.end() ? label_of(*chosen).c_str() : "nothing")) {
     if (ImGui::Selectable("nothing", !brush_.is_on())) choose_brush({});
     note_place("paint nothing");
-    for (const Paintable& each : groups) {
-      if (ImGui::Selectable(each.label.c_str(), each.group == brush_.subject.group)) {
-        choose_brush({each.group, each.body});
+    for (const PaintableGroup& each : groups) {
+      if (ImGui::Selectable((label_of(each) + "##" + each.group).c_str(), each.group == brush_.subject.group)) {
+        choose_brush({each.group, body_number(each, live->shown())});
       }
       note_place(("paint " + each.group).c_str());
     }

@@ -15,6 +15,7 @@ namespace fs = std::filesystem;
 
 void Viewer::undo() {
   if (LiveScene* live = source_.live()) {
+    brush_.finish(mouse_view());
     live->post([](CommandContext& context) {
       const std::string what = context.session.undone_next();
       context.session.undo();
@@ -25,6 +26,7 @@ void Viewer::undo() {
 
 void Viewer::redo() {
   if (LiveScene* live = source_.live()) {
+    brush_.finish(mouse_view());
     live->post([](CommandContext& context) {
       const std::string what = context.session.redone_next();
       context.session.redo();
@@ -43,6 +45,7 @@ pliant::ViewSettings Viewer::placed_appearance() const {
 void Viewer::save_scene(bool as_new) {
   LiveScene* live = source_.live();
   if (live == nullptr) return say("this is a run; its scene is in the file it was made from");
+  brush_.finish(mouse_view());
   live->post([saved = saved_scene_, view = placed_appearance(), as_new, folder = picture_folder_, name = live->name(),
               tell = saved_](CommandContext& context) {
     const fs::path file = as_new || saved->empty() ? free_name(folder, name, {".json", ".pliant"}) : *saved;
@@ -55,6 +58,7 @@ void Viewer::save_scene(bool as_new) {
 void Viewer::save_session() {
   LiveScene* live = source_.live();
   if (live == nullptr) return say("this is a run; only what is simulated here can be saved as a session");
+  brush_.finish(mouse_view());
   live->post([view = placed_appearance(), folder = picture_folder_, name = live->name(),
               tell = saved_](CommandContext& context) {
     const fs::path file = free_name(folder, name, {".session"});

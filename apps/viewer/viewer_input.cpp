@@ -56,7 +56,6 @@ void Viewer::take_input() {
   }
   interaction_.flush(mouse_view());
   gizmo_.flush(mouse_view());
-  brush_.flush(mouse_view());
 }
 
 /// Gives each key to a field that is being typed into, or else to the shortcuts, in order: what follows the Enter that

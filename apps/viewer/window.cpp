@@ -80,11 +80,13 @@ Window::Window(const std::string& title, int width, int height) {
     if (area_width > 0) width = std::min(width, area_width);
     if (area_height > 0) height = std::min(height, area_height);
   }
+  glfwDefaultWindowHints();  // whatever a program has set
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
   window_ = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
+  glfwDefaultWindowHints();
   if (window_ == nullptr) {
     const std::string reason = last_error();
     end_glfw();

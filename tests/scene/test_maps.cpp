@@ -210,7 +210,7 @@ TEST_CASE("stiffness factors: lists and maps, for groups of materials and of one
   CHECK(
       message(R"({"body 0.edge_sprin": [1, 1, 1, 1, 1, 1]})") ==
       "s.json: bodies[0].stiffness_factors.body 0.edge_sprin: 'body 0.edge_sprin' is no group with a stiffness on the "
-      "body 'body 0'; did you mean 'body 0.edge_spring'? (known: body 0.edge_spring)");
+      "body 'body 0'; did you mean 'body 0.edge_spring'? (known: body 0.edge_spring, body 0.position)");
   CHECK(message(R"({"body 0.position": [1, 1, 1, 1, 1, 1]})").find("is no group with a stiffness") !=
         std::string::npos);
   CHECK(message(R"({"body 0.edge_spring": [1, 1]})") ==

@@ -3,6 +3,7 @@
 
 #include "everything.h"
 #include "own_types.h"
+#include "pliant/collision/colliders/builtin.h"
 #include "pliant/core/error.h"
 #include "pliant/simulation/parameters.h"
 #include "run.h"

@@ -156,6 +156,35 @@ TEST_CASE("targets and released pins stay where they are") {
   CHECK(sheet.simulation.target(soft, 0) == Vec3(3, 4, 5));
 }
 
+TEST_CASE("pins keep their factors while they are hard; rest lengths that have crept, and warnings, stay") {
+  Sheet sheet;
+  const GroupId pins = sheet.simulation.find_group("position").value();
+  sheet.simulation.set_stiffness_factors(pins, rising());
+  sheet.simulation.replace(pins, Position{.on = {30, 35}, .hold = Hold::soft, .stiffness = 50});
+  const ConstraintGroup& soft = *sheet.simulation.groups().at(pins).set.batches.front();
+  CHECK(soft.rest_measure()[0] == doctest::Approx(rising()[30]));
+  const GroupId bend = sheet.simulation.add(sheet.body, Bending{});
+  const std::size_t warnings = sheet.simulation.warnings().size();
+  const auto batch = [&]() -> ConstraintGroup& { return *sheet.simulation.groups().at(bend).set.batches.front(); };
+  batch().parameters()[0] *= 1.5;
+  const Real crept = batch().parameters()[0];
+  sheet.simulation.set_stiffness_factors(bend, rising());
+  CHECK(batch().parameters()[0] == crept);
+  CHECK(sheet.simulation.warnings().size() == warnings);
+}
+
+TEST_CASE("a tie that takes the place of a group has no factors, nor what leaves its body") {
+  Sheet sheet;
+  sheet.simulation.set_stiffness_factors(sheet.springs, rising());
+  sheet.simulation.replace(sheet.springs, Attachment{.on = {0}, .to = sheet.first, .to_on = {0}});
+  CHECK(sheet.simulation.groups().at(sheet.springs).factors.empty());
+  const GroupId tie = sheet.simulation.add(sheet.body, EdgeSpring{}, "again");
+  sheet.simulation.set_stiffness_factors(tie, rising());
+  sheet.simulation.replace(tie, EdgeSpring{.stiffness = 1e300});
+  CHECK_THROWS_AS(sheet.simulation.set_stiffness_factors(tie, std::vector<Real>(side * side, 1e308)), Error);
+  CHECK(sheet.simulation.groups().at(tie).factors == rising());
+}
+
 TEST_CASE("an event that fails puts the factors back") {
   Sheet sheet;
   sheet.simulation.set_stiffness_factors(sheet.springs, rising());
@@ -181,8 +210,6 @@ TEST_CASE("what is no list of factors is refused, and nothing has changed") {
   refuses(sheet.springs, bad,
           "springs on body 'sheet': the factor of the stiffness at vertex 3 is out of range; give a finite number "
           "above 0");
-  const GroupId pins = sheet.simulation.find_group("position").value();
-  refuses(pins, rising(), "group 'position' has no stiffness; hard pins have none");
   const GroupId tie = sheet.simulation.add(sheet.body, Attachment{.on = {0}, .to = sheet.first, .to_on = {0}}, "tie");
   refuses(tie, rising(), "tie on body 'sheet': ties between bodies take no factors of the stiffness");
 }

@@ -208,8 +208,10 @@ TEST_CASE("hooks: before each step, after restarts and rebuilds; a body that is 
   session.undo();
   session.set("force:whirl.strength", {3, 0, 0});
   session.undo();
+  session.step();
   session.restart(true);
-  CHECK(std::array{steps, restarts, rebuilds} == std::array{4, 1, 1});
+  session.step();
+  CHECK(std::array{steps, restarts, rebuilds} == std::array{6, 1, 1});
   session.set_hooks(
       {.before_step = [](Simulation& now) { now.add_body(grid({.columns = 3, .rows = 3}), Mass::total(1)); }});
   session.step();

@@ -57,8 +57,42 @@ TEST_CASE("paint goes the way to its factor by ratios; a stroke is one change, t
   CHECK(factors(session, "bend")[6] == 3.14);
   CHECK(session.look_changes() > looks + 6);
   CHECK(session.rebuilds() == rebuilds);  // no scene was read for that
+  // A stroke goes as far as its largest share, however many dabs it has; what is taken off is gone in the end.
   session.paint("bend", {.vertices = {4, 5, 6}, .shares = {1, 1, 1}, .factor = 1});
   CHECK(factors(session, "bend").empty());
+  session.paint("bend", {.vertices = {5}, .shares = {0.5}, .factor = 16});
+  for (int i = 0; i < 5; ++i) session.paint("bend", {.vertices = {5}, .shares = {0.25}, .factor = 16}, true);
+  CHECK(factors(session, "bend")[5] == 4);
+  for (int i = 0; i < 200; ++i) session.paint("bend", {.vertices = {5}, .shares = {0.1}, .factor = 1});
+  CHECK(factors(session, "bend").empty());
+}
+
+TEST_CASE("paint of what is not there for now is kept, and stands in nobody's way") {
+  std::string text(sheet_text);
+  const auto put = [&](const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+  };
+  put(R"("name": "hooks", "on": [72, 80])", R"("name": "hooks", "on": [72, 80], "hold": "soft", "stiffness": 900)");
+  Session session([&] { return pliant::parse_scene(text, {}, "sheet"); });
+  session.paint("hooks", {.vertices = {72, 80}, .shares = {1, 1}, .factor = 5});
+  session.paint("scarf.warp", stiff_scarf);
+  session.set("group:hooks.hold", {0, 0, 0});  // hard
+  session.restart(true);
+  CHECK(factors(session, "hooks")[72] == 5);
+  session.pin(3);
+  session.undo();
+  session.switch_on("hooks", false);
+  session.set_material("sheet", "wool");
+  session.switch_on("hooks", true);
+  CHECK(factors(session, "hooks")[80] == 5);
+  // The file has another mesh and another material by now.
+  put(R"("columns": 6, "rows": 4)", R"("columns": 7, "rows": 4)");
+  session.restart(true);
+  CHECK(factors(session, "scarf.warp").empty());
+  put(R"("name": "silk")", R"("name": "felt")");
+  session.restart(true);
+  CHECK_FALSE(session.simulation().find_group("scarf.warp").has_value());
+  session.step();
 }
 
 TEST_CASE("what is painted is kept by a restart, and moves the body as a scene that says so") {
@@ -153,9 +187,9 @@ TEST_CASE("what a program has made is painted, and what cannot be is told") {
   const auto refuses = [&](const std::string& group, const PaintDab& dab, const char* reason) {
     CHECK_THROWS_WITH_AS(session.paint(group, dab), reason, pliant::Error);
   };
-  refuses("pins", starch, "there is no group 'pins' with a stiffness to be painted");
-  refuses("nothing", starch, "there is no group 'nothing' with a stiffness to be painted");
-  refuses("twice", starch, "'twice' cannot be painted: several groups have this name");
+  refuses("pins", starch, "'pins' is no group whose stiffness can be painted");
+  refuses("nothing", starch, "'nothing' is no group whose stiffness can be painted");
+  refuses("twice", starch, "'twice' is no group whose stiffness can be painted");
   refuses("springs", {.vertices = {25}, .shares = {1}, .factor = 2}, "vertex 25 is not on 'sheet'");
   refuses("springs", {.vertices = {2}, .shares = {2}, .factor = 2}, "a share of paint is from 0 to 1");
   refuses("springs", {.vertices = {2}, .shares = {}, .factor = 2}, "a dab of paint needs a share for each vertex");

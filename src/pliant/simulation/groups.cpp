@@ -87,13 +87,15 @@ std::string place_of(const Group& group, const Body& body) {
   return group.name + " on body '" + body.name + "'";
 }
 
-/// The mean of the factors over the vertices of each constraint of a batch.
+/// The mean of the factors over the vertices of each constraint of a batch; none where one is not on the body.
 std::vector<Real> means_of(const std::vector<Real>& factors, const ConstraintGroup& batch, Index first_vertex) {
   const auto n = static_cast<std::size_t>(batch.shape().vertices);
   std::vector<Real> means(batch.rest_measure().size());
   for (std::size_t i = 0; i < means.size(); ++i) {
     for (const Index vertex : batch.stencil().subspan(i * n, n)) {
-      means[i] += factors[static_cast<std::size_t>(vertex - first_vertex)];
+      const auto place = static_cast<std::size_t>(vertex - first_vertex);
+      if (vertex < first_vertex || place >= factors.size()) return {};
+      means[i] += factors[place];
     }
     means[i] /= static_cast<Real>(n);  // exactly 1 of ones
   }
@@ -107,10 +109,24 @@ void scale(Group& made, const Body& body) {
     const std::vector<Real> means = means_of(made.factors, *batch, body.first_vertex);
     if (!batch->scale_measures(means)) {
       fail_input(place_of(made, body) + ": its type '" + std::string(batch->type()) +
-                 "' takes no factors of the stiffness; override own_measures() in it");
+                 "' takes no factors of the stiffness; override own_measures() in it, and keep to its body");
+    }
+    const auto is_sound = [](Real measure) { return measure > 0 && std::isfinite(measure); };
+    if (!std::ranges::all_of(batch->rest_measure(), is_sound)) {
+      fail_input(place_of(made, body) + ": the factors of the stiffness are too large or too small for it");
     }
   }
   if (std::ranges::all_of(made.factors, [](Real factor) { return factor == 1; })) made.factors.clear();
+}
+
+/// What may have changed of constraints since they were made, for the same ones made again.
+void keep_numbers(const ConstraintSet& from, ConstraintSet& to) {
+  if (from.batches.size() != to.batches.size()) return;
+  for (std::size_t i = 0; i < to.batches.size(); ++i) {
+    if (to.batches[i]->shape().count > 0) to.batches[i]->set_stiffness(from.batches[i]->stiffness());
+    const std::span<Real> before = from.batches[i]->parameters(), now = to.batches[i]->parameters();
+    if (before.size() == now.size()) std::ranges::copy(before, now.begin());
+  }
 }
 
 void check_factors(const std::vector<Real>& factors, const Group& group, const Body& body) {
@@ -229,11 +245,11 @@ void Simulation::replace_set(GroupId id, ConstraintSet set, std::string type, An
   replace_group(id, {old.name, std::move(type), old.body, nullptr, std::move(set)}, anchors);
 }
 
-void Simulation::replace_group(GroupId id, Group renewed, Anchors anchors) {
+void Simulation::replace_group(GroupId id, Group renewed, Anchors anchors, bool warns) {
   const Group& old = group(id);
-  if (renewed.factors.empty()) renewed.factors = old.factors;
-  scale(renewed, body(renewed.body));
+  if (renewed.factors.empty() && !renewed.other) renewed.factors = old.factors;
   check_group_of(renewed, id);
+  scale(renewed, body(renewed.body));
   std::multimap<Identity, Anchored> olds = anchors_of(old);
   renewed.next_point = old.next_point;
   std::vector<Index>& points = renewed.points;
@@ -250,7 +266,7 @@ void Simulation::replace_group(GroupId id, Group renewed, Anchors anchors) {
     }
     while (points.size() < end_of_batch) points.push_back(renewed.next_point++);
   }
-  warn_of(renewed);
+  if (warns) warn_of(renewed);
   exchange_group(id, std::move(renewed));
 }
 
@@ -303,15 +319,12 @@ void Simulation::set_stiffness_factors(GroupId id, std::vector<Real> factors) {
     fail_input(place_of(owner, body(owner.body)) + ": constraints that were made elsewhere take no factors of the " +
                "stiffness; make them with those");
   }
-  if (!stiffness(id)) fail_input("group '" + owner.name + "' has no stiffness; hard pins have none");
   const auto see = [this](BodyId body) { return view(body); };
   std::optional<Group> renewed = owner.source->make_group(owner.body, owner.name, see);
-  for (const auto& batch : renewed->set.batches) {
-    if (batch->shape().count > 0) batch->set_stiffness(*stiffness(id));
-  }
+  keep_numbers(owner.set, renewed->set);
   if (factors.empty()) factors.assign(static_cast<std::size_t>(body(owner.body).mesh.vertex_count()), 1);
   renewed->factors = std::move(factors);
-  replace_group(id, *std::move(renewed), Anchors::kept);
+  replace_group(id, *std::move(renewed), Anchors::kept, false);
 }
 
 std::optional<Real> Simulation::stiffness(GroupId id) const {

@@ -75,7 +75,7 @@ class Simulation : public Colliders {
   void set_stiffness(GroupId id, Real stiffness);
   std::optional<Real> stiffness(GroupId id) const;  ///< that factor; none for hard pins
   /// Multiplies the stiffness of each constraint of a group on one body by the mean of these, > 0, over its vertices:
-  /// one for each vertex of the body, or none. They stay when the group is replaced. Costs what replacing does.
+  /// one for each vertex of the body, or none. They stay when the group is replaced, whether it has a stiffness or not.
   void set_stiffness_factors(GroupId id, std::vector<Real> factors);
   /// Movable points of a group (positions, drags), in the order of its constraints.
   Index target_count(GroupId id) const;
@@ -172,7 +172,7 @@ class Simulation : public Colliders {
     return group_of(id, options, std::move(name), [this](BodyId body) { return view(body); });
   }
   GroupId add_group(Group added);
-  void replace_group(GroupId id, Group renewed, Anchors anchors);
+  void replace_group(GroupId id, Group renewed, Anchors anchors, bool warns = true);
   void exchange_group(GroupId id, Group renewed);
   ForceId add_force(ForceRecord record, std::unique_ptr<Force> force);
   void exchange_force(ForceId id, ForceRecord record, std::unique_ptr<Force> force);

@@ -121,9 +121,9 @@ class Timeline {
 
   TimelineState state() const;
   /// For a timeline and a simulation just made as those were that the state was taken of, or copied from them at an
-  /// earlier time: lets the same events act in the same order, without steps, and takes up motions and ramps. With the numbers of the groups, their stiffnesses
-  /// and the state restored after it, the steps that follow have the bits of the first run. Throws Error(input), with
-  /// both as they were, on a state that is not of this timeline.
+  /// earlier time: lets the same events act in the same order, without steps, and takes up motions and ramps. With the
+  /// numbers of the groups, their stiffnesses and the state restored after it, the steps that follow have the bits of
+  /// the first run. Throws Error(input), with both as they were, on a state that is not of this timeline.
   void replay(Simulation& simulation, const TimelineState& state);
 
  private:

@@ -19,11 +19,11 @@ struct ViewOptions {
   /// targets, colliders and forces from a program. A step that was given up for a change is taken again, and this
   /// called again: go by state().step and time. What it throws is shown in the window, which pauses.
   std::function<void(Simulation&)> before_step{};
-  /// Called on the same thread after each restart: the simulation is where it was when the window opened, with what its
-  /// user has changed in it, or without.
+  /// Called on the same thread before the first step after a restart: the simulation is where it was when the window
+  /// opened, with what its user has changed in it, or without.
   std::function<void(Simulation&)> restarted{};
-  /// Called on the same thread after each change that makes the simulation anew, as taking back a pin does: ids are
-  /// those of before, but what before_step has added is gone.
+  /// Called on the same thread before the first step after a change that makes the simulation anew, as taking back a pin
+  /// does: ids are those of before, but what before_step has added is gone.
   std::function<void(Simulation&)> rebuilt{};
   /// Asked several times a second, on the thread of view(), whether the window is to close. None: its user closes it.
   std::function<bool()> should_close{};

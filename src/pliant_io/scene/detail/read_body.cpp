@@ -99,17 +99,11 @@ void SceneReader::read_body(const Node& node) {
   if (const auto appearance = node.find("appearance")) read_options(*appearance, appearance_of[id]);
   if (animation_node) add_animation(*animation_node, id, std::move(animation.path));
   if (material) add_material(*material_node, id, *material);
-  if (const auto constraints = node.find("constraints")) {
-    constraints->require_list();
-    for (std::size_t i = 0; i < constraints->size(); ++i) {
-      const Node constraint = (*constraints)[i];
-      constraint.require_object();
-      add_group(constraint, id, read_constraint_options(constraint, {"name"}, body(id)),
-                fmt::format("{}.constraints[{}]", entry, i));
-    }
-  }
+  if (const auto constraints = node.find("constraints")) add_groups(*constraints, id);
   if (node.has("solid")) carry_surface(simulation, id, 0, free_name(name + ".surface"));
-  if (const auto factors = node.find("stiffness_factors")) read_stiffness_factors(*factors, id, simulation);
+  if (const auto factors = node.find("stiffness_factors")) {
+    read_stiffness_factors(*factors, id, left_out != nullptr, simulation);
+  }
 }
 
 void SceneReader::add_material(const Node& node, BodyId id, const BodyMaterial& given) {
@@ -129,6 +123,16 @@ void SceneReader::add_animation(const Node& node, BodyId id, std::shared_ptr<Pat
   groups.emplace(name, GroupEntry{id, Position{}});
   if (!warning_without_surfaces.empty()) return;
   warning_without_surfaces = node.at("nothing meets an animated body; set \"contact\": {\"surfaces\": true}");
+}
+
+void SceneReader::add_groups(const Node& list, BodyId id) {
+  list.require_list();
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const Node constraint = list[i];
+    constraint.require_object();
+    add_group(constraint, id, read_constraint_options(constraint, {"name"}, body(id)),
+              fmt::format("{}.constraints[{}]", entry, i));
+  }
 }
 
 void SceneReader::add_group(const Node& node, BodyId id, ConstraintOptions options, std::string place) {

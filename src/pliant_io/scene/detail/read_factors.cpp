@@ -7,11 +7,11 @@
 namespace pliant {
 namespace {
 
-/// Groups of a body that have a stiffness.
-std::vector<std::string_view> stiff_groups(const Simulation& simulation, BodyId body) {
+/// Groups of a body alone.
+std::vector<std::string_view> own_groups(const Simulation& simulation, BodyId body) {
   std::vector<std::string_view> names;
   for (const auto& [id, group] : simulation.groups()) {
-    if (group.body == body && !group.other && simulation.stiffness(id)) names.push_back(group.name);
+    if (group.body == body && !group.other && group.source != nullptr) names.push_back(group.name);
   }
   return names;
 }
@@ -26,14 +26,15 @@ std::vector<Real> read_factors(const Node& node, const Mesh& mesh) {
 
 }  // namespace
 
-void read_stiffness_factors(const Node& node, BodyId body, Simulation& simulation) {
+void read_stiffness_factors(const Node& node, BodyId body, bool passes_over, Simulation& simulation) {
   node.require_object();
-  const std::vector<std::string_view> known = stiff_groups(simulation, body);
+  const std::vector<std::string_view> known = own_groups(simulation, body);
   for (const std::string_view name : node.keys()) {
     const Node value = node.require(name);
     const std::optional<GroupId> group = simulation.find_group(name);
     if (!group || std::ranges::find(known, name) == known.end()) {
-      value.fail(fmt::format("'{}' is no group with a stiffness on the body '{}'; {}", printable(name),
+      if (passes_over) continue;
+      value.fail(fmt::format("'{}' is no group of the body '{}' that takes factors; {}", printable(name),
                              printable(simulation.body(body).name), suggestion_text(name, known)));
     }
     std::vector<Real> factors = read_factors(value, simulation.body(body).mesh);

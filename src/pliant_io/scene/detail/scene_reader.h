@@ -82,6 +82,7 @@ struct SceneReader {
   GroupEntry& group(const Node& name);
 
   /// Makes a group of what has been read, with the name in the object's key or one of its own. `place` as in places.
+  void add_groups(const Node& list, BodyId body);
   void add_group(const Node& node, BodyId body, ConstraintOptions options, std::string place);
   /// Refuses a group without constraints; `node` is where it was read.
   void check_group(const Node& node, GroupId group) const;
