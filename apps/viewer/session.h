@@ -101,9 +101,8 @@ class Session {
   /// Adds a test force on vertices, of each body one, which holds up its weight. @throws pliant::Error as of add().
   void push(const std::vector<Index>& vertices);
   std::vector<PaintableGroup> paintable() const;  ///< groups whose stiffness can be painted
-  /// Paints one; `goes_on`: the stroke before goes on. @throws pliant::Error (input): no such group.
-  void paint(const std::string& group, const PaintDab& dab, bool goes_on = false);
-  bool has_text() const { return unchanged_.has_text(); }  ///< see UnchangedScene
+  void paint(const std::string& group, const PaintDab& dab, bool goes_on = false);  ///< Error(input) on others
+  bool has_text() const { return unchanged_.has_text(); }                           ///< see UnchangedScene
   /// What undo() and redo() would take back and do again, "pin"; empty: nothing.
   std::string undone_next() const { return done_.empty() ? "" : done_.back().what; }
   std::string redone_next() const { return undone_.empty() ? "" : undone_.back().what; }
