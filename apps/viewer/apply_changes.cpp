@@ -23,6 +23,25 @@ std::vector<pliant::GroupId> holders(const pliant::Simulation& simulation, const
   return found;
 }
 
+void move_pins(const SceneChanges& changes, pliant::Simulation& simulation) {
+  for (const auto& [vertex, pin] : changes.moved) {
+    for (const pliant::GroupId group : holders(simulation, pin.group, vertex)) {
+      const std::vector<Index> held = vertices_of_pins(simulation.groups().at(group));
+      simulation.set_target(group, static_cast<Index>(std::ranges::find(held, vertex) - held.begin()), pin.target);
+    }
+  }
+}
+
+void move_colliders(const SceneChanges& changes, pliant::Simulation& simulation) {
+  for (const auto& [name, position] : changes.collider_positions) {
+    const auto collider = simulation.find_collider(name);
+    if (!collider) continue;
+    pliant::Pose pose = simulation.pose(*collider);
+    pose.position = position;
+    simulation.set_target(*collider, pose);
+  }
+}
+
 }  // namespace
 
 void UnchangedScene::apply(const SceneChanges& changes, pliant::Scene& scene) const {
@@ -76,19 +95,8 @@ void UnchangedScene::apply(const SceneChanges& changes, pliant::Scene& scene) co
     pin.targets = pliant::Points(std::move(targets));
     simulation.add(id, pin, body.moved_pins);
   }
-  for (const auto& [vertex, pin] : changes.moved) {
-    for (const pliant::GroupId group : holders(simulation, pin.group, vertex)) {
-      const std::vector<Index> held = vertices_of_pins(simulation.groups().at(group));
-      simulation.set_target(group, static_cast<Index>(std::ranges::find(held, vertex) - held.begin()), pin.target);
-    }
-  }
-  for (const auto& [name, position] : changes.collider_positions) {
-    const auto collider = simulation.find_collider(name);
-    if (!collider) continue;
-    pliant::Pose pose = simulation.pose(*collider);
-    pose.position = position;
-    simulation.set_target(*collider, pose);
-  }
+  move_pins(changes, simulation);
+  move_colliders(changes, simulation);
 }
 
 void UnchangedScene::set_appearances(const SceneChanges& changes, pliant::Scene& scene) const {

@@ -22,8 +22,8 @@ struct ViewOptions {
   /// Called on the same thread before the first step after a restart: the simulation is where it was when the window
   /// opened, with what its user has changed in it, or without.
   std::function<void(Simulation&)> restarted{};
-  /// Called on the same thread before the first step after a change that makes the simulation anew, as taking back a pin
-  /// does: ids are those of before, but what before_step has added is gone.
+  /// Called on the same thread before the first step after a change that makes the simulation anew, as taking back a
+  /// pin does: ids are those of before, but what before_step has added is gone.
   std::function<void(Simulation&)> rebuilt{};
   /// Asked several times a second, on the thread of view(), whether the window is to close. None: its user closes it.
   std::function<bool()> should_close{};
