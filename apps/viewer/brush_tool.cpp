@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 namespace pliant_viewer {
@@ -159,13 +160,26 @@ void BrushTool::cancel() {
   waiting_.clear();
 }
 
-void BrushTool::draw(const Vec3f& point, const MouseInteraction::View& view, ImDrawList& list) const {
-  const auto place = view.screen.place_of(point);
-  const float size = shown_length(radius, point, view.screen);
+void BrushTool::draw(const SurfacePoint& point, const MouseInteraction::View& view, ImDrawList& list) const {
+  constexpr ImU32 halo = IM_COL32(255, 255, 255, 210), ink = IM_COL32(40, 40, 44, 255);
+  const std::vector<Vec3f>& positions = view.snapshot->frame.content.positions;
+  const Vec3f center = point.position(positions);
+  const auto place = view.screen.place_of(center);
+  const float size = shown_length(radius, center, view.screen);
   if (!place || !(size > 0)) return;
   const ImVec2 middle = {place->x(), place->y()};
-  list.AddCircle(middle, size, IM_COL32(255, 255, 255, 200), 0, 4 * view.unit);
-  list.AddCircle(middle, size, IM_COL32(40, 40, 44, 255), 0, 1.6F * view.unit);
+  list.AddCircle(middle, size, halo, 0, 4 * view.unit);
+  list.AddCircle(middle, size, ink, 0, 1.6F * view.unit);
+  const auto& looks = view.snapshot->render_mesh->looks;
+  const std::uint32_t nearest = point.nearest_vertex(positions);
+  if (nearest >= looks.size()) return;
+  const std::string text = fmt::format("× {:.3g}", std::pow(10.0F, looks[nearest].place.x()));
+  const ImVec2 corner = {middle.x + 0.72F * size + 6 * view.unit, middle.y + 0.72F * size};
+  const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
+  const float room = 4 * view.unit;
+  list.AddRectFilled({corner.x - room, corner.y - room / 2},
+                     {corner.x + extent.x + room, corner.y + extent.y + room / 2}, halo, room);
+  list.AddText(corner, ink, text.c_str());
 }
 
 }  // namespace pliant_viewer

@@ -57,8 +57,8 @@ class BrushTool {
 
   /// The point of the body under the mouse.
   std::optional<SurfacePoint> point_at(const Vec2f& place, const MouseInteraction::View& view) const;
-  /// The rim around a point, as it appears from the eye.
-  void draw(const Vec3f& point, const MouseInteraction::View& view, ImDrawList& list) const;
+  /// The rim around a point, as it appears from the eye, and beside it the factor that is there.
+  void draw(const SurfacePoint& point, const MouseInteraction::View& view, ImDrawList& list) const;
 
  private:
   void dab(const Vec2f& at, const MouseInteraction::View& view);

@@ -84,8 +84,8 @@ void Session::paint(const std::string& group, const PaintDab& dab, bool goes_on)
     share = std::max(share, dab.shares[i]);
     factors[place] = painted(stroke_.before[place], dab.factor, share);
   }
-  scene_.simulation.set_stiffness_factors(id, factors);
-  changes_.painted[group] = {body.name, std::move(factors)};
+  scene_.simulation.set_stiffness_factors(id, std::move(factors));
+  changes_.painted[group] = {body.name, simulation().groups().at(id).factors};  // none of ones
   ++look_changes_;
   if (is_same_stroke) {
     done_.back().after = changes_;

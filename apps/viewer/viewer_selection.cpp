@@ -176,7 +176,7 @@ void Viewer::draw_hand(const pliant_render::AnnotationCanvas& canvas) {
   const bool is_busy =
       interaction_.is_busy() || gizmo_.is_busy() || select_.is_busy() || wind_.is_busy() || brush_.is_busy();
   if (const auto point = is_in_picture ? brush_.point_at(mouse, view) : std::nullopt; point && !gizmo_.is_busy()) {
-    brush_.draw(point->position(positions), view, canvas.list);
+    brush_.draw(*point, view, canvas.list);
   }
   const bool is_free = is_in_picture && !is_busy;
   const bool is_at_wind = is_free && wind_.is_at(mouse, view);

@@ -206,6 +206,10 @@ class Simulation:
         """Costs one numeric factorization in the next step."""
         self._made.set_stiffness(group._group, stiffness)
 
+    def set_stiffness_factors(self, group: GroupId, factors: ArrayLike) -> None:
+        """Multiplies the stiffness of each constraint by their mean over its vertices: one a vertex, or none at all."""
+        self._made.set_stiffness_factors(group._group, factors)
+
     def targets(self, group: GroupId) -> Array:
         """Where the points of a group of positions or drags are drawn to, (count, 3) [m]: a copy."""
         return self._made.targets(group._group)

@@ -124,6 +124,11 @@ void bind_changes(Class& simulation) {
       .def("stiffness", [](const Handle& handle, Index number) { return handle.now().stiffness(GroupId{number}); })
       .def("set_stiffness", [](Handle& handle, Index number,
                                double stiffness) { handle.idle().set_stiffness(GroupId{number}, stiffness); })
+      .def("set_stiffness_factors",
+           [](Handle& handle, Index number, const Numbers& factors) {
+             if (factors.ndim() != 1) pliant::fail_input("factors of the stiffness: give an array of one dimension");
+             handle.idle().set_stiffness_factors(GroupId{number}, {factors.data(), factors.data() + factors.size()});
+           })
       .def("release", [](Handle& handle, Index number,
                          const std::vector<Index>& vertices) { handle.idle().release(GroupId{number}, vertices); })
       .def("pose", &pose)

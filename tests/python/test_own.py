@@ -252,6 +252,28 @@ class Changes(unittest.TestCase):
         with self.assertRaises(pliant.Error):
             simulation.stiffness(springs)
 
+    def test_stiffness_is_multiplied_from_vertex_to_vertex(self):
+        made = []
+        for factors in (None, 3.0, []):
+            simulation = hung(lambda s, b, mesh: s.add(b, pliant.EdgeSpring(stiffness=500)))
+            springs, pins = simulation.groups
+            if factors is not None:
+                simulation.set_stiffness_factors(springs, np.full(len(simulation.positions), 3.0))
+            if factors == []:
+                simulation.set_stiffness_factors(springs, [])
+            with self.assertRaises(pliant.Error):
+                simulation.set_stiffness_factors(springs, [1, 2])
+            with self.assertRaises(pliant.Error):
+                simulation.set_stiffness_factors(springs, [[1, 2]])
+            for _ in range(5):
+                simulation.step()
+            made.append(simulation.positions.copy())
+        stiffer = hung(lambda s, b, mesh: s.add(b, pliant.EdgeSpring(stiffness=1500)))
+        for _ in range(5):
+            stiffer.step()
+        self.assertTrue(np.allclose(made[1], stiffer.positions, atol=1e-12))
+        self.assertTrue(np.array_equal(made[0], made[2]))
+
     def test_energies_add_up_and_the_matrix_is_that_of_the_groups(self):
         simulation = hung(lambda s, b, mesh: s.add(b, pliant.EdgeSpring(stiffness=500)), iterations=200)
         for _ in range(20):
