@@ -68,6 +68,7 @@ Viewer::Viewer(Window& window, ViewSource& source, ViewerOptions options)
       first_camera_(camera_),
       interaction_(source.live() != nullptr ? source.live()->suggested_pull() : 1),
       frame_interval_(1 / most_frames_a_second),
+      sees_nothing_(source.render_mesh()->vertex_count == 0),
       open_(std::move(options.open)),
       saved_(std::move(options.saved)),
       scene_panel_(std::move(options.scenes), options.chooses_scene) {
@@ -148,6 +149,12 @@ void Viewer::update_render_mesh() {
   const auto before = std::exchange(render_mesh_, source_.render_mesh());
   if (before != nullptr && have_same_shape(*before, *render_mesh_)) return renderer_->set_looks(render_mesh_->looks);
   renderer_.emplace(*render_mesh_);
+  if (sees_nothing_ && render_mesh_->vertex_count > 0) {
+    sees_nothing_ = false;
+    camera_ = OrbitCamera(first_viewpoint(source_, appearance_, picture_size()), appearance_.camera.up.cast<float>());
+    first_camera_ = camera_;
+    has_ground_ = false;
+  }
   select_.restart(static_cast<std::size_t>(render_mesh_->vertex_count));
   quality_.forget();
   is_frame_new_ = true;

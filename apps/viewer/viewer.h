@@ -183,8 +183,8 @@ class Viewer {
   std::string message_;
   FrameStatistics frames_;
   std::uint64_t frame_count_ = 0;
-  bool is_help_open_ = false;
-  bool wants_picture_ = false;
+  bool is_help_open_ = false, wants_picture_ = false;
+  bool sees_nothing_;  // the camera was placed before there was a body
   std::map<std::string, std::array<float, 4>> button_places_;
   std::function<std::string(const std::string&)> open_;
   std::function<void(const std::filesystem::path&)> saved_;
