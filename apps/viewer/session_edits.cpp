@@ -14,8 +14,8 @@ namespace pliant_viewer {
 namespace {
 
 constexpr std::size_t most_edits = 1000;  // that can be taken back
-constexpr std::size_t most_pins =
-    4'000'000;  // that these may name together, some 100 bytes each; twelve factors are one
+// Pins that these may name together, some 100 bytes each; of painted factors twelve are as much.
+constexpr std::size_t most_pins = 4'000'000;
 
 /// The keys by which two maps differ.
 template <class Key, class Value>

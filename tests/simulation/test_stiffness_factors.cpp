@@ -214,8 +214,7 @@ TEST_CASE("what is no list of factors is refused, and nothing has changed") {
   std::vector<Real> bad(36, 1);
   bad[3] = 0;
   refuses(sheet.springs, bad,
-          "springs on body 'sheet': the factor of the stiffness at vertex 3 is out of range; give a finite number "
-          "above 0");
+          "springs on body 'sheet': the factor of the stiffness at vertex 3 is 0; give a finite number above 0");
   const GroupId tie = sheet.simulation.add(sheet.body, Attachment{.on = {0}, .to = sheet.first, .to_on = {0}}, "tie");
   refuses(tie, rising(), "tie on body 'sheet': ties between bodies take no factors of the stiffness");
 }

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "pliant/constraints/position.h"
 #include "pliant/core/error.h"
 #include "pliant/simulation/transaction.h"
@@ -138,8 +140,8 @@ void check_factors(const std::vector<Real>& factors, const Group& group, const B
   }
   for (std::size_t i = 0; i < factors.size(); ++i) {
     if (factors[i] > 0 && std::isfinite(factors[i])) continue;
-    fail_input(place + ": the factor of the stiffness at vertex " + std::to_string(i) + " is out of range; give a " +
-               "finite number above 0");
+    fail_input(fmt::format("{}: the factor of the stiffness at vertex {} is {}; give a finite number above 0", place, i,
+                           factors[i]));
   }
 }
 
