@@ -125,8 +125,13 @@ void bind_changes(Class& simulation) {
       .def("set_stiffness", [](Handle& handle, Index number,
                                double stiffness) { handle.idle().set_stiffness(GroupId{number}, stiffness); })
       .def("set_stiffness_factors",
-           [](Handle& handle, Index number, const Numbers& factors) {
-             if (factors.ndim() != 1) pliant::fail_input("factors of the stiffness: give an array of one dimension");
+           [](Handle& handle, Index number, py::handle given) {
+             const Numbers factors = Numbers::ensure(given);
+             if (!factors || factors.ndim() != 1) {
+               PyErr_Clear();
+               pliant::fail_input(
+                   "factors of the stiffness: give an array of one dimension with a number for each vertex");
+             }
              handle.idle().set_stiffness_factors(GroupId{number}, {factors.data(), factors.data() + factors.size()});
            })
       .def("release", [](Handle& handle, Index number,

@@ -261,10 +261,9 @@ class Changes(unittest.TestCase):
                 simulation.set_stiffness_factors(springs, np.full(len(simulation.positions), 3.0))
             if factors == []:
                 simulation.set_stiffness_factors(springs, [])
-            with self.assertRaises(pliant.Error):
-                simulation.set_stiffness_factors(springs, [1, 2])
-            with self.assertRaises(pliant.Error):
-                simulation.set_stiffness_factors(springs, [[1, 2]])
+            for wrong in ([1, 2], [[1, 2]], "stiff", None):
+                with self.assertRaises(pliant.Error):
+                    simulation.set_stiffness_factors(springs, wrong)
             for _ in range(5):
                 simulation.step()
             made.append(simulation.positions.copy())
