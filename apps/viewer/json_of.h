@@ -2,6 +2,7 @@
 // Options as JSON, as scene files have them.
 #include <array>
 #include <optional>
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -24,6 +25,10 @@ inline Json json_of(const pliant::Vec3& vector) {
 
 inline Json json_of(const pliant::Color& color) {
   return {color.red, color.green, color.blue};
+}
+
+inline Json json_of(const std::string& text) {
+  return text;
 }
 
 template <class Number>

@@ -10,6 +10,7 @@
 #include "pliant/forces/builtin.h"
 #include "pliant/materials/change_material.h"
 #include "pliant/simulation/held.h"
+#include "pliant_io/scene/texture_file.h"
 #include "viewer/added_parts.h"
 #include "viewer/session.h"
 
@@ -25,9 +26,14 @@ void check(const pliant::BodyAppearance& appearance) {
   if (!is_color(appearance.front) || !is_color(appearance.back) || !is_color(appearance.pattern_color)) {
     pliant::fail_input("red, green and blue of a color are from 0 to 1");
   }
-  if (!(appearance.pattern_size >= 1e-6 && appearance.pattern_size <= 1e6)) {
-    pliant::fail_input("the size of a pattern is from 1e-6 to 1e6 m");
+  const auto is_size = [](Real size) { return size >= 1e-6 && size <= 1e6; };
+  if (!is_size(appearance.pattern_size) || !is_size(appearance.texture_size)) {
+    pliant::fail_input("the size of a pattern or a texture is from 1e-6 to 1e6 m");
   }
+  if (appearance.weave && !(*appearance.weave >= 0 && *appearance.weave <= 1)) {
+    pliant::fail_input("from thread to thread it is 0 to 1 m");
+  }
+  if (!appearance.texture.empty()) pliant::read_texture_file(appearance.texture);
 }
 
 /// Of the highest plane that faces up [m]; minus infinity without one.

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 /// Keys that name a file where their value is a text: of meshes, maps and motions, and of animations.
 bool names_file(std::string_view key, const SceneJson& value) {
-  return (key == "file" || key == "frames") && value.is_string();
+  return (key == "file" || key == "frames" || key == "texture") && value.is_string();
 }
 
 std::string utf8_of(const fs::path& path) {

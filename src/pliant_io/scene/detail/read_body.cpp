@@ -7,6 +7,7 @@
 #include "pliant_io/scene/detail/read_mesh.h"
 #include "pliant_io/scene/detail/read_solid.h"
 #include "pliant_io/scene/detail/scene_reader.h"
+#include "pliant_io/scene/texture_file.h"
 
 namespace pliant {
 namespace {
@@ -45,6 +46,18 @@ Mass read_body_mass(const Node& body, const Mesh& mesh, const std::string& name,
   mass = with_loose_vertices(std::move(mass), node, mesh, warnings);
   node.locate([&] { vertex_masses(mesh, mass, printable(name)); });
   return mass;
+}
+
+/// The texture's path is from the root from here on.
+BodyAppearance read_appearance(const Node& node) {
+  BodyAppearance appearance;
+  read_options(node, appearance);
+  const auto texture = node.find("texture");
+  if (!texture || texture->text().empty()) return appearance;
+  const NamedFile file = read_named_file(*texture);
+  texture->locate([&] { check_texture(file.path, file.bytes); });
+  appearance.texture = absolute_path(file.path).string();
+  return appearance;
 }
 
 }  // namespace
@@ -96,7 +109,7 @@ void SceneReader::read_body(const Node& node) {
   const BodyId id = node.locate([&] { return simulation.add_body(std::move(mesh), mass, std::move(options)); });
   bodies.emplace(name, id);
   bodies_of[&node.origin()].push_back(id);
-  if (const auto appearance = node.find("appearance")) read_options(*appearance, appearance_of[id]);
+  if (const auto appearance = node.find("appearance")) appearance_of[id] = read_appearance(*appearance);
   if (animation_node) add_animation(*animation_node, id, std::move(animation.path));
   if (material) add_material(*material_node, id, *material);
   if (const auto constraints = node.find("constraints")) add_groups(*constraints, id);
