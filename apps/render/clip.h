@@ -35,7 +35,7 @@ struct RunAnnotations {
   };
   std::vector<Entry> entries;
   std::vector<std::size_t> entry_of_frame;  ///< empty where nothing is known
-  std::vector<VertexLook> looks;            ///< one per vertex, or none
+  BodyLooks looks;
 };
 
 /// Those at the times of an animation, by the scene that its run was made from, as it was at the start (replay).

@@ -16,7 +16,7 @@ using Flags = std::vector<std::uint8_t>;
 
 constexpr std::uint32_t no_edge = std::numeric_limits<std::uint32_t>::max();
 constexpr double least_corner = 130, greatest_corner = 230;  // what lies between is no corner of a border [degrees]
-constexpr std::uint32_t most_neighbors = 256;  // of a vertex that is smoothed: k make stencils of k² entries around it
+constexpr std::uint32_t most_neighbors = 256;  // of a smoothed vertex: around one of k, stencils have k² entries
 
 /// Stencils in double precision, which levels multiply.
 struct DoubleStencils {

@@ -9,17 +9,17 @@
 namespace pliant_render {
 
 /// A surface to be drawn smoother; it must outlive the call. Corners of triangles have numbers: that of their vertex,
-/// or vertex_count + i for copy i of it, where the surface has a hard edge or a seam of its texture.
+/// or vertex_count + i for copy i of it, where the surface has a hard edge or a seam of its texture. A copy may have
+/// the normal of a vertex or of an earlier copy.
 struct CoarseSurface {
   std::uint32_t vertex_count = 0;
   std::span<const std::uint32_t> triangles;     ///< three vertices each
   std::span<const std::uint32_t> corners;       ///< three for each triangle: the number of each corner
   std::span<const std::uint32_t> copies;        ///< the vertex of each copy
-  std::span<const std::uint32_t> normals_from;  ///< one per copy: the number whose normal it has, a vertex or an
-                                                ///< earlier copy; or its own number
-  std::span<const std::uint32_t> edges;    ///< of the wireframe, two vertices each
-  std::span<const std::uint32_t> springs;  ///< edges of known length, two vertices each; others do no harm
-  std::span<const float> rest_lengths;     ///< of the springs [m]
+  std::span<const std::uint32_t> normals_from;  ///< one per copy: the number whose normal it has, or its own
+  std::span<const std::uint32_t> edges;         ///< of the wireframe, two vertices each
+  std::span<const std::uint32_t> springs;       ///< two vertices each; those within solids are ignored
+  std::span<const float> rest_lengths;          ///< of the springs [m]
 };
 
 /// Weighted sums, one a row: row i is the sum of weights[k] * coarse[sources[k]] for k from offsets[i] up to but not
@@ -30,19 +30,17 @@ struct Stencils {
   std::vector<float> weights;
 };
 
-/// The same surface with more triangles. The numbers of the coarse vertices stay; each later vertex lies on an edge.
-/// All sources of a row belong to one connected part of the surface.
+/// The same surface with more triangles. Vertices keep their numbers; each later one lies on an edge, and the sources
+/// of its row are in the same connected part of the surface.
 struct FineSurface {
   std::uint32_t vertex_count = 0;
-  std::vector<std::uint32_t> triangles;     ///< 4^levels in place of each, as the next three are as in CoarseSurface
-  std::vector<std::uint32_t> corners;       ///< numbers: a vertex, or vertex_count and more for copies
+  std::vector<std::uint32_t> triangles;     ///< 4^levels in place of each
+  std::vector<std::uint32_t> corners;       ///< as in CoarseSurface
   std::vector<std::uint32_t> copies;        ///< the coarse ones come first
-  std::vector<std::uint32_t> normals_from;  ///< one per copy
-  std::vector<std::uint32_t> edges;  ///< pieces of the wireframe's edges, two vertices each, 2^levels of each edge
-                                     ///< in turn; an edge of no triangle stays whole
-  Stencils points;                   ///< one row per vertex, of coarse vertices: the smooth surface
-  Stencils places;                   ///< one row per vertex and copy, of coarse vertices and copies: what is
-                                     ///< linear on each coarse triangle, as places in a texture are
+  std::vector<std::uint32_t> normals_from;  ///< as in CoarseSurface
+  std::vector<std::uint32_t> edges;         ///< 2^levels pieces of each; an edge of no triangle stays whole
+  Stencils points;                          ///< one row per vertex, of vertices: where the smooth surface is
+  Stencils places;                          ///< one row per number, of numbers: what is linear on coarse triangles
 };
 
 /// Cuts each triangle into four, `levels` times (0: as it is), with vertices where Loop's scheme has them ("Smooth
@@ -51,8 +49,9 @@ struct FineSurface {
 ///
 /// An edge is hard where its two triangles have different normals, by `corners` and `normals_from`, at either end.
 /// Vertices stay where they are if they are in no triangle, if more than two creases meet there, if triangles around
-/// them do not all hang together by edges, or if a border has a corner there: an angle under 130 or above 230 degrees
-/// at rest. Triangles that name a vertex twice smooth nothing; they become four that are as they were.
+/// them do not all hang together by edges, if they have more than 256 neighbors, or if a border has a corner there: an
+/// angle under 130 or above 230 degrees at rest, where the lengths of all edges are known. Triangles that name a vertex
+/// twice smooth nothing; they become four that are as they were.
 ///
 /// Takes time in proportion to what it returns.
 FineSurface subdivide(const CoarseSurface& surface, int levels);

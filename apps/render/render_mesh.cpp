@@ -15,17 +15,62 @@ void append(std::vector<std::uint32_t>& list, std::span<const Element> elements,
   }
 }
 
-void append_corners(RenderMesh& render_mesh, const pliant::Mesh& surface, Index first_vertex) {
-  const ShadedCorners shaded = split_at_hard_edges(surface.vertices, surface.triangles);
-  const auto count = static_cast<std::uint32_t>(surface.vertex_count());
-  const auto next =
-      static_cast<std::uint32_t>(render_mesh.vertex_count) + static_cast<std::uint32_t>(render_mesh.copies.size());
-  const auto first = static_cast<std::uint32_t>(first_vertex);
-  for (const std::uint32_t number : shaded.numbers) {
-    render_mesh.corners.push_back(number < count ? first + number : next + (number - count));
+/// The row of texture coordinates at each corner of the triangles, which are cut from polygons in their order; -1 for
+/// none, and no rows where the mesh has none.
+std::vector<Index> texture_rows(const pliant::Mesh& mesh, const std::vector<pliant::Triangle>& triangles) {
+  const pliant::PolygonFaces& faces = mesh.faces;
+  std::vector<Index> rows;
+  if (faces.texture_coordinates.empty() || mesh.texture_coordinates.rows() == 0) return rows;
+  rows.assign(3 * triangles.size(), -1);
+  std::size_t t = 0;
+  for (std::size_t face = 1; face < faces.offsets.size(); ++face) {
+    const auto first = static_cast<std::size_t>(faces.offsets[face - 1]);
+    const auto end = static_cast<std::size_t>(faces.offsets[face]);
+    for (std::size_t corner = first + 2; corner < end && t < triangles.size(); ++corner) {
+      const std::array<std::size_t, 3> fan = {first, corner - 1, corner};
+      const pliant::Triangle cut = {faces.vertices[fan[0]], faces.vertices[fan[1]], faces.vertices[fan[2]]};
+      if (cut != triangles[t]) continue;
+      for (std::size_t k = 0; k < 3; ++k) rows[3 * t + k] = faces.texture_coordinates[fan[k]];
+      ++t;
+    }
   }
-  for (const std::uint32_t vertex : shaded.copies) render_mesh.copies.push_back(first + vertex);
+  return rows;
 }
+
+/// Corners of one body after the other. Texture coordinates are put in order once all copies are known.
+class CornerList {
+ public:
+  explicit CornerList(RenderMesh& render_mesh) : render_mesh_(render_mesh) {}
+
+  void append(const pliant::Mesh& mesh, const pliant::Mesh& surface, Index first_vertex) {
+    const std::vector<Index> rows = texture_rows(mesh, surface.triangles);
+    const ShadedCorners shaded = split_at_hard_edges(surface.vertices, surface.triangles, rows);
+    const auto count = static_cast<std::uint32_t>(surface.vertex_count());
+    const auto next =
+        static_cast<std::uint32_t>(render_mesh_.vertex_count) + static_cast<std::uint32_t>(render_mesh_.copies.size());
+    const auto first = static_cast<std::uint32_t>(first_vertex);
+    const auto of_all = [&](std::uint32_t number) { return number < count ? first + number : next + (number - count); };
+    for (std::size_t corner = 0; corner < shaded.numbers.size(); ++corner) {
+      render_mesh_.corners.push_back(of_all(shaded.numbers[corner]));
+      if (rows.empty() || rows[corner] < 0) continue;
+      coordinates_.emplace_back(render_mesh_.corners.back(),
+                                mesh.texture_coordinates.row(rows[corner]).transpose().cast<float>());
+    }
+    for (const std::uint32_t vertex : shaded.copies) render_mesh_.copies.push_back(first + vertex);
+    for (const std::uint32_t number : shaded.normals_from) render_mesh_.normals_from.push_back(of_all(number));
+  }
+
+  void finish() {
+    if (coordinates_.empty()) return;
+    const std::size_t count = static_cast<std::size_t>(render_mesh_.vertex_count) + render_mesh_.copies.size();
+    render_mesh_.texture_coordinates.assign(count, Vec2f::Zero());
+    for (const auto& [corner, place] : coordinates_) render_mesh_.texture_coordinates[corner] = place;
+  }
+
+ private:
+  RenderMesh& render_mesh_;
+  std::vector<std::pair<std::uint32_t, Vec2f>> coordinates_;
+};
 
 /// What is held counts for nothing, so that a body that is the only free one has the first tones.
 std::vector<std::uint8_t> number_tones(const std::vector<pliant::Body>& bodies, std::span<const std::uint32_t> held,
@@ -45,8 +90,9 @@ std::vector<std::uint8_t> number_tones(const std::vector<pliant::Body>& bodies, 
 
 bool have_same_shape(const RenderMesh& a, const RenderMesh& b) {
   return a.vertex_count == b.vertex_count && a.triangles == b.triangles && a.corners == b.corners &&
-         a.ropes == b.ropes && a.edges == b.edges && a.springs == b.springs && a.rest_lengths == b.rest_lengths &&
-         a.bodies == b.bodies && a.tones == b.tones && a.is_sheet == b.is_sheet;
+         a.texture_coordinates == b.texture_coordinates && a.ropes == b.ropes && a.edges == b.edges &&
+         a.springs == b.springs && a.rest_lengths == b.rest_lengths && a.bodies == b.bodies && a.tones == b.tones &&
+         a.is_sheet == b.is_sheet;
 }
 
 RenderMesh make_render_mesh(const std::vector<pliant::Body>& bodies, std::span<const std::uint32_t> held) {
@@ -56,6 +102,7 @@ RenderMesh make_render_mesh(const std::vector<pliant::Body>& bodies, std::span<c
   }
   render_mesh.is_sheet.resize(static_cast<std::size_t>(render_mesh.vertex_count), 0);
   render_mesh.bodies.resize(render_mesh.is_sheet.size(), 0);
+  CornerList corners(render_mesh);
   for (std::size_t number = 0; number < bodies.size(); ++number) {
     const pliant::Body& body = bodies[number];
     const pliant::Mesh& mesh = body.mesh;
@@ -69,7 +116,8 @@ RenderMesh make_render_mesh(const std::vector<pliant::Body>& bodies, std::span<c
       surface.triangles.insert(surface.triangles.end(), skin.begin(), skin.end());
     }
     append<pliant::Triangle>(render_mesh.triangles, surface.triangles, body.first_vertex);
-    append_corners(render_mesh, surface, body.first_vertex);
+    render_mesh.first_corners.push_back(static_cast<std::uint32_t>(render_mesh.corners.size()));
+    corners.append(mesh, surface, body.first_vertex);
     append<pliant::Edge>(render_mesh.ropes, mesh.edges, body.first_vertex);
     append<pliant::Edge>(render_mesh.edges, pliant::unique_edges(surface), body.first_vertex);
     const bool is_sheet = mesh.tetrahedra.empty() && !mesh.triangles.empty();
@@ -81,6 +129,8 @@ RenderMesh make_render_mesh(const std::vector<pliant::Body>& bodies, std::span<c
           static_cast<float>((mesh.vertices.row(edge[1]) - mesh.vertices.row(edge[0])).norm()));
     }
   }
+  corners.finish();
+  render_mesh.first_corners.push_back(static_cast<std::uint32_t>(render_mesh.corners.size()));
   render_mesh.tones = number_tones(bodies, held, render_mesh.vertex_count);
   return render_mesh;
 }
@@ -130,9 +180,17 @@ std::vector<Vec3f> corner_normals(const RenderMesh& render_mesh, std::span<const
     const Vec3f normal = (positions[b] - positions[a]).cross(positions[c] - positions[a]);
     for (std::size_t k = t; k < t + 3; ++k) normals[render_mesh.corners[k]] += normal;
   }
+  const auto count = static_cast<std::uint32_t>(positions.size());
+  for (std::size_t copy = 0; copy < render_mesh.copies.size(); ++copy) {
+    const std::uint32_t from = render_mesh.normals_from[copy];
+    if (from != count + copy) normals[from] += normals[count + copy];
+  }
   for (Vec3f& normal : normals) {
     const float length = normal.norm();
     if (length > 0) normal /= length;
+  }
+  for (std::size_t copy = 0; copy < render_mesh.copies.size(); ++copy) {
+    normals[count + copy] = normals[render_mesh.normals_from[copy]];
   }
   return normals;
 }

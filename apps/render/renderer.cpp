@@ -1,7 +1,6 @@
 #include "render/renderer.h"
 
 #include <algorithm>
-#include <cstddef>
 
 #include "render/scalar_fields.h"
 #include "render/shaders.h"
@@ -78,8 +77,8 @@ GLsizei count_of(const std::vector<std::uint32_t>& list) {
 }  // namespace
 
 Renderer::Renderer(RenderMesh render_mesh)
-    : render_mesh_(std::move(render_mesh)),
-      setback_(setback_of(render_mesh_.rest_lengths)),
+    : mesh_(std::move(render_mesh)),
+      setback_(setback_of(mesh_.render_mesh().rest_lengths)),
       surface_(shaders::surface_vertex, "", shaders::lit(shaders::surface_fragment)),
       flat_surface_(shaders::flat_vertex, shaders::flat_geometry, shaders::lit(shaders::surface_fragment)),
       line_(shaders::stroke_vertex, shaders::line_geometry, shaders::line_fragment),
@@ -89,79 +88,18 @@ Renderer::Renderer(RenderMesh render_mesh)
       blur_(shaders::screen_vertex, "", shaders::blur_fragment),
       ground_(shaders::ground_vertex, "", shaders::ground_fragment),
       shadow_(shaders::shadow_vertex, "", shaders::shadow_fragment) {
-  upload_looks();
-  const auto set_up = [this](const VertexArray& array, const Buffer& elements, const std::vector<std::uint32_t>& list) {
-    glBindVertexArray(array.id());
-    set_vertex_layout();
-    upload(elements, GL_ELEMENT_ARRAY_BUFFER, list, GL_STATIC_DRAW);
-  };
-  set_up(triangles_array_, triangles_, render_mesh_.corners);
-  set_up(ropes_array_, ropes_, render_mesh_.ropes);
-  set_up(edges_array_, edges_, render_mesh_.edges);
-  set_up(markers_array_, markers_, {});
-  set_up(selected_array_, selected_, {});
-  glBindVertexArray(0);
+  mesh_.set_up(markers_array_, markers_, {});
+  mesh_.set_up(selected_array_, selected_, {});
   set_up_mask(mask_, mask_target_);
   set_up_mask(half_blurred_, half_blurred_target_);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
-}
-
-void Renderer::set_vertex_layout() const {
-  const auto attribute = [](GLuint place, GLint size, std::size_t offset) {
-    glEnableVertexAttribArray(place);
-    glVertexAttribPointer(place, size, GL_FLOAT, GL_FALSE, sizeof(Vertex),
-                          reinterpret_cast<const void*>(offset));  // NOLINT: as OpenGL wants it
-  };
-  glBindBuffer(GL_ARRAY_BUFFER, vertex_buffer_.id());
-  attribute(0, 3, offsetof(Vertex, position));
-  attribute(1, 3, offsetof(Vertex, normal));
-  attribute(2, 1, offsetof(Vertex, value));
-  glBindBuffer(GL_ARRAY_BUFFER, looks_.id());
-  const auto look = [](GLuint place, GLint size, GLenum type, std::size_t offset) {
-    glEnableVertexAttribArray(place);
-    glVertexAttribPointer(place, size, type, type == GL_FLOAT ? GL_FALSE : GL_TRUE, sizeof(VertexLook),
-                          reinterpret_cast<const void*>(offset));  // NOLINT: as OpenGL wants it
-  };
-  look(3, 4, GL_UNSIGNED_BYTE, offsetof(VertexLook, front));
-  look(4, 4, GL_UNSIGNED_BYTE, offsetof(VertexLook, back));
-  look(5, 4, GL_UNSIGNED_BYTE, offsetof(VertexLook, second));
-  look(6, 3, GL_FLOAT, offsetof(VertexLook, place));
-}
-
-void Renderer::set_looks(std::vector<VertexLook> looks) {
-  render_mesh_.looks = std::move(looks);
-  upload_looks();
-}
-
-/// Copies look like their vertices; sheets have the sheen of cloth.
-void Renderer::upload_looks() const {
-  std::vector<VertexLook> looks = render_mesh_.looks;
-  looks.resize(static_cast<std::size_t>(render_mesh_.vertex_count));
-  for (std::size_t i = 0; i < looks.size(); ++i) looks[i].second[3] = render_mesh_.is_sheet[i] != 0 ? 255 : 0;
-  looks.reserve(looks.size() + render_mesh_.copies.size());
-  for (const std::uint32_t vertex : render_mesh_.copies) looks.push_back(looks[vertex]);
-  upload(looks_, GL_ARRAY_BUFFER, looks, GL_STATIC_DRAW);
 }
 
 void Renderer::set_frame(const FrameContent& frame, pliant::ColorBy color) {
   bounds_ = bounds_of(frame);
   colliders_.set_frame(frame.colliders);
   has_values_ = frame.values.size() == frame.positions.size() && color != pliant::ColorBy::none;
-  const std::vector<Vec3f> normals = corner_normals(render_mesh_, frame.positions);
-  vertices_.resize(frame.positions.size());
-  for (std::size_t i = 0; i < vertices_.size(); ++i) {
-    vertices_[i] = {frame.positions[i], normals[i], has_values_ ? frame.values[i] : render_mesh_.tones[i]};
-  }
-  if (!has_values_) {
-    for (const std::uint32_t vertex : frame.held) vertices_[vertex].value = -1;
-  }
-  vertices_.reserve(normals.size());
-  for (const std::uint32_t vertex : render_mesh_.copies) {
-    const std::size_t copy = vertices_.size();
-    vertices_.push_back(vertices_[vertex]);
-    vertices_.back().normal = normals[copy];
-  }
-  upload(vertex_buffer_, GL_ARRAY_BUFFER, vertices_, GL_STREAM_DRAW);
+  mesh_.set_frame(frame, has_values_);
   glBindVertexArray(markers_array_.id());
   upload(markers_, GL_ELEMENT_ARRAY_BUFFER, frame.markers, GL_STREAM_DRAW);
   glBindVertexArray(0);
@@ -223,8 +161,7 @@ void Renderer::draw_depths(float setback) const {
   depth.use();
   depth.set("place", Mat4f::Identity().eval());
   depth.set("setback", 0.0F);
-  glBindVertexArray(triangles_array_.id());
-  glDrawElements(GL_TRIANGLES, count_of(render_mesh_.triangles), GL_UNSIGNED_INT, nullptr);
+  mesh_.draw_triangles();
   depth.set("setback", setback);
   colliders_.draw_triangles(depth, Mat4f::Identity());
 }
@@ -251,8 +188,7 @@ void Renderer::draw_rope_shadows() const {
   program.set("setback", 0.0F);
   program.set("width", rope_shadow_width);
   program.set("lift", 0.0F);
-  glBindVertexArray(ropes_array_.id());
-  glDrawElements(GL_LINES, count_of(render_mesh_.ropes), GL_UNSIGNED_INT, nullptr);
+  mesh_.draw_ropes();
 }
 
 Projection Renderer::projection(const DrawOptions& options) const {
@@ -306,8 +242,8 @@ void Renderer::draw_planes(const pliant::ViewSettings& appearance, const DrawOpt
 ShadowArea Renderer::draw_shadow(const Mat4f& to_floor, const Vec3f& light_in_space) {
   const Vec3f light = to_floor.topLeftCorner<3, 3>() * light_in_space;
   Bounds flat = colliders_.bounds_in(to_floor, light);
-  for (const Vertex& vertex : vertices_) {
-    flat.add(flatten(to_floor.topLeftCorner<3, 3>() * vertex.position + to_floor.topRightCorner<3, 1>(), light));
+  for (const Vec3f& position : mesh_.positions()) {
+    flat.add(flatten(to_floor.topLeftCorner<3, 3>() * position + to_floor.topRightCorner<3, 1>(), light));
   }
   // The blur reaches seven texels out.
   const Vec3f half = (flat.high - flat.low) / 2;
@@ -327,14 +263,10 @@ ShadowArea Renderer::draw_shadow(const Mat4f& to_floor, const Vec3f& light_in_sp
     program.set("width", rope_shadow_width);
     program.set("lift", 0.0F);
   };
-  const auto draw = [](const VertexArray& array, GLenum kind, GLsizei count) {
-    glBindVertexArray(array.id());
-    glDrawElements(kind, count, GL_UNSIGNED_INT, nullptr);
-  };
   use(flatten_ropes_);
-  draw(ropes_array_, GL_LINES, count_of(render_mesh_.ropes));
+  mesh_.draw_ropes();
   use(flatten_);
-  draw(triangles_array_, GL_TRIANGLES, count_of(render_mesh_.triangles));
+  mesh_.draw_triangles();
   colliders_.draw_triangles(flatten_, to_floor);
   // As wide in both directions on the ground, not in the mask.
   const float texel = 0.75F * area.reach.maxCoeff() / mask_size;
@@ -388,7 +320,7 @@ void Renderer::lay_shadow(const ShadowArea& area, float height, const Mat4f& cam
 
 void Renderer::draw_surface(const pliant::ViewSettings& appearance, const DrawOptions& options,
                             const Mat4f& camera) const {
-  if (render_mesh_.triangles.empty()) return;
+  if (!mesh_.has_triangles()) return;
   const Program& program = appearance.shading == pliant::Shading::flat ? flat_surface_ : surface_;
   program.use();
   program.set("camera", camera);
@@ -401,8 +333,9 @@ void Renderer::draw_surface(const pliant::ViewSettings& appearance, const DrawOp
   program.set("colors", 0);
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, map_.id());
-  glBindVertexArray(triangles_array_.id());
-  glDrawElements(GL_TRIANGLES, count_of(render_mesh_.triangles), GL_UNSIGNED_INT, nullptr);
+  constexpr int texture_unit = 3;  // beside those of the light
+  program.set("picture", texture_unit);
+  mesh_.draw_textured_triangles(texture_unit);
 }
 
 void Renderer::draw_lines(const pliant::ViewSettings& appearance, const DrawOptions& options, const Mat4f& camera,
@@ -417,21 +350,21 @@ void Renderer::draw_lines(const pliant::ViewSettings& appearance, const DrawOpti
   line_.set("colors", 0);
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, map_.id());
-  const auto draw_list = [&](const VertexArray& array, GLsizei count, float width, float opacity, const Vec3f& tone,
-                             bool is_rope) {
-    if (count == 0) return;
+  const auto set_up = [&](float width, float opacity, bool is_rope) {
     line_.set("width", width * options.scale);
     line_.set("opacity", opacity);
-    line_.set("tone", tone);
+    line_.set("tone", edge_color);
     line_.set("has_tones", is_rope ? 1 : 0);
     line_.set("is_round", is_rope ? 1 : 0);
     line_.set("is_colored", is_rope && has_values_ ? 1 : 0);
-    glBindVertexArray(array.id());
-    glDrawElements(GL_LINES, count, GL_UNSIGNED_INT, nullptr);
   };
-  draw_list(ropes_array_, count_of(render_mesh_.ropes), rope_width, 1, edge_color, true);
+  if (mesh_.has_ropes()) {
+    set_up(rope_width, 1, true);
+    mesh_.draw_ropes();
+  }
   if (appearance.wireframe) {
-    draw_list(edges_array_, count_of(render_mesh_.edges), edge_width, 0.55F, edge_color, false);
+    set_up(edge_width, 0.55F, false);
+    mesh_.draw_edges();
   }
 }
 

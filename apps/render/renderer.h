@@ -4,7 +4,7 @@
 
 #include "render/collider_painter.h"
 #include "render/gl_objects.h"
-#include "render/render_mesh.h"
+#include "render/mesh_buffers.h"
 
 namespace pliant_render {
 
@@ -26,9 +26,13 @@ class Renderer {
   /// Needs a current OpenGL context, as do all members.
   explicit Renderer(RenderMesh render_mesh);
 
-  const RenderMesh& render_mesh() const { return render_mesh_; }
-  /// What bodies look like from now on: one per vertex, or none.
-  void set_looks(std::vector<VertexLook> looks);
+  const RenderMesh& render_mesh() const { return mesh_.render_mesh(); }
+  /// What bodies look like from now on. Textures that cannot be read are left out, see texture_error.
+  void set_looks(BodyLooks looks) { mesh_.set_looks(std::move(looks)); }
+  const std::string& texture_error() const { return mesh_.texture_error(); }
+  /// Surfaces are drawn that much smoother from the next frame on, see ViewSettings::subdivision. Returns whether that
+  /// is new.
+  bool set_subdivision(int levels) { return mesh_.set_subdivision(levels); }
   /// Uploads the positions, values and markers of a frame.
   void set_frame(const FrameContent& frame, pliant::ColorBy color);
   /// Vertices that are marked as selected in all frames from now on.
@@ -37,13 +41,6 @@ class Renderer {
   void draw(const pliant::ViewSettings& appearance, const DrawOptions& options, int width, int height);
 
  private:
-  struct Vertex {
-    Vec3f position, normal;
-    float value;  // without values the number of its tones, -1 of what is held
-  };
-
-  void set_vertex_layout() const;
-  void upload_looks() const;
   /// Both of space: from it to the frame of the floor, and where light comes from.
   ShadowArea draw_shadow(const Mat4f& to_floor, const Vec3f& light);
   Projection projection(const DrawOptions& options) const;
@@ -65,7 +62,7 @@ class Renderer {
   void draw_selection(const DrawOptions& options, const Mat4f& camera, const Vec2f& picture) const;
   void set_up_markers(const DrawOptions& options, const Mat4f& camera, const Vec2f& picture) const;
 
-  RenderMesh render_mesh_;
+  MeshBuffers mesh_;
   ColliderPainter colliders_;
   SceneLight light_;
   Bounds bounds_;
@@ -74,10 +71,9 @@ class Renderer {
   bool has_values_ = false;
   pliant::ColorBy map_of_ = pliant::ColorBy::none;
   GLsizei marker_count_ = 0, selected_count_ = 0;
-  std::vector<Vertex> vertices_;
   Program surface_, flat_surface_, line_, marker_, flatten_, flatten_ropes_, blur_, ground_, shadow_;
-  VertexArray triangles_array_, ropes_array_, edges_array_, markers_array_, selected_array_, empty_array_;
-  Buffer vertex_buffer_, looks_, triangles_, ropes_, edges_, markers_, selected_;
+  VertexArray markers_array_, selected_array_, empty_array_;
+  Buffer markers_, selected_;
   Texture map_, mask_, half_blurred_;
   Framebuffer mask_target_, half_blurred_target_;
 };

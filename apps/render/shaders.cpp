@@ -10,10 +10,12 @@ layout(location = 3) in vec4 front;
 layout(location = 4) in vec4 back;
 layout(location = 5) in vec4 second;
 layout(location = 6) in vec3 in_pattern;
+layout(location = 7) in float threads;
 uniform mat4 camera;
 out vec3 point_here, normal_here, in_pattern_here;
 out float value_here;
 flat out vec4 front_here, back_here, second_here;
+flat out float threads_here;
 void main() {
   point_here = position;
   normal_here = normal;
@@ -22,20 +24,21 @@ void main() {
   front_here = front;
   back_here = back;
   second_here = second;
+  threads_here = threads;
   gl_Position = camera * vec4(position, 1);
 })";
 
-// The back of a sheet is lit as its front. Comes after `lighting`. Front, back and second are as in VertexLook, but for
-// the last number of `second`, which is the sheen.
+// The back of a sheet is lit as its front. Comes after `lighting`. Front, back and second are as in VertexLook.
 const std::string_view surface_fragment = R"(
 in vec3 point_here, normal_here, in_pattern_here;
 in float value_here;
 flat in vec4 front_here, back_here, second_here;
+flat in float threads_here;
 uniform vec3 held;
 uniform vec3 fronts[7], backs[7];  // of body_tones
 uniform int is_colored;
 uniform float low, high;
-uniform sampler2D colors;
+uniform sampler2D colors, picture;
 out vec4 color;
 
 /// 1 and -1 in turn between whole numbers, and on the way where a pixel has both.
@@ -44,32 +47,65 @@ vec3 in_turn(vec3 at) {
   return clamp(away / max(fwidth(at), 1e-5), -0.5, 0.5) * 2.0;
 }
 
-vec3 own_tone() {
+/// A place in the plane of two axes, the one that the surface lies along most at rest.
+vec2 laid(vec3 at) {
+  vec3 n = abs(cross(dFdx(at), dFdy(at)));
+  if (n.z >= max(n.x, n.y)) return at.xy;
+  return n.y >= n.x ? at.xz : at.yz;
+}
+
+vec3 own_tone(vec2 here) {
   int pattern = int(255.0 * back_here.a + 0.5);
   if (pattern == 3) {
     float share = clamp(in_pattern_here.x, -1.0, 1.0);
     return mix(front_here.rgb, share < 0.0 ? back_here.rgb : second_here.rgb, abs(share));
   }
   vec3 base = gl_FrontFacing ? front_here.rgb : back_here.rgb;
+  if (pattern == 0) return base;
+  if (pattern >= 4) {
+    if ((pattern == 5 || pattern == 7) && !gl_FrontFacing) return base;
+    vec2 size = vec2(textureSize(picture, 0));
+    vec4 seen = texture(picture, vec2(here.x, -here.y * (pattern >= 6 ? 1.0 : size.x / size.y)));  // rows go down
+    return mix(base, seen.rgb, seen.a);
+  }
   vec3 turns = in_turn(in_pattern_here);
   float turn = pattern == 1 ? turns.x * turns.y * turns.z : turns.x;
-  return pattern == 0 ? base : mix(base, second_here.rgb, 0.5 + 0.5 * turn);
+  return mix(base, second_here.rgb, 0.5 + 0.5 * turn);
+}
+
+/// Plain weave: in each square of threads one way lies on top, in its neighbors the other. Fades where a thread has
+/// less than some pixels. Bends the normal, and gives how dark it is between threads.
+float weave(vec2 at, inout vec3 n) {
+  vec2 x = dFdx(at), y = dFdy(at);
+  float width = max(length(x), length(y)), fade = 1.0 - smoothstep(0.12, 0.4, width);
+  float area = x.x * y.y - x.y * y.x;
+  if (fade <= 0.0 || abs(area) < 1e-12) return 1.0;
+  vec3 px = dFdx(point_here), py = dFdy(point_here);
+  vec3 along = (px * y.y - py * x.y) / area, across = (py * x.x - px * y.x) / area;
+  vec2 square = floor(at), inside = at - square - 0.5;
+  bool is_along = mod(square.x + square.y, 2.0) < 1.0;
+  vec2 slope = is_along ? vec2(0.6 * inside.x, 1.7 * inside.y) : vec2(1.7 * inside.x, 0.6 * inside.y);
+  n = normalize(n + fade * (slope.x * normalize(along) + slope.y * normalize(across)));
+  float edge = is_along ? abs(inside.y) : abs(inside.x), end = is_along ? abs(inside.x) : abs(inside.y);
+  return 1.0 + fade * (0.06 - 0.32 * smoothstep(0.3, 0.5, edge) - 0.12 * smoothstep(0.2, 0.5, end));
 }
 
 void main() {
   vec3 n = normalize(normal_here + 1e-9 * (eye - point_here));  // never of length zero
   if (!gl_FrontFacing) n = -n;
+  vec2 here = laid(in_pattern_here);
   vec3 tone = held;
   if (is_colored != 0) {
     float place = clamp((value_here - low) / (high - low), 0.002, 0.998);
     tone = textureLod(colors, vec2(place, 0.5), 0.0).rgb;
   } else if (front_here.a > 0.5) {
-    tone = own_tone();
+    tone = own_tone(here);
   } else if (value_here > -0.5) {
     int number = int(value_here + 0.5);
     tone = gl_FrontFacing ? fronts[number] : backs[number];
   }
-  color = vec4(lit(tone, point_here, n, second_here.a), 1);
+  if (threads_here > 0.0) tone *= weave(threads_here * here, n);
+  color = vec4(lit(tone, point_here, n, int(255.0 * second_here.a + 0.5)), 1);
 })";
 
 const std::string_view solid_vertex = R"(#version 330 core
@@ -80,7 +116,9 @@ uniform float setback;
 out vec3 point_here, normal_here, in_pattern_here;
 out float value_here;
 flat out vec4 front_here, back_here, second_here;
+flat out float threads_here;
 void main() {
+  threads_here = 0.0;
   point_here = (place * vec4(position, 1)).xyz;
   normal_here = mat3(place) * normal;
   value_here = -1.0;  // held
@@ -98,9 +136,10 @@ layout(location = 3) in vec4 front;
 layout(location = 4) in vec4 back;
 layout(location = 5) in vec4 second;
 layout(location = 6) in vec3 in_pattern;
+layout(location = 7) in float threads;
 uniform mat4 camera;
 out vec3 place, in_pattern_at;
-out float value_at;
+out float value_at, threads_at;
 out vec4 front_at, back_at, second_at;
 void main() {
   place = position;
@@ -109,6 +148,7 @@ void main() {
   front_at = front;
   back_at = back;
   second_at = second;
+  threads_at = threads;
   gl_Position = camera * vec4(position, 1);
 })";
 
@@ -116,11 +156,12 @@ const std::string_view flat_geometry = R"(#version 330 core
 layout(triangles) in;
 layout(triangle_strip, max_vertices = 3) out;
 in vec3 place[], in_pattern_at[];
-in float value_at[];
+in float value_at[], threads_at[];
 in vec4 front_at[], back_at[], second_at[];
 out vec3 point_here, normal_here, in_pattern_here;
 out float value_here;
 flat out vec4 front_here, back_here, second_here;
+flat out float threads_here;
 void main() {
   vec3 normal = cross(place[1] - place[0], place[2] - place[0]);
   float area = length(normal);
@@ -132,6 +173,7 @@ void main() {
     front_here = front_at[i];
     back_here = back_at[i];
     second_here = second_at[i];
+    threads_here = threads_at[i];
     gl_Position = gl_in[i].gl_Position;
     EmitVertex();
   }

@@ -58,10 +58,19 @@ vec3 roll_off(vec3 c) {
   return min(c, from) + (1.0 - from) * (1.0 - exp(-over));
 }
 
-/// sheen: 1 of cloth, whose fibers catch light at grazing angles and let some through; 0 of what is solid and has a soft highlight.
-vec3 lit(vec3 tone, vec3 point, vec3 n, float sheen) {
+/// What a polished surface sees in a direction, as in a studio: a floor in light, dark walls, a bright ceiling, and the
+/// lamp. Without dark and bright a metal would look like paint.
+vec3 seen_towards(vec3 way, float key) {
+  vec3 around = mix(1.5 * ground, 0.16 * sky, smoothstep(-0.35, 0.02, way.z));
+  around = mix(around, 2.2 * sky, smoothstep(0.12, 0.75, way.z));
+  return around + 1.6 * key * key_light * pow(max(dot(way, light), 0.0), 20.0);
+}
+
+/// finish: 1 of cloth, whose fibers catch light at grazing angles and let some through; 3 glossy, 4 metal; all else is
+/// solid and has a soft highlight.
+vec3 lit(vec3 tone, vec3 point, vec3 n, int finish) {
   vec3 to_eye = normalize(eye - point);
-  float towards = dot(n, light);
+  float towards = dot(n, light), sheen = finish == 1 ? 1.0 : 0.0;
   float key = 0.0;
   if (towards > 0.0) key = towards * key_share(point, n, towards);
   else if (sheen > 0.5) key = -through * towards * key_share(point, -n, -towards);
@@ -71,6 +80,15 @@ vec3 lit(vec3 tone, vec3 point, vec3 n, float sheen) {
   vec3 base = pow(tone, vec3(2.2));
   vec3 color = base * ((0.6 + 0.4 * open) * key * key_light + around);
   float rim = pow(1.0 - facing, 4.0);
+  if (finish >= 3) {
+    float lies_in_light = towards > 0.0 ? min(key / max(towards, 0.05), 1.0) : 0.0;
+    vec3 seen = (0.3 + 0.7 * open) * seen_towards(reflect(-to_eye, n), lies_in_light);
+    float glance = pow(max(dot(n, normalize(light + to_eye)), 0.0), 180.0) * lies_in_light;
+    if (finish == 4) color = 0.10 * color + mix(base, vec3(1), 0.6 * rim) * (seen + glance);
+    if (finish == 4) return pow(roll_off(color), vec3(0.4545));
+    color += (0.06 + 0.5 * rim) * seen + 0.5 * glance * key_light;
+    return pow(roll_off(color), vec3(0.4545));
+  }
   color += sheen * 0.30 * rim * mix(vec3(1), base, 0.6) * (0.6 * key * key_light + around);
   float glance = max(dot(n, normalize(light + to_eye)), 0.0);
   color += (1.0 - sheen) * (0.10 * key * pow(glance, 40.0) * key_light + 0.10 * rim * open * sky);

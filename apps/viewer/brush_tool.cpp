@@ -172,8 +172,8 @@ void BrushTool::draw(const SurfacePoint& point, const MouseInteraction::View& vi
   list.AddCircle(middle, size, ink, 0, 1.6F * view.unit);
   const auto& looks = view.snapshot->render_mesh->looks;
   const std::uint32_t nearest = point.nearest_vertex(positions);
-  if (nearest >= looks.size()) return;
-  const std::string text = fmt::format("× {:.3g}", std::pow(10.0F, looks[nearest].place.x()));
+  if (nearest >= looks.vertices.size()) return;
+  const std::string text = fmt::format("× {:.3g}", std::pow(10.0F, looks.vertices[nearest].place.x()));
   const ImVec2 corner = {middle.x + 0.72F * size + 6 * view.unit, middle.y + 0.72F * size};
   const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
   const float room = 4 * view.unit;

@@ -35,19 +35,19 @@ pliant_render::VertexLook look_of_factor(Real factor, bool has_surface) {
 }
 
 /// What bodies look like, but for one whose painted stiffness is shown.
-std::vector<pliant_render::VertexLook> looks_of(const Session& session, const std::string& painted) {
+pliant_render::BodyLooks looks_of(const Session& session, const std::string& painted) {
   const pliant::Simulation& simulation = session.simulation();
-  std::vector<pliant_render::VertexLook> looks =
-      pliant_render::vertex_looks(simulation.bodies(), session.scene().appearances);
+  const pliant::Scene& scene = session.scene();
+  pliant_render::BodyLooks looks = pliant_render::body_looks(simulation.bodies(), scene.appearances, scene.materials);
   const auto id = painted.empty() ? std::nullopt : simulation.find_group(painted);
   if (!id) return looks;
-  looks.resize(static_cast<std::size_t>(simulation.state().vertex_count()));
+  looks.vertices.resize(static_cast<std::size_t>(simulation.state().vertex_count()));
   const pliant::Group& group = simulation.groups().at(*id);
   const pliant::Body& body = simulation.body(group.body);
   const bool has_surface = !(body.mesh.triangles.empty() && body.mesh.tetrahedra.empty());
   for (Index v = 0; v < body.mesh.vertex_count(); ++v) {
     const Real factor = group.factors.empty() ? 1 : group.factors[static_cast<std::size_t>(v)];
-    looks[static_cast<std::size_t>(body.first_vertex + v)] = look_of_factor(factor, has_surface);
+    looks.vertices[static_cast<std::size_t>(body.first_vertex + v)] = look_of_factor(factor, has_surface);
   }
   return looks;
 }

@@ -107,6 +107,7 @@ void Session::set_material(const std::string& body, const std::string& material)
   };
   std::set<std::string> removed = names_of_body();
   change_material(scene_, id, material, placement->second);
+  ++look_changes_;
   for (const std::string& name : names_of_body()) removed.erase(name);
   Edit edit{.what = body + ": " + material, .before = changes_};
   for (const std::string& key : of_body) changes_.values.erase(key);
@@ -249,7 +250,7 @@ void Session::go(const Edit& edit, const SceneChanges& from, const SceneChanges&
       }
     }
     set_values(std::move(values), scene_.simulation);
-    if (!(from.appearances == to.appearances)) set_looks(to);
+    if (!(from.appearances == to.appearances) || !difference(from.materials, to.materials).empty()) set_looks(to);
     if (!(from.painted == to.painted)) set_painted(from, to);
     changes_ = to;
     return;

@@ -147,8 +147,14 @@ void Viewer::say(std::string message) {
 void Viewer::update_render_mesh() {
   if (source_.render_mesh() == render_mesh_) return;
   const auto before = std::exchange(render_mesh_, source_.render_mesh());
-  if (before != nullptr && have_same_shape(*before, *render_mesh_)) return renderer_->set_looks(render_mesh_->looks);
-  renderer_.emplace(*render_mesh_);
+  const bool is_same = before != nullptr && have_same_shape(*before, *render_mesh_);
+  if (is_same) {
+    renderer_->set_looks(render_mesh_->looks);
+  } else {
+    renderer_.emplace(*render_mesh_);
+  }
+  if (!renderer_->texture_error().empty()) say(renderer_->texture_error());
+  if (is_same) return;
   if (sees_nothing_ && render_mesh_->vertex_count > 0) {
     sees_nothing_ = false;
     camera_ = OrbitCamera(first_viewpoint(source_, appearance_, picture_size()), appearance_.camera.up.cast<float>());
@@ -208,7 +214,8 @@ std::array<float, 2> Viewer::color_range() {
 void Viewer::draw() {
   last_draw_ = Clock::now();
   update_render_mesh();
-  if (is_frame_new_ || shown_colliders_ != appearance_.colliders) {
+  const bool is_finer = renderer_->set_subdivision(appearance_.subdivision);
+  if (is_frame_new_ || is_finer || shown_colliders_ != appearance_.colliders) {
     update_bounds();
     range_ = color_range();
     if (appearance_.colliders) {

@@ -52,6 +52,7 @@ struct ViewSettings {
   /// both: of several free bodies each has tones of its own, see body_tones
   std::optional<Color> front{}, back{};
   Shading shading = Shading::smooth;     ///< smooth, or each face by itself
+  Index subdivision = 0;                 ///< times that triangles are cut into four to be drawn smoother, 0 to 3
   bool wireframe = false;                ///< draw the edges of the elements too
   bool colliders = true;                 ///< draw them; hidden ones act all the same
   std::optional<bool> markers{};         ///< on pinned vertices and test forces; none: in windows, not in films
@@ -80,6 +81,10 @@ struct ViewSettings {
           self.front);
     field(OptionInfo{"back", "", "tone of the other side, likewise"}, self.back);
     field(OptionInfo{"shading", "", "`smooth`, or `flat`: each face by itself"}, self.shading);
+    field(
+        OptionInfo{"subdivision", "",
+                   "times that each triangle is cut into four to be drawn smoother than it is simulated", Range{0, 3}},
+        self.subdivision);
     field(OptionInfo{"wireframe", "", "draw the edges of the elements too"}, self.wireframe);
     field(OptionInfo{"colliders", "", "draw them; hidden ones act all the same"}, self.colliders);
     field(OptionInfo{"markers", "", "mark pinned vertices, and those under a test force; default: in a window only"},

@@ -1,0 +1,226 @@
+#include "render/mesh_buffers.h"
+
+#include <cstddef>
+#include <set>
+
+#include "pliant/core/error.h"
+#include "render/texture_image.h"
+
+namespace pliant_render {
+namespace {
+
+GLsizei size_of(const std::vector<std::uint32_t>& list) {
+  return static_cast<GLsizei>(list.size());
+}
+
+const void* offset_of(std::size_t bytes) {
+  return reinterpret_cast<const void*>(bytes);  // NOLINT: as OpenGL wants it
+}
+
+void point_at(GLuint place, GLint size, GLenum type, std::size_t stride, std::size_t offset) {
+  glEnableVertexAttribArray(place);
+  glVertexAttribPointer(place, size, type, type == GL_FLOAT ? GL_FALSE : GL_TRUE, static_cast<GLsizei>(stride),
+                        offset_of(offset));
+}
+
+/// Repeated to all sides, and smoothed where it is drawn small.
+void fill(const Texture& texture, const TextureImage& image) {
+  glBindTexture(GL_TEXTURE_2D, texture.id());
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, image.width, image.height, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+               image.pixels.data());
+  glGenerateMipmap(GL_TEXTURE_2D);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_REPEAT);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_REPEAT);
+}
+
+/// The lists of a finer surface, without what frames are measured by.
+RenderMesh mesh_of(const FineSurface& fine, const RenderMesh& coarse, int levels) {
+  RenderMesh mesh;
+  mesh.vertex_count = static_cast<Index>(fine.vertex_count);
+  mesh.triangles = fine.triangles;
+  mesh.corners = fine.corners;
+  mesh.copies = fine.copies;
+  mesh.normals_from = fine.normals_from;
+  mesh.edges = fine.edges;
+  mesh.ropes = coarse.ropes;
+  for (const std::uint32_t first : coarse.first_corners) mesh.first_corners.push_back(first << (2 * levels));
+  return mesh;
+}
+
+}  // namespace
+
+MeshBuffers::MeshBuffers(RenderMesh render_mesh) : render_mesh_(std::move(render_mesh)) {
+  fill(no_texture_, {1, 1, {0, 0, 0, 0}});
+  upload_lists();
+  read_textures();
+  upload_looks();
+}
+
+void MeshBuffers::set_layout() const {
+  glBindBuffer(GL_ARRAY_BUFFER, vertex_buffer_.id());
+  point_at(0, 3, GL_FLOAT, sizeof(Vertex), offsetof(Vertex, position));
+  point_at(1, 3, GL_FLOAT, sizeof(Vertex), offsetof(Vertex, normal));
+  point_at(2, 1, GL_FLOAT, sizeof(Vertex), offsetof(Vertex, value));
+  glBindBuffer(GL_ARRAY_BUFFER, looks_.id());
+  point_at(3, 4, GL_UNSIGNED_BYTE, sizeof(VertexLook), offsetof(VertexLook, front));
+  point_at(4, 4, GL_UNSIGNED_BYTE, sizeof(VertexLook), offsetof(VertexLook, back));
+  point_at(5, 4, GL_UNSIGNED_BYTE, sizeof(VertexLook), offsetof(VertexLook, second));
+  point_at(6, 3, GL_FLOAT, sizeof(VertexLook), offsetof(VertexLook, place));
+  point_at(7, 1, GL_FLOAT, sizeof(VertexLook), offsetof(VertexLook, threads));
+}
+
+void MeshBuffers::set_up(const VertexArray& array, const Buffer& elements,
+                         const std::vector<std::uint32_t>& list) const {
+  glBindVertexArray(array.id());
+  set_layout();
+  upload(elements, GL_ELEMENT_ARRAY_BUFFER, list, GL_STATIC_DRAW);
+  glBindVertexArray(0);
+}
+
+void MeshBuffers::upload_lists() {
+  set_up(triangles_array_, triangles_, drawn().corners);
+  set_up(ropes_array_, ropes_, drawn().ropes);
+  set_up(edges_array_, edges_, drawn().edges);
+}
+
+void MeshBuffers::set_looks(BodyLooks looks) {
+  render_mesh_.looks = std::move(looks);
+  upload_looks();
+  read_textures();
+}
+
+void MeshBuffers::read_textures() {
+  texture_error_.clear();
+  std::set<std::string> used;
+  for (const auto& [body, path] : render_mesh_.looks.textures) used.insert(path);
+  std::erase_if(textures_, [&](const auto& texture) { return !used.contains(texture.first); });
+  for (const std::string& path : used) {
+    if (textures_.contains(path)) continue;
+    try {
+      const TextureImage image = read_texture(path);
+      auto texture = std::make_unique<Texture>();
+      fill(*texture, image);
+      textures_.emplace(path, std::move(texture));
+    } catch (const pliant::Error& error) {
+      texture_error_ = error.what();
+    }
+  }
+}
+
+/// Copies look like their vertices, but for the places that they have in textures; those between others as the first of
+/// these. Sheets have the sheen of cloth.
+void MeshBuffers::upload_looks() {
+  std::vector<VertexLook> looks = render_mesh_.looks.vertices;
+  looks.resize(static_cast<std::size_t>(render_mesh_.vertex_count));
+  for (std::size_t i = 0; i < looks.size(); ++i) {
+    if (looks[i].second[3] != 0) continue;
+    const auto usual = render_mesh_.is_sheet[i] != 0 ? pliant::Finish::cloth : pliant::Finish::matte;
+    looks[i].second[3] = static_cast<std::uint8_t>(usual);
+  }
+  for (const std::uint32_t vertex : render_mesh_.copies) looks.push_back(looks[vertex]);
+  for (std::size_t i = 0; i < render_mesh_.texture_coordinates.size(); ++i) {
+    if (looks[i].by_uv > 0) looks[i].place.head<2>() = looks[i].by_uv * render_mesh_.texture_coordinates[i];
+  }
+  if (levels_ > 0) {
+    std::vector<Vec3f> places, fine_places;
+    for (const VertexLook& look : looks) places.push_back(look.place);
+    apply_stencils(fine_.places, places, fine_places);
+    std::vector<VertexLook> fine_looks(fine_places.size());
+    for (std::size_t i = 0; i < fine_looks.size(); ++i) {
+      fine_looks[i] = looks[fine_.places.sources[fine_.places.offsets[i]]];
+      fine_looks[i].place = fine_places[i];
+    }
+    looks = std::move(fine_looks);
+  }
+  upload(looks_, GL_ARRAY_BUFFER, looks, GL_STATIC_DRAW);
+}
+
+bool MeshBuffers::set_subdivision(int levels) {
+  if (levels == levels_) return false;
+  levels_ = levels;
+  fine_ = {};
+  fine_mesh_ = {};
+  if (levels > 0) {
+    fine_ = subdivide({static_cast<std::uint32_t>(render_mesh_.vertex_count), render_mesh_.triangles,
+                       render_mesh_.corners, render_mesh_.copies, render_mesh_.normals_from, render_mesh_.edges,
+                       render_mesh_.springs, render_mesh_.rest_lengths},
+                      levels);
+    fine_mesh_ = mesh_of(fine_, render_mesh_, levels);
+  }
+  upload_lists();
+  upload_looks();
+  return true;
+}
+
+void MeshBuffers::set_frame(const FrameContent& frame, bool has_values) {
+  values_.assign(render_mesh_.tones.begin(), render_mesh_.tones.end());
+  if (has_values) {
+    values_ = frame.values;
+  } else {
+    for (const std::uint32_t vertex : frame.held) values_[vertex] = -1;
+  }
+  positions_ = frame.positions;
+  if (levels_ > 0) {
+    std::vector<float> values = std::move(values_);
+    apply_stencils(fine_.points, frame.positions, positions_);
+    if (has_values) {
+      apply_stencils(fine_.points, values, values_);
+    } else {
+      values_.clear();
+      for (std::size_t i = 0; i < positions_.size(); ++i) {
+        values_.push_back(values[fine_.points.sources[fine_.points.offsets[i]]]);
+      }
+    }
+  }
+  const std::vector<Vec3f> normals = corner_normals(drawn(), positions_);
+  vertices_.resize(normals.size());
+  for (std::size_t i = 0; i < vertices_.size(); ++i) {
+    const std::size_t vertex = i < positions_.size() ? i : drawn().copies[i - positions_.size()];
+    vertices_[i] = {positions_[vertex], normals[i], values_[vertex]};
+  }
+  upload(vertex_buffer_, GL_ARRAY_BUFFER, vertices_, GL_STREAM_DRAW);
+}
+
+void MeshBuffers::draw_triangles() const {
+  glBindVertexArray(triangles_array_.id());
+  glDrawElements(GL_TRIANGLES, size_of(drawn().corners), GL_UNSIGNED_INT, nullptr);
+}
+
+void MeshBuffers::draw_textured_triangles(int unit) const {
+  const std::vector<std::uint32_t>& first = drawn().first_corners;
+  glBindVertexArray(triangles_array_.id());
+  glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+  std::size_t body = 0;
+  const auto texture_of = [&](std::size_t number) -> GLuint {
+    const auto path = render_mesh_.looks.textures.find(static_cast<std::uint32_t>(number));
+    if (path == render_mesh_.looks.textures.end()) return no_texture_.id();
+    const auto texture = textures_.find(path->second);
+    return texture == textures_.end() ? no_texture_.id() : texture->second->id();
+  };
+  while (body + 1 < first.size()) {  // bodies of one texture at once
+    const std::size_t begin = body;
+    const GLuint texture = texture_of(begin);
+    while (body + 1 < first.size() && texture_of(body) == texture) ++body;
+    const std::uint32_t count = first[body] - first[begin];
+    if (count == 0) continue;
+    glBindTexture(GL_TEXTURE_2D, texture);
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT,
+                   offset_of(first[begin] * sizeof(std::uint32_t)));
+  }
+  glActiveTexture(GL_TEXTURE0);
+}
+
+void MeshBuffers::draw_ropes() const {
+  glBindVertexArray(ropes_array_.id());
+  glDrawElements(GL_LINES, size_of(drawn().ropes), GL_UNSIGNED_INT, nullptr);
+}
+
+void MeshBuffers::draw_edges() const {
+  glBindVertexArray(edges_array_.id());
+  glDrawElements(GL_LINES, size_of(drawn().edges), GL_UNSIGNED_INT, nullptr);
+}
+
+}  // namespace pliant_render

@@ -1,0 +1,69 @@
+#pragma once
+// The bodies on the graphics card: vertices, what they look like, and lists of triangles, ropes and edges. They may be
+// drawn smoother than they are simulated.
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "render/gl_objects.h"
+#include "render/loop_subdivision.h"
+#include "render/render_mesh.h"
+
+namespace pliant_render {
+
+class MeshBuffers {
+ public:
+  /// Needs a current OpenGL context, as do all members.
+  explicit MeshBuffers(RenderMesh render_mesh);
+
+  /// As it is simulated.
+  const RenderMesh& render_mesh() const { return render_mesh_; }
+  /// What bodies look like from now on. Textures that cannot be read are left out, see texture_error.
+  void set_looks(BodyLooks looks);
+  /// Why a texture is left out; empty: none is.
+  const std::string& texture_error() const { return texture_error_; }
+  /// From the next frame on each triangle is cut into four so many times, and the surface is rounder; 0: as it is.
+  /// Returns whether that is new.
+  bool set_subdivision(int levels);
+  /// values: one per vertex, or none. Without them vertices have the number of their tones, -1 those that are held.
+  void set_frame(const FrameContent& frame, bool has_values);
+  /// Where vertices are in this frame, those of the finer surface and copies as well [m].
+  std::span<const Vec3f> positions() const { return positions_; }
+
+  void draw_triangles() const;
+  /// With the texture of each body at this unit, the program in use.
+  void draw_textured_triangles(int unit) const;
+  void draw_ropes() const;
+  void draw_edges() const;
+  bool has_triangles() const { return !render_mesh_.triangles.empty(); }
+  bool has_ropes() const { return !render_mesh_.ropes.empty(); }
+  /// Prepares an array of points or lines with elements of its own.
+  void set_up(const VertexArray& array, const Buffer& elements, const std::vector<std::uint32_t>& list) const;
+
+ private:
+  struct Vertex {
+    Vec3f position, normal;
+    float value;
+  };
+
+  void set_layout() const;
+  void upload_lists();
+  void upload_looks();
+  void read_textures();
+  const RenderMesh& drawn() const { return levels_ > 0 ? fine_mesh_ : render_mesh_; }
+
+  RenderMesh render_mesh_, fine_mesh_;  // the fine one has lists to draw alone
+  FineSurface fine_;
+  int levels_ = 0;
+  std::vector<Vec3f> positions_;
+  std::vector<float> values_;
+  std::vector<Vertex> vertices_;
+  VertexArray triangles_array_, ropes_array_, edges_array_;
+  Buffer vertex_buffer_, looks_, triangles_, ropes_, edges_;
+  std::map<std::string, std::unique_ptr<Texture>> textures_;  // by path
+  std::string texture_error_;
+  Texture no_texture_;  // through which the color is seen
+};
+
+}  // namespace pliant_render
