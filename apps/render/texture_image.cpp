@@ -49,7 +49,8 @@ TextureImage decode_texture(std::string_view bytes, std::string_view name) {
       stbi_load_from_memory(start_of(bytes), static_cast<int>(bytes.size()), &image.width, &image.height, &ignored,
                             texture_channels),
       stbi_image_free);
-  if (!pixels) fail_on(name, fmt::format("the picture is broken ({}); save it again", stbi_failure_reason()));
+  if (!pixels)
+    fail_on(name, fmt::format("the picture is broken ({}); save it again", pliant::printable(stbi_failure_reason())));
   const auto count = texture_channels * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
   image.pixels.assign(pixels.get(), pixels.get() + count);
   return image;

@@ -22,7 +22,7 @@ const Color green{0.2, 0.7, 0.3}, blue{0.2, 0.3, 0.8}, white{0.95, 0.95, 0.95};
 /// None where the machine has no OpenGL.
 std::optional<Image> draw(const Studio& studio, const BodyAppearance& appearance) {
   RenderMesh render_mesh = make_render_mesh(studio.bodies);
-  render_mesh.looks = vertex_looks(studio.bodies, {{BodyId{0}, appearance}});
+  render_mesh.looks = body_looks(studio.bodies, {{BodyId{0}, appearance}});
   try {
     return PictureMaker(std::move(render_mesh), studio.options).draw(studio.frame, {});
   } catch (const pliant::Error& error) {
@@ -131,12 +131,12 @@ TEST_CASE("scenes have appearances of bodies, and pictures of scenes and of thei
   CHECK(read.pattern == Pattern::checker);
   CHECK(read.pattern_size == 0.2);
   const RenderMesh render_mesh = make_render_mesh(scene);
-  REQUIRE(render_mesh.looks.size() == 18);
-  CHECK(render_mesh.looks.front().front[3] == 255);
-  CHECK(render_mesh.looks.front().front[1] == 179);
-  CHECK(render_mesh.looks.back().front[3] == 0);
-  CHECK(make_render_mesh(scene_with("{}")).looks.front().front[3] == 255);
-  CHECK(vertex_looks(scene.simulation.bodies(), {}).empty());
+  REQUIRE(render_mesh.looks.vertices.size() == 18);
+  CHECK(render_mesh.looks.vertices.front().front[3] == 255);
+  CHECK(render_mesh.looks.vertices.front().front[1] == 179);
+  CHECK(render_mesh.looks.vertices.back().front[3] == 0);
+  CHECK(make_render_mesh(scene_with("{}")).looks.vertices.front().front[3] == 255);
+  CHECK(body_looks(scene.simulation.bodies(), {}).vertices.empty());
 
   const pliant::Animation animation{
       "run",
@@ -145,9 +145,9 @@ TEST_CASE("scenes have appearances of bodies, and pictures of scenes and of thei
       {0},
       {}};
   const pliant_render::RunFrames frames(animation, annotate_run(scene_with(R"({ "front": "#33b34d" })"), animation));
-  REQUIRE(frames.render_mesh().looks.size() == 18);
-  CHECK(frames.render_mesh().looks.front().front[1] == 179);
-  CHECK(RunFrames(animation).render_mesh().looks.empty());
+  REQUIRE(frames.render_mesh().looks.vertices.size() == 18);
+  CHECK(frames.render_mesh().looks.vertices.front().front[1] == 179);
+  CHECK(RunFrames(animation).render_mesh().looks.vertices.empty());
 }
 
 TEST_CASE("wrong appearances are refused with their place and what would be right") {
