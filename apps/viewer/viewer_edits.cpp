@@ -1,17 +1,30 @@
 // What the window does with a scene as a whole: takes back, does again, saves, opens another one.
 #include <algorithm>
+#include <cctype>
 #include <utility>
 
 #include <fmt/format.h>
 #include <imgui.h>
 
 #include "viewer/free_name.h"
+#include "viewer/picking.h"
 #include "viewer/plot_files.h"
 #include "viewer/viewer.h"
 
 namespace pliant_viewer {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+bool is_picture(const fs::path& file) {
+  std::string extension = file.extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".png" || extension == ".jpg" || extension == ".jpeg";
+}
+
+}  // namespace
 
 void Viewer::undo() {
   if (LiveScene* live = source_.live()) {
@@ -70,9 +83,25 @@ void Viewer::save_session() {
   });
 }
 
+/// A picture is laid on the body under the mouse, or on the only one; all else is opened.
 void Viewer::take_dropped_files() {
   const std::vector<std::string> files = window_.take_dropped_files();
-  if (!files.empty()) open(files.front());
+  if (files.empty()) return;
+  if (!is_picture(files.front())) return open(files.front());
+  LiveScene* live = source_.live();
+  if (live == nullptr) return say("this is a run; a picture is laid on bodies of a scene");
+  const Snapshot& shown = live->shown();
+  const auto point = pick_surface(*shown.render_mesh, shown.frame.content.positions, screen_, window_.cursor(), 0);
+  if (!point && shown.body_names->size() != 1) return say("drop the picture onto the body that it is for");
+  const std::string body = (*shown.body_names)[point ? shown.render_mesh->bodies[point->vertices[0]] : 0];
+  pliant::BodyAppearance appearance;
+  if (const auto given = shown.appearances->find(body); given != shown.appearances->end()) appearance = given->second;
+  appearance.back.reset();  // on both sides
+  appearance.texture = fs::absolute(files.front()).string();
+  live->post([body, appearance](CommandContext& context) {
+    context.session.set_appearance(body, appearance);
+    context.message = fmt::format("{}: {}", body, fs::path(appearance.texture).filename().string());
+  });
 }
 
 /// Says so first: a large mesh takes a while to read.

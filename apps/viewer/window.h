@@ -75,6 +75,8 @@ class Window {
   /// Events since the last call; was_touched() reports any event at all, such as resizing.
   std::vector<MouseEvent> take_mouse_events();
   std::vector<KeyEvent> take_key_events();
+  /// Where the mouse is, by the last event.
+  Vec2f cursor() const;
   /// Files that were dropped onto the window since the last call.
   std::vector<std::string> take_dropped_files();
   bool was_touched();
@@ -84,7 +86,6 @@ class Window {
 
  private:
   void install_callbacks();
-  Vec2f cursor() const;
 
   GLFWwindow* window_ = nullptr;
   GLFWwindow* former_context_ = nullptr;  // that was current, if the program has one

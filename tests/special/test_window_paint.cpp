@@ -21,7 +21,7 @@ struct BrushDesk : Desk {
     turns(4);
     click(button("paint " + group));
     turns(4);
-    turn_until([&] { return !shown().render_mesh->looks.empty(); });
+    turn_until([&] { return !shown().render_mesh->looks.vertices.empty(); });
   }
   /// As the simulation has them; empty: none.
   std::vector<pliant::Real> factors(const std::string& group) {
@@ -60,7 +60,7 @@ TEST_CASE("a drag paints where it goes, Shift takes it off, and each stroke is o
   desk.settle();
   desk.take_brush("bend");
   CHECK(desk.viewer.brush().is_on());
-  CHECK(desk.shown().render_mesh->looks[0] == desk.shown().render_mesh->looks[40]);
+  CHECK(desk.shown().render_mesh->looks.vertices[0] == desk.shown().render_mesh->looks.vertices[40]);
   const std::uint64_t edits = desk.shown().edits;
   desk.drag(desk.place(at(2, 6)), desk.place(at(9, 6)));
   CHECK_FALSE(desk.shown().pull.has_value());
@@ -71,7 +71,7 @@ TEST_CASE("a drag paints where it goes, Shift takes it off, and each stroke is o
   CHECK(desk.is_painted("bend", at(9, 6)));
   CHECK_FALSE(desk.is_painted("bend", at(2, 2)));
   CHECK_FALSE(desk.is_painted("stretch", at(2, 6)));
-  const auto& looks = desk.shown().render_mesh->looks;
+  const auto& looks = desk.shown().render_mesh->looks.vertices;
   CHECK(looks[at(2, 2)].place.x() == 0);
   CHECK(looks[at(9, 6)].place.x() > 0.3F);
   CHECK(desk.tint_at(at(9, 6)) > 60);  // orange
@@ -119,7 +119,7 @@ TEST_CASE("the rows of the brush: factor, size, Fill and Clean; Esc puts it away
   desk.turn_until([&] { return desk.factors("stretch").empty(); });
   desk.key("Escape");
   CHECK_FALSE(desk.viewer.brush().is_on());
-  desk.turn_until([&] { return desk.shown().render_mesh->looks.empty(); });
+  desk.turn_until([&] { return desk.shown().render_mesh->looks.vertices.empty(); });
   desk.drag(desk.place(at(5, 6)), desk.place(at(5, 6)) + Vec2f(40, 30));
   desk.turn_until([&] { return desk.shown().pull.has_value(); });
   desk.release();

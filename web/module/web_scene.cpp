@@ -52,10 +52,11 @@ void color(Look& look, const pliant::ViewSettings& view, const std::vector<std::
     look.back.push_back(bytes(tones.back, 0));
     look.second.emplace_back();
     look.places.emplace_back(Vec3f::Zero());
-    if (mesh.looks.empty() || mesh.looks[v].front[3] == 0) continue;
-    const pliant_render::VertexLook& own = mesh.looks[v];
+    if (mesh.looks.vertices.empty() || mesh.looks.vertices[v].front[3] == 0) continue;
+    const pliant_render::VertexLook& own = mesh.looks.vertices[v];
     look.front.back() = {own.front[0], own.front[1], own.front[2], sheet};
     look.back.back() = own.back;
+    if (own.back[3] >= pliant_render::texture_pattern) look.back.back()[3] = 0;  // the page draws no textures
     look.second.back() = own.second;
     look.places.back() = own.place;
   }

@@ -11,6 +11,7 @@ namespace {
 
 using pliant::BodyAppearance;
 using pliant::Color;
+using pliant::Finish;
 using pliant::Pattern;
 
 constexpr std::size_t few_bodies = 3;  // that are unfolded at first
@@ -76,6 +77,28 @@ void draw_energy(const std::vector<std::span<const Slider>>& groups, const plian
   ImGui::TextUnformatted(energy_text(sum).c_str());
 }
 
+bool draw_size(const char* label, pliant::Real& size) {
+  constexpr double least = 1e-3, most = 10;
+  double shown = size;
+  if (!ImGui::SliderScalar(label, ImGuiDataType_Double, &shown, &least, &most, number_format(shown, "m").c_str(),
+                           ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat)) {
+    return false;
+  }
+  size = std::clamp(shown, 1e-6, 1e6);
+  return true;
+}
+
+/// What the finish of a body is where it is left open.
+Finish usual_finish(const std::string& body, const Snapshot& snapshot) {
+  const pliant_render::RenderMesh& mesh = *snapshot.render_mesh;
+  const auto number = std::ranges::find(*snapshot.body_names, body) - snapshot.body_names->begin();
+  const auto vertex = std::ranges::find(mesh.bodies, static_cast<std::uint32_t>(number)) - mesh.bodies.begin();
+  const bool is_sheet =
+      static_cast<std::size_t>(vertex) < mesh.is_sheet.size() && mesh.is_sheet[static_cast<std::size_t>(vertex)] != 0;
+  const auto row = std::ranges::find(*snapshot.materials, body, &BodyMaterial::name);
+  return pliant_render::finish_of({}, row == snapshot.materials->end() ? "" : row->material, is_sheet);
+}
+
 }  // namespace
 
 std::optional<std::array<float, 4>> BodyPanel::place_of(const std::string& key) const {
@@ -110,7 +133,8 @@ void BodyPanel::draw(const Snapshot& snapshot, LiveScene& live, ParameterPanel& 
   }
 }
 
-/// Two swatches and a menu; a pattern has a row of its own.
+/// Two swatches and a menu; a pattern and a texture have rows of their own. A back that was left open for a texture on
+/// both sides stays open.
 void BodyPanel::draw_appearance(const std::string& body, const pliant::BodyTones& tones, const Snapshot& snapshot,
                                 LiveScene& live) {
   BodyAppearance appearance;
@@ -124,14 +148,17 @@ void BodyPanel::draw_appearance(const std::string& body, const pliant::BodyTones
   goes_on_ = is_held_ = false;
   bool has_changed = draw_color(body, "front", front, "the side that normals point from");
   ImGui::SameLine();
-  has_changed |= draw_color(body, "back", back, "the other side");
+  const bool has_new_back = draw_color(body, "back", back, "the other side; a texture is then on the front alone");
+  has_changed |= has_new_back;
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-1);
   has_changed |= draw_pattern(body, appearance);
+  if (!appearance.texture.empty()) has_changed |= draw_texture(body, appearance);
+  has_changed |= draw_finish(body, usual_finish(body, snapshot), appearance);
   if (!is_held_ && held_.first == body) held_ = {};
   if (!has_changed) return;
   appearance.front = front;
-  appearance.back = back;
+  if (appearance.texture.empty() || appearance.back || has_new_back) appearance.back = back;
   const std::uint64_t command =
       live.post([body, appearance, goes_on = goes_on_](
                     CommandContext& context) { context.session.set_appearance(body, appearance, goes_on); },
@@ -166,21 +193,49 @@ bool BodyPanel::draw_pattern(const std::string& body, BodyAppearance& appearance
     ImGui::EndCombo();
   }
   note_widget(body, "pattern", has_changed);
-  if (appearance.pattern == Pattern::none) return has_changed;
+  explain("to lay a picture on it, drop a PNG or JPEG file onto the body");
+  if (appearance.pattern == Pattern::none || !appearance.texture.empty()) return has_changed;
   row_label("pattern", "the color of every second field or stripe, and the width of one");
   has_changed |= draw_color(body, "pattern_color", appearance.pattern_color, "of every second field or stripe");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-1);
-  double size = appearance.pattern_size;
-  bool has_resized = false;
-  constexpr double least = 1e-3, most = 10;
-  if (ImGui::SliderScalar("##size", ImGuiDataType_Double, &size, &least, &most, number_format(size, "m").c_str(),
-                          ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat)) {
-    appearance.pattern_size = std::clamp(size, 1e-6, 1e6);
-    has_resized = true;
-  }
+  const bool has_resized = draw_size("##size", appearance.pattern_size);
   note_widget(body, "pattern_size", has_resized);
   return has_changed || has_resized;
+}
+
+/// A button that takes it off, and its size.
+bool BodyPanel::draw_texture(const std::string& body, BodyAppearance& appearance) {
+  row_label("texture", appearance.texture + "\nits width: in meters on the body at rest, or by texture coordinates");
+  const bool is_taken_off = ImGui::Button("take off");
+  note_widget(body, "no_texture", is_taken_off);
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(-1);
+  const bool has_resized = draw_size("##texture_size", appearance.texture_size);
+  note_widget(body, "texture_size", has_resized);
+  if (is_taken_off) appearance.texture.clear();
+  return is_taken_off || has_resized;
+}
+
+bool BodyPanel::draw_finish(const std::string& body, Finish usual, BodyAppearance& appearance) {
+  constexpr auto names = choice_names(Finish{});
+  const auto shown = [&](std::size_t i) {
+    return i == 0 ? fmt::format("usual ({})", names[static_cast<std::size_t>(usual)]) : std::string(names[i]);
+  };
+  bool has_changed = false;
+  row_label("finish", "how its surface throws light back; usual: as its material");
+  ImGui::SetNextItemWidth(-1);
+  if (ImGui::BeginCombo("##finish", shown(static_cast<std::size_t>(appearance.finish)).c_str())) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const auto finish = static_cast<Finish>(i);
+      if (!ImGui::Selectable(shown(i).c_str(), finish == appearance.finish) || finish == appearance.finish) continue;
+      appearance.finish = finish;
+      has_changed = true;
+    }
+    ImGui::EndCombo();
+  }
+  note_widget(body, "finish", has_changed);
+  return has_changed;
 }
 
 /// Of the widget drawn last: where it is, and whether its change goes on with the one before.
