@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include <GLFW/glfw3.h>
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 #include <stb/stb_image.h>
@@ -156,6 +157,16 @@ inline int run_on_display(int argc, char** argv) {
     return 77;
   }
   return doctest::Context(argc, argv).run();
+}
+
+/// What a desktop does when files are let go over the window.
+inline void drop(Desk& desk, const std::vector<std::string>& files) {
+  std::vector<const char*> names;
+  for (const std::string& file : files) names.push_back(file.c_str());
+  const GLFWdropfun callback = glfwSetDropCallback(desk.window.handle(), nullptr);
+  REQUIRE((callback != nullptr));
+  glfwSetDropCallback(desk.window.handle(), callback);
+  callback(desk.window.handle(), static_cast<int>(names.size()), names.data());
 }
 
 }  // namespace pliant_tests

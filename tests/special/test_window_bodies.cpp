@@ -1,8 +1,11 @@
 // The panel's part on bodies in the real window: colors, patterns, and switches of constraints and forces.
+#include <fstream>
+
 #define DOCTEST_CONFIG_IMPLEMENT
 #include <doctest/doctest.h>
 
 #include "desk.h"
+#include "render/image.h"
 
 using namespace pliant_tests;
 
@@ -115,6 +118,42 @@ TEST_CASE("what is set shows in the picture, and a pattern is chosen from its me
   desk.release();
   desk.turn_until([&] { return desk.appearance().pattern_size > size; });
   CHECK(*desk.appearance().front == pliant::Color{0.1, 0.2, 0.8});
+}
+
+TEST_CASE("a picture that is dropped onto a body is laid on it, and taken off by its button") {
+  BodyDesk desk;
+  desk.settle();
+  constexpr std::uint32_t middle_vertex = side * 5 + 6;
+  const std::array<double, 3> before = desk.color_at(middle_vertex);
+  const std::filesystem::path file = desk.folder.path() / "print.PNG";
+  pliant_render::write_png(file, {2, 1, {20, 200, 40, 20, 200, 40}});
+  desk.move(desk.place(middle_vertex));
+  drop(desk, {file.string()});
+  desk.turn_until([&] { return desk.has_appearance() && !desk.appearance().texture.empty(); });
+  CHECK(desk.shown().undone_next == "body 0: appearance");
+  desk.turn_until([&] { return desk.viewer.message() == "body 0: print.PNG"; });
+  desk.turns(5);
+  const std::array<double, 3> green = desk.color_at(middle_vertex);
+  CHECK(green[1] > green[0] + 40);
+  CHECK(std::abs(green[1] - before[1]) + std::abs(green[0] - before[0]) > 40);
+  CHECK_FALSE(desk.appearance().back.has_value());
+  // Another change leaves it on both sides.
+  desk.click(desk.widget("body 0.finish"));
+  desk.turns(4);
+  desk.key("Down");
+  desk.key("Return");
+  desk.turns(4);
+  desk.key("Escape");
+  CHECK_FALSE(desk.appearance().back.has_value());
+  desk.click(desk.widget("body 0.no_texture"));
+  desk.turn_until([&] { return desk.appearance().texture.empty(); });
+  desk.key("ctrl+z");
+  desk.turn_until([&] { return !desk.appearance().texture.empty(); });
+
+  std::ofstream(desk.folder.path() / "broken.jpg") << "no picture";
+  drop(desk, {(desk.folder.path() / "broken.jpg").string()});
+  desk.turn_until([&] { return desk.shown().note.find("PNG or JPEG") != std::string::npos; });
+  CHECK(desk.appearance().texture == file.string());
 }
 
 TEST_CASE("constraints and forces are switched off and on by their boxes") {

@@ -39,16 +39,6 @@ Scene read_sheet() {
                              {}, "sheet");
 }
 
-/// What a desktop does when files are let go over the window.
-void drop(Desk& desk, const std::vector<std::string>& files) {
-  std::vector<const char*> names;
-  for (const std::string& file : files) names.push_back(file.c_str());
-  const GLFWdropfun callback = glfwSetDropCallback(desk.window.handle(), nullptr);
-  REQUIRE((callback != nullptr));
-  glfwSetDropCallback(desk.window.handle(), callback);
-  callback(desk.window.handle(), static_cast<int>(names.size()), names.data());
-}
-
 std::string text_of(const std::filesystem::path& file) {
   return TemporaryFolder::read(file);
 }

@@ -5,6 +5,7 @@
 #include "pliant/core/error.h"
 #include "pliant/pliant.h"
 #include "pliant_io/checkpoint/checkpoint.h"
+#include "render/image.h"
 #include "tests/support/changed_session.h"
 #include "tests/support/replayed_session.h"
 #include "tests/support/temporary_folder.h"
@@ -31,6 +32,37 @@ std::optional<BodyAppearance> appearance(const Session& session, const std::stri
 }
 
 }  // namespace
+
+TEST_CASE(
+    "a texture, its size and a finish are saved from the root, undone and recorded; a file that is none is refused") {
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "print.png").string();
+  pliant_render::write_png(file, {1, 1, {9, 9, 9}});
+  const BodyAppearance printed = {.texture = file,
+                                  .texture_size = 0.3,
+                                  .mapping = pliant::Mapping::rest,
+                                  .finish = pliant::Finish::glossy,
+                                  .weave = 1e-3};
+  Session session(make_scene);
+  session.set_appearance("sheet", printed);
+  steps(session, 2);
+  const auto files = session.save(folder.path() / "printed.json", session.scene().view);
+  CHECK(appearance(session, "sheet") == printed);
+  const pliant::Scene saved = pliant::load_scene(folder.path() / "printed.json");
+  CHECK(std::ranges::count_if(saved.appearances, [&](const auto& each) { return each.second == printed; }) == 1);
+  CHECK(appearance(replayed(session, folder), "sheet") == printed);
+  session.undo();
+  CHECK(appearance(session, "sheet") != printed);
+  session.redo();
+  CHECK(appearance(session, "sheet") == printed);
+  BodyAppearance wrong = printed;
+  wrong.texture = (folder.path() / "none.png").string();
+  CHECK_THROWS_AS(session.set_appearance("sheet", wrong), pliant::Error);
+  wrong = printed;
+  wrong.texture_size = 0;
+  CHECK_THROWS_AS(session.set_appearance("sheet", wrong), pliant::Error);
+  CHECK(appearance(session, "sheet") == printed);
+}
 
 TEST_CASE("an appearance is set, undone, done again, kept by a restart, saved and recorded") {
   const TemporaryFolder folder;
