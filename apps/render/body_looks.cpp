@@ -1,3 +1,5 @@
+#include "render/body_looks.h"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -7,21 +9,9 @@
 namespace pliant_render {
 namespace {
 
-constexpr float off_the_edge = 0.37F;  // of a field: what is flat does not lie between two layers of fields
-
 std::array<std::uint8_t, 4> bytes(const pliant::Color& color, std::uint8_t fourth) {
   const auto byte = [](pliant::Real share) { return static_cast<std::uint8_t>(std::lround(255 * share)); };
   return {byte(color.red), byte(color.green), byte(color.blue), fourth};
-}
-
-/// The axes of the body at rest, from the one along which it is longest; those along which it is flat come last.
-std::array<Eigen::Index, 3> axes_by_length(const pliant::Positions& rest) {
-  const pliant::Vec3 extent = (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).transpose();
-  std::array<Eigen::Index, 3> axes = {0, 1, 2};
-  // In thousandths of the longest, so that equal ones stay in their order, whatever rounding does.
-  const auto length = [&](Eigen::Index axis) { return std::round(1000 * extent[axis] / extent.maxCoeff()); };
-  if (extent.maxCoeff() > 0) std::ranges::stable_sort(axes, std::ranges::greater(), length);
-  return axes;
 }
 
 void look_at(std::span<VertexLook> looks, const pliant::Positions& rest, const pliant::BodyAppearance& appearance,
@@ -36,13 +26,30 @@ void look_at(std::span<VertexLook> looks, const pliant::Positions& rest, const p
   for (std::size_t i = 0; i < looks.size(); ++i) {
     for (Eigen::Index k = 0; k < 3; ++k) {
       const pliant::Real along = rest(static_cast<Eigen::Index>(i), axes[static_cast<std::size_t>(k)]);
-      look.place[k] = static_cast<float>(along / appearance.pattern_size) + off_the_edge;
+      look.place[k] = static_cast<float>(along / appearance.pattern_size) + static_cast<float>(off_the_edge);
     }
     looks[i] = look;
   }
 }
 
 }  // namespace
+
+std::array<Eigen::Index, 3> axes_by_length(const pliant::Positions& rest) {
+  const pliant::Vec3 extent = (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).transpose();
+  std::array<Eigen::Index, 3> axes = {0, 1, 2};
+  // In thousandths of the longest, so that equal ones stay in their order, whatever rounding does.
+  const auto length = [&](Eigen::Index axis) { return std::round(1000 * extent[axis] / extent.maxCoeff()); };
+  if (extent.maxCoeff() > 0) std::ranges::stable_sort(axes, std::ranges::greater(), length);
+  return axes;
+}
+
+pliant::Finish finish_of(const pliant::BodyAppearance& appearance, const std::string& material, bool is_sheet) {
+  if (appearance.finish != pliant::Finish::automatic) return appearance.finish;
+  if (material.starts_with("steel")) return pliant::Finish::metal;
+  if (material.starts_with("rubber") || material.starts_with("silicone")) return pliant::Finish::glossy;
+  if (material == "leather" || material == "paper") return pliant::Finish::matte;
+  return is_sheet ? pliant::Finish::cloth : pliant::Finish::matte;
+}
 
 const pliant::BodyTones& open_tones(std::size_t body) {
   return pliant::body_tones[body % pliant::body_tones.size()];
