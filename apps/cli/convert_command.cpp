@@ -91,6 +91,11 @@ bool may_replace(const fs::path& out, const fs::path& file) {
   return name.size() > head.size() + tail.size() && name.starts_with(head) && name.ends_with(tail);
 }
 
+void refuse_to_replace(const fs::path& out, const fs::path& input) {
+  if (!may_replace(out, input)) return;
+  pliant::fail_input(fmt::format("{}: this would replace the input; give another name for the output", input.string()));
+}
+
 /// The output must not take the place of anything it is made from.
 void refuse_to_replace(const ConvertOptions& options) {
   std::vector<fs::path> inputs = {options.in};
@@ -101,11 +106,7 @@ void refuse_to_replace(const ConvertOptions& options) {
       if (pliant::is_run_file(entry->path().filename().string())) inputs.push_back(entry->path());
     }
   }
-  for (const fs::path& input : inputs) {
-    if (!may_replace(options.out, input)) continue;
-    pliant::fail_input(
-        fmt::format("{}: this would replace the input; give another name for the output", input.string()));
-  }
+  for (const fs::path& input : inputs) refuse_to_replace(options.out, input);
 }
 
 std::string writable_formats() {
@@ -245,7 +246,9 @@ pliant::ExportOptions complete_options(const ConvertOptions& options, Animation&
   exported.max_keyframes = options.max_keyframes.value_or(exported.max_keyframes);
   std::error_code ignored;
   if (holds(options, pliant::AnimationFormat::Beside::colliders) && fs::is_directory(options.in, ignored)) {
-    exported.looks = looks_of_run(options.in, animation);
+    RunLooks looks = looks_of_run(options.in, animation);
+    for (const fs::path& texture : looks.textures) refuse_to_replace(options.out, texture);
+    exported.looks = std::move(looks.of_bodies);
   }
   const auto format = pliant::animation_format(options.out);
   if (!format || format->thins != pliant::AnimationFormat::Thins::always) return exported;

@@ -111,6 +111,13 @@ class LookMaker {
     return look;
   }
 
+  /// The files that were read.
+  std::vector<fs::path> textures() const {
+    std::vector<fs::path> paths;
+    for (const auto& [path, texture] : textures_) paths.emplace_back(path);
+    return paths;
+  }
+
  private:
   pliant::Finish finish(pliant::BodyId id, const BodyAppearance& appearance) const {
     const pliant::Mesh& mesh = scene_.simulation.body(id).mesh;
@@ -157,10 +164,10 @@ bool mentions(const pliant::SceneSource& source, std::string_view word) {
          std::ranges::any_of(source.overrides.set, has_word);
 }
 
-std::vector<std::optional<SurfaceLook>> looks_of_run(const fs::path& folder, pliant::Animation& animation) {
+RunLooks looks_of_run(const fs::path& folder, pliant::Animation& animation) {
   const fs::path checkpoint = folder / pliant::checkpoint_name;
   std::error_code ignored;
-  std::vector<std::optional<SurfaceLook>> looks;
+  RunLooks looks;
   if (!fs::exists(checkpoint, ignored)) return looks;
   try {
     pliant::ResumeOptions options;
@@ -169,7 +176,7 @@ std::vector<std::optional<SurfaceLook>> looks_of_run(const fs::path& folder, pli
       warn_of_texture(body, texture, "no such file");
     };
     pliant::Scene known = pliant::read_checkpoint(checkpoint, options);
-    looks.assign(animation.bodies.size(), look_of_view(known.view));
+    looks.of_bodies.assign(animation.bodies.size(), look_of_view(known.view));
     if (!mentions(known.source, "appearance")) return looks;
     const pliant::Scene scene = pliant::parse_scene(std::move(known.source));
     LookMaker maker(scene);
@@ -177,8 +184,10 @@ std::vector<std::optional<SurfaceLook>> looks_of_run(const fs::path& folder, pli
       const pliant::Body& body = scene.simulation.body(id);
       const auto found = std::ranges::find(animation.bodies, body.name, &pliant::Body::name);
       if (found == animation.bodies.end()) continue;
-      looks[static_cast<std::size_t>(found - animation.bodies.begin())] = maker.look(id, appearance, found->mesh);
+      looks.of_bodies[static_cast<std::size_t>(found - animation.bodies.begin())] =
+          maker.look(id, appearance, found->mesh);
     }
+    looks.textures = maker.textures();
   } catch (const pliant::Error& error) {
     if (error.kind() != pliant::ErrorKind::input) throw;
     print_to_stderr("warning: the colors that the scene gives its bodies are not known: " +

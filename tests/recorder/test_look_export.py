@@ -287,6 +287,15 @@ class LookExport(ExportCase):
         self.pliant("convert", "looks", "bad\n.usda", "--body", "banner", expect=2)
         self.assertEqual([path.name for path in self.folder.iterdir() if ".tmp" in path.name or "bad" in path.name], [])
 
+    def test_no_texture_is_replaced_by_what_is_made_of_it(self):
+        texture = self.folder / "loop_textures/picture_0.png"
+        texture.parent.mkdir()
+        texture.write_bytes(PICTURE)
+        self.run_scene("loop", {"flag": {"mesh": SHEET, "appearance": {"texture": str(texture)}}})
+        done = self.pliant("convert", "loop", "loop.usda", expect=2)
+        self.assertIn("picture_0.png: this would replace the input", done.stderr)
+        self.assertEqual(texture.read_bytes(), PICTURE)
+
     def test_one_body_at_one_moment(self):
         gltf = self.gltf("one.glb", "--body", "wall", "--frames", 1)
         self.assertEqual(len(gltf.json["images"]), 1)
