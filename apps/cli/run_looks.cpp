@@ -85,7 +85,7 @@ class LookMaker {
   explicit LookMaker(const pliant::Scene& scene) : scene_(scene) {}
 
   /// `mesh` is that of the body as it is exported.
-  SurfaceLook look(pliant::BodyId id, BodyAppearance appearance, pliant::Mesh& mesh) {
+  SurfaceLook look(pliant::BodyId id, const BodyAppearance& appearance, pliant::Mesh& mesh) {
     const auto number = static_cast<std::size_t>(id);
     const pliant::Body& body = scene_.simulation.body(id);
     const pliant::BodyTones& tones = pliant_render::open_tones(number);
