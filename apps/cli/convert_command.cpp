@@ -21,6 +21,7 @@
 #include "pliant_io/recorder/run_files.h"
 #include "render/run_replay.h"
 #include "render/run_values.h"
+#include "run_looks.h"
 #include "terminal.h"
 
 namespace pliant_cli {
@@ -90,6 +91,11 @@ bool may_replace(const fs::path& out, const fs::path& file) {
   return name.size() > head.size() + tail.size() && name.starts_with(head) && name.ends_with(tail);
 }
 
+void refuse_to_replace(const fs::path& out, const fs::path& input) {
+  if (!may_replace(out, input)) return;
+  pliant::fail_input(fmt::format("{}: this would replace the input; give another name for the output", input.string()));
+}
+
 /// The output must not take the place of anything it is made from.
 void refuse_to_replace(const ConvertOptions& options) {
   std::vector<fs::path> inputs = {options.in};
@@ -100,11 +106,7 @@ void refuse_to_replace(const ConvertOptions& options) {
       if (pliant::is_run_file(entry->path().filename().string())) inputs.push_back(entry->path());
     }
   }
-  for (const fs::path& input : inputs) {
-    if (!may_replace(options.out, input)) continue;
-    pliant::fail_input(
-        fmt::format("{}: this would replace the input; give another name for the output", input.string()));
-  }
+  for (const fs::path& input : inputs) refuse_to_replace(options.out, input);
 }
 
 std::string writable_formats() {
@@ -174,60 +176,6 @@ void warn_of_tolerance(const pliant::ExportOptions& options, const pliant::Expor
                   report.largest_error, wanted, options.max_keyframes));
 }
 
-pliant::SurfaceColors surface_colors(const pliant::Color& front, const pliant::Color& back) {
-  const auto shares = [](const pliant::Color& color) {
-    return std::array<pliant::Real, 3>{color.red, color.green, color.blue};
-  };
-  return {shares(front), shares(back)};
-}
-
-/// What a view gives of both; none where it gives neither.
-std::optional<pliant::SurfaceColors> colors_of_view(const pliant::ViewSettings& view) {
-  if (!view.front && !view.back) return {};
-  const pliant::BodyTones& plain = pliant::body_tones.front();
-  return surface_colors(view.front.value_or(plain.front), view.back.value_or(plain.back));
-}
-
-/// Of a body with an appearance, as pictures show it; number: of the body in its scene.
-pliant::SurfaceColors colors_of_body(const pliant::BodyAppearance& appearance, std::size_t number) {
-  const pliant::BodyTones& tones = pliant::body_tones[number % pliant::body_tones.size()];
-  const pliant::Color front = appearance.front.value_or(tones.front);
-  return surface_colors(front, appearance.back.value_or(appearance.front ? front : tones.back));
-}
-
-bool mentions(const pliant::SceneSource& source, std::string_view word) {
-  const auto has_word = [&](const std::string& text) { return text.find(word) != text.npos; };
-  return std::ranges::any_of(source.texts, has_word, &pliant::SceneText::text) ||
-         std::ranges::any_of(source.overrides.set, has_word);
-}
-
-/// Those that the scene of a run gives the bodies of an animation, of which there may be fewer; none where it leaves
-/// them as they are, or is not known. A scene without any appearance is not made again, which may take long.
-std::vector<std::optional<pliant::SurfaceColors>> colors_of_run(const fs::path& folder, const Animation& animation) {
-  const fs::path checkpoint = folder / pliant::checkpoint_name;
-  std::error_code ignored;
-  std::vector<std::optional<pliant::SurfaceColors>> colors;
-  if (!fs::exists(checkpoint, ignored)) return colors;
-  try {
-    pliant::Scene known = pliant::read_checkpoint(checkpoint);
-    colors.assign(animation.bodies.size(), colors_of_view(known.view));
-    if (!mentions(known.source, "appearance")) return colors;
-    const pliant::Scene scene = pliant::parse_scene(std::move(known.source));
-    for (const auto& [id, appearance] : scene.appearances) {
-      const pliant::Body& body = scene.simulation.body(id);
-      const auto found = std::ranges::find(animation.bodies, body.name, &pliant::Body::name);
-      if (found == animation.bodies.end()) continue;
-      colors[static_cast<std::size_t>(found - animation.bodies.begin())] =
-          colors_of_body(appearance, static_cast<std::size_t>(id));
-    }
-  } catch (const pliant::Error& error) {
-    if (error.kind() != pliant::ErrorKind::input) throw;
-    print_to_stderr("warning: the colors that the scene gives its bodies are not known: " +
-                    pliant::printable_place(error.what(), message_limit) + "\n");
-  }
-  return colors;
-}
-
 /// Whether the output holds that beside bodies.
 bool holds(const ConvertOptions& options, pliant::AnimationFormat::Beside beside) {
   const auto format = pliant::animation_format(options.out);
@@ -247,7 +195,9 @@ std::optional<pliant::Scene> scene_of_run(const fs::path& folder, Animation& ani
   std::error_code ignored;
   if (!fs::exists(checkpoint, ignored)) return {};
   try {
-    pliant::Scene scene = pliant::parse_scene(pliant::read_checkpoint(checkpoint).source);
+    pliant::ResumeOptions resume;
+    resume.without_texture = [](const std::string&, const std::string&) {};  // these numbers need none
+    pliant::Scene scene = pliant::parse_scene(pliant::read_checkpoint(checkpoint, resume).source);
     pliant_render::take_tetrahedra(animation, scene.simulation);
     return scene;
   } catch (const pliant::Error& error) {
@@ -264,7 +214,9 @@ std::vector<pliant::AnimatedCollider> colliders_of_run(const fs::path& folder, c
   std::error_code ignored;
   if (!fs::exists(checkpoint, ignored)) return {};
   try {
-    pliant::SceneSource source = pliant::read_checkpoint(checkpoint).source;
+    pliant::ResumeOptions resume;
+    resume.without_texture = [](const std::string&, const std::string&) {};  // looks_of_run() tells
+    pliant::SceneSource source = pliant::read_checkpoint(checkpoint, resume).source;
     if (!mentions(source, "collider")) return {};  // it is not made again, which may take long
     return pliant_render::recorded_colliders(pliant::parse_scene(std::move(source)), frames);
   } catch (const pliant::Error& error) {
@@ -288,13 +240,15 @@ void agree_to_thin(const fs::path& out, const pliant::ExportReport& report) {
                   answer ? "nothing was written" : what, std::max<std::int64_t>(2, report.frames)));
 }
 
-/// What the export needs to know beside its options.
-pliant::ExportOptions complete_options(const ConvertOptions& options, const Animation& animation) {
+/// What the export needs to know beside its options. Bodies get the texture coordinates of what they look like.
+pliant::ExportOptions complete_options(const ConvertOptions& options, Animation& animation) {
   pliant::ExportOptions exported = options.exported;
   exported.max_keyframes = options.max_keyframes.value_or(exported.max_keyframes);
   std::error_code ignored;
   if (holds(options, pliant::AnimationFormat::Beside::colliders) && fs::is_directory(options.in, ignored)) {
-    exported.colors = colors_of_run(options.in, animation);
+    RunLooks looks = looks_of_run(options.in, animation);
+    for (const fs::path& texture : looks.textures) refuse_to_replace(options.out, texture);
+    exported.looks = std::move(looks.of_bodies);
   }
   const auto format = pliant::animation_format(options.out);
   if (!format || format->thins != pliant::AnimationFormat::Thins::always) return exported;

@@ -1,7 +1,10 @@
+#include "render/body_looks.h"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
 
+#include "render/picture_places.h"
 #include "render/render_mesh.h"
 
 namespace pliant_render {
@@ -9,21 +12,9 @@ namespace {
 
 using pliant::Real;
 
-constexpr float off_the_edge = 0.37F;  // of a field: what is flat does not lie between two layers of fields
-
 std::array<std::uint8_t, 4> bytes(const pliant::Color& color, std::uint8_t fourth) {
   const auto byte = [](pliant::Real share) { return static_cast<std::uint8_t>(std::lround(255 * share)); };
   return {byte(color.red), byte(color.green), byte(color.blue), fourth};
-}
-
-/// The axes of the body at rest, from the one along which it is longest; those along which it is flat come last.
-std::array<Eigen::Index, 3> axes_by_length(const pliant::Positions& rest) {
-  const pliant::Vec3 extent = (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).transpose();
-  std::array<Eigen::Index, 3> axes = {0, 1, 2};
-  // In thousandths of the longest, so that equal ones stay in their order, whatever rounding does.
-  const auto length = [&](Eigen::Index axis) { return std::round(1000 * extent[axis] / extent.maxCoeff()); };
-  if (extent.maxCoeff() > 0) std::ranges::stable_sort(axes, std::ranges::greater(), length);
-  return axes;
 }
 
 /// From thread to thread [m], about what such cloth has.
@@ -37,10 +28,6 @@ Real usual_weave(std::string_view material) {
                                                                         {"wool", 0.5e-3}}};
   const auto found = std::ranges::find(weaves, material, &std::pair<std::string_view, Real>::first);
   return found == weaves.end() ? 0 : found->second;
-}
-
-bool has_texture_coordinates(const pliant::Mesh& mesh) {
-  return !mesh.faces.texture_coordinates.empty() && mesh.texture_coordinates.rows() > 0;
 }
 
 /// Meters at rest for a unit of the texture coordinates, in the mean.
@@ -66,11 +53,6 @@ Real meters_of_uv(const pliant::Mesh& mesh) {
   return area_of_uv > 0 ? std::sqrt(area / area_of_uv) : 1;
 }
 
-bool goes_by_uv(const pliant::BodyAppearance& appearance, const pliant::Mesh& mesh) {
-  if (!has_texture_coordinates(mesh) || appearance.mapping == pliant::Mapping::rest) return false;
-  return appearance.mapping == pliant::Mapping::uv || !appearance.texture.empty();
-}
-
 /// Where places lie: textures begin at the lowest corner of what they are laid through, fields a third before it.
 void place_at_rest(std::span<VertexLook> looks, const pliant::Positions& rest, Real size, bool is_texture) {
   const std::array<Eigen::Index, 3> axes = axes_by_length(rest);
@@ -79,7 +61,7 @@ void place_at_rest(std::span<VertexLook> looks, const pliant::Positions& rest, R
     for (Eigen::Index k = 0; k < 3; ++k) {
       const Eigen::Index axis = axes[static_cast<std::size_t>(k)];
       const Real along = rest(static_cast<Eigen::Index>(i), axis) - (is_texture ? low[axis] : 0);
-      looks[i].place[k] = static_cast<float>(along / size) + (is_texture ? 0 : off_the_edge);
+      looks[i].place[k] = static_cast<float>(along / size + (is_texture ? 0 : off_the_edge));
     }
   }
 }
@@ -104,7 +86,7 @@ void look_at(std::span<VertexLook> looks, const pliant::Mesh& mesh, const pliant
   const bool is_texture = !appearance.texture.empty();
   const Real size = is_texture ? appearance.texture_size : appearance.pattern_size;
   VertexLook look;
-  const bool is_by_uv = goes_by_uv(appearance, mesh);
+  const bool is_by_uv = lies_by_coordinates(appearance, mesh);
   if (given != nullptr) set_colors(look, appearance, is_by_uv, tones);
   look.second[3] = static_cast<std::uint8_t>(finish_of(appearance, material, is_sheet));
   const Real weave = is_sheet ? appearance.weave.value_or(usual_weave(material)) : appearance.weave.value_or(0);
@@ -113,21 +95,27 @@ void look_at(std::span<VertexLook> looks, const pliant::Mesh& mesh, const pliant
   if (!is_by_uv) return place_at_rest(looks, mesh.vertices, size, is_texture);
   for (VertexLook& each : looks) {
     each.by_uv = static_cast<float>(1 / size);
-    each.place.z() = off_the_edge;
+    each.place.z() = static_cast<float>(off_the_edge);
   }
 }
 
 }  // namespace
 
+std::array<Eigen::Index, 3> axes_by_length(const pliant::Positions& rest) {
+  const pliant::Vec3 extent = (rest.colwise().maxCoeff() - rest.colwise().minCoeff()).transpose();
+  std::array<Eigen::Index, 3> axes = {0, 1, 2};
+  // In thousandths of the longest, so that equal ones stay in their order, whatever rounding does.
+  const auto length = [&](Eigen::Index axis) { return std::round(1000 * extent[axis] / extent.maxCoeff()); };
+  if (extent.maxCoeff() > 0) std::ranges::stable_sort(axes, std::ranges::greater(), length);
+  return axes;
+}
+
 pliant::Finish finish_of(const pliant::BodyAppearance& appearance, const std::string& material, bool is_sheet) {
-  using pliant::Finish;
-  if (appearance.finish != Finish::automatic) return appearance.finish;
-  if (material == "steel" || material == "steel_sheet") return Finish::metal;
-  const std::initializer_list<std::string_view> glossy = {"rubber_sheet", "silicone", "silicone_firm",
-                                                          "silicone_medium"};
-  const std::initializer_list<std::string_view> matte = {"leather", "paper"};
-  if (std::ranges::count(glossy, material) > 0) return Finish::glossy;
-  return is_sheet && std::ranges::count(matte, material) == 0 ? Finish::cloth : Finish::matte;
+  if (appearance.finish != pliant::Finish::automatic) return appearance.finish;
+  if (material.starts_with("steel")) return pliant::Finish::metal;
+  if (material.starts_with("rubber") || material.starts_with("silicone")) return pliant::Finish::glossy;
+  if (material == "leather" || material == "paper") return pliant::Finish::matte;
+  return is_sheet ? pliant::Finish::cloth : pliant::Finish::matte;
 }
 
 const pliant::BodyTones& open_tones(std::size_t body) {

@@ -33,9 +33,6 @@ inline constexpr std::uint8_t gradient_pattern = 3, texture_pattern = 4;
 static_assert(choice_names(pliant::Pattern{}).size() == gradient_pattern);
 /// What a body has where its appearance leaves colors open, by its place in the list.
 const pliant::BodyTones& open_tones(std::size_t body);
-/// What the surface of a body is like, never `automatic`. material: the name of the one it is made of, or nothing.
-pliant::Finish finish_of(const pliant::BodyAppearance& appearance, const std::string& material, bool is_sheet);
-
 /// What all bodies look like.
 struct BodyLooks {
   std::vector<VertexLook> vertices;               ///< one per vertex; or none, where all look as usual

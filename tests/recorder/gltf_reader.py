@@ -43,6 +43,10 @@ class Gltf:
             numpy.testing.assert_array_equal(numbers.max(0), numpy.float32(accessor["max"]))
         return numbers
 
+    def view(self, index):
+        view = self.json["bufferViews"][index]
+        return self.buffer[view["byteOffset"]:view["byteOffset"] + view["byteLength"]]
+
     def primitives(self, name):
         return self.json["meshes"][self.nodes[name]["mesh"]]["primitives"]
 

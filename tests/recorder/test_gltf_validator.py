@@ -6,6 +6,9 @@ import subprocess
 import sys
 import unittest
 
+import numpy
+
+import png_file
 from export_case import SOURCE, ExportCase
 
 VALIDATOR = SOURCE / "node_modules/gltf-validator"
@@ -29,6 +32,18 @@ class GltfValidator(ExportCase):
                 self.pliant("convert", "--yes", *arguments)
                 found = self.issues(arguments[1])
                 self.assertEqual((found["numErrors"], found["numWarnings"]), (0, 0), found["messages"])
+
+    def test_patterns_and_textures(self):
+        (self.folder / "picture.png").write_bytes(png_file.write(numpy.arange(24).reshape(2, 4, 3)))
+        looks = {"patch": {"texture": "picture.png", "back": "#00ff00", "finish": "metal"},
+                 "bar": {"pattern": "checker", "front": "#00ff00"}, "still": {"pattern": "stripes", "finish": "glossy"},
+                 "rope": {"texture": "picture.png"}}
+        self.pliant("run", "scene.json", "--out", "looks",
+                    *(f"--set=bodies[{name}].appearance={json.dumps(look)}" for name, look in looks.items()))
+        for name, *options in [["looks.glb"], ["looks.gltf", "--normals", "flat"], ["patch.glb", "--body", "patch"]]:
+            self.pliant("convert", "--yes", "looks", name, *options)
+            found = self.issues(name)
+            self.assertEqual((found["numErrors"], found["numWarnings"]), (0, 0), found["messages"])
 
     def test_colliders_that_move_come_and_go(self):
         (self.folder / "ball.json").write_text(json.dumps({

@@ -2,13 +2,15 @@
 
     file      "#usda 1.0" metadata? prim*
     prim      "def" type string metadata? "{" (attribute | prim)* "}"
-    metadata  "(" (name "=" value | type name "=" value)* ")"
-    attribute ["uniform"] type ["[]"] name ["." "timeSamples"] "=" value metadata?
-    value     number | string | "[" items "]" | "(" items ")" | "{" time ":" value, ... "}" | "{" type name "=" value "}"
+    metadata  "(" (["prepend"] name "=" value | type name "=" value)* ")"
+    attribute ["uniform"] type ["[]"] name [["." ("timeSamples" | "connect")] "=" value metadata?]
+    value     number | string | "<" path ">" | "@" file "@" | "@@@" file "@@@" | "[" items "]" | "(" items ")" | "{" time ":" value, ... "}" | "{" type name "=" value "}"
 """
 import re
 
 TOKEN = re.compile(r'''\s*(?:(?P<string>"(?:[^"\\\n]|\\.)*")
+                         |(?P<path></[A-Za-z0-9_/]*(?:\.[A-Za-z:]+)?>)
+                         |(?P<asset>@@@[^\n]+?@@@|@[^@\n]+@)
                          |(?P<number>-?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)
                          |(?P<name>[A-Za-z_][A-Za-z0-9_]*(?::[A-Za-z_][A-Za-z0-9_]*)*(?:\[\])?)
                          |(?P<sign>[][(){}=,:.]))''', re.VERBOSE)
@@ -18,7 +20,7 @@ class Prim:
     def __init__(self, kind, name):
         self.kind, self.name = kind, name
         self.metadata, self.attributes, self.types, self.samples = {}, {}, {}, {}
-        self.interpolation, self.uniform = {}, set()
+        self.interpolation, self.uniform, self.connections = {}, set(), {}
         self.children = {}
 
     def find(self, *names):
@@ -68,6 +70,8 @@ class Reader:
             return values
         self.take("(")
         while self.peek() != ")":
+            if self.peek() == "prepend":
+                self.take()
             name = self.take(kind="name")
             self.take("=")
             values[name] = self.value()
@@ -101,10 +105,14 @@ class Reader:
             prim.uniform.add(name)
         if self.peek() == ".":
             self.take(".")
-            self.take("timeSamples")
+            what = self.take(kind="name")
             self.take("=")
-            prim.samples[name] = self.time_samples()
-        else:
+            if what == "connect":
+                prim.connections[name] = self.value()
+            else:
+                assert what == "timeSamples", what
+                prim.samples[name] = self.time_samples()
+        elif self.peek() == "=":
             self.take("=")
             prim.attributes[name] = self.value()
         prim.interpolation[name] = self.metadata().get("interpolation")
@@ -140,6 +148,8 @@ class Reader:
         if kind == "number":
             self.place += 1
             return float(text)
+        if kind in ("path", "asset"):
+            return self.take().strip("<>@")
         self.take()
         if text == "[":
             return self.items("]")

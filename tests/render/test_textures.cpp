@@ -9,6 +9,7 @@
 #include "pliant_io/files/atomic_file.h"
 #include "pliant_io/scene/scene.h"
 #include "pliant_io/scene/scene_document.h"
+#include "render/body_looks.h"
 #include "render/capture.h"
 #include "render/texture_image.h"
 #include "studio.h"

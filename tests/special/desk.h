@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <doctest/doctest.h>
 #include <fmt/format.h>

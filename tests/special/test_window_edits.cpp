@@ -3,8 +3,6 @@
 #define DOCTEST_CONFIG_IMPLEMENT
 #include <algorithm>
 
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 

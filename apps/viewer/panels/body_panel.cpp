@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "render/body_looks.h"
+
 namespace pliant_viewer {
 namespace {
 

@@ -16,9 +16,9 @@ using Thins = AnimationFormat::Thins;
 using Beside = AnimationFormat::Beside;
 
 constexpr AnimationFormat animation_format_list[] = {
-    {"gltf", Needs::faces, Thins::always, Beside::colliders, write_gltf},      //
-    {"glb", Needs::faces, Thins::always, Beside::colliders, write_glb},        //
-    {"usda", Needs::faces, Thins::when_asked, Beside::colliders, write_usda},  //
+    {"gltf", Needs::faces, Thins::always, Beside::colliders, write_gltf},  //
+    {"glb", Needs::faces, Thins::always, Beside::colliders, write_glb},    //
+    {"usda", Needs::faces, Thins::when_asked, Beside::colliders, write_usda, usd_folder},
 #ifdef PLIANT_HAS_VTU
     {"pvd", Needs::faces, Thins::never, Beside::values, write_pvd, pvd_folder},
 #endif

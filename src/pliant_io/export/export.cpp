@@ -61,6 +61,11 @@ Digits digits_of(const std::string& name) {
 
 }  // namespace
 
+bool are_alike(const SurfaceSide& a, const SurfaceSide& b) {
+  if (!a.image || !b.image) return a.image == b.image && a.color == b.color;
+  return a.image == b.image || (a.image->format == b.image->format && a.image->bytes == b.image->bytes);
+}
+
 ExportReport export_animation(const fs::path& path, const Animation& animation, const ExportOptions& options) {
   const std::optional<AnimationFormat> format = animation_format(path);
   if (!format) {

@@ -3,7 +3,9 @@
 #include <array>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -28,10 +30,35 @@ struct ExportReport {
   Real largest_error = 0;      ///< of the others, in sizes of their body
 };
 
-/// Shares of red, green and blue, 0 to 1 (sRGB), of the side that normals point from and of the other.
-struct SurfaceColors {
-  std::array<Real, 3> front{};
-  std::array<Real, 3> back{};
+/// A picture, which several bodies may share.
+struct SurfaceImage {
+  enum class Format { png, jpeg };
+
+  std::string name;             ///< for those who read the file
+  Format format = Format::png;  ///< of the bytes
+  std::string bytes;            ///< of its file
+};
+
+/// What one side of a surface looks like.
+struct SurfaceSide {
+  std::array<Real, 3> color{};  ///< shares of red, green and blue, 0 to 1 (sRGB)
+  /// In place of the color, repeated in both directions, by the texture coordinates of the mesh. Null: the color, as on
+  /// a mesh without them.
+  std::shared_ptr<const SurfaceImage> image{};
+};
+/// Whether nothing tells them apart.
+bool are_alike(const SurfaceSide& a, const SurfaceSide& b);
+
+/// How a surface throws light back.
+struct SurfaceFinish {
+  bool is_metal = false;
+  Real roughness = 0.8;  ///< 0: a mirror, to 1
+};
+
+struct SurfaceLook {
+  SurfaceSide front;                      ///< of the side that normals point from
+  SurfaceSide back;                       ///< of the other
+  std::optional<SurfaceFinish> finish{};  ///< none: dull in glTF, the reader's in USD
 };
 
 /// Numbers of all vertices.
@@ -52,7 +79,7 @@ struct ExportOptions {
   Normals normals = Normals::smooth;  ///< of glTF
   /// Of glTF and USD, of the first bodies in turn; where the two sides differ, each has triangles of its own in glTF,
   /// and USD has the front's. None: in glTF a muted color for each body, in USD the reader's.
-  std::vector<std::optional<SurfaceColors>> colors = {};
+  std::vector<std::optional<SurfaceLook>> looks = {};
   /// Of pvd: what vertices have beside positions in a frame, given by its index. Called for one frame after the other.
   /// Default: nothing.
   std::function<std::vector<VertexValues>(std::size_t frame)> values = {};

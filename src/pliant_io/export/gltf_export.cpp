@@ -1,130 +1,32 @@
 // glTF 2.0 (Khronos Group, specification 2.0.1; section numbers are its own).
 #include <array>
-#include <bit>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <optional>
+#include <tuple>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "pliant/core/error.h"
-#include "pliant/core/version.h"
 #include "pliant_io/export/detail/export_formats.h"
+#include "pliant_io/export/detail/gltf_document.h"
 #include "pliant_io/export/detail/gltf_materials.h"
 #include "pliant_io/export/detail/gltf_surface.h"
-#include "pliant_io/files/atomic_file.h"
-#include "pliant_io/files/base64.h"
 #include "pliant_io/recorder/detail/array_format.h"
 
 namespace pliant {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "buffers are written as they lie in memory");
-
 using OrderedJson = nlohmann::ordered_json;
 using Vec3f = Eigen::Vector3f;
 
-/// Numbers that the specification gives to what they name (Sec. 5.1.3, 5.11.5, 5.24.4).
-enum class ComponentType { unsigned_int = 5125, single = 5126 };
-enum class Target { none = 0, vertices = 34962, indices = 34963 };
-enum class Mode { points = 0, lines = 1, triangles = 4 };
+enum class Mode { points = 0, lines = 1, triangles = 4 };  // Sec. 5.24.4
 
 /// Ours has +z up, glTF +y; a quarter turn about x (Sec. 3.4).
 Vec3f y_up(const Vec3f& v) {
   return {v[0], v[2], -v[1]};
 }
-
-/// The JSON and the one buffer that its accessors refer to.
-class GltfDocument {
- public:
-  GltfDocument() {
-    json_["asset"] = {{"version", "2.0"}, {"generator", fmt::format("pliant {}", version)}};
-    json_["scene"] = 0;
-    json_["scenes"] = {{{"nodes", OrderedJson::array()}}};
-  }
-
-  OrderedJson& operator[](const char* key) { return json_[key]; }
-  const OrderedJson& json() const { return json_; }
-  const std::string& buffer() const { return buffer_; }
-
-  /// Appends to a list of the document; returns the index there.
-  std::size_t add(const char* list, OrderedJson item) {
-    json_[list].push_back(std::move(item));
-    return json_[list].size() - 1;
-  }
-
-  std::size_t add_vectors(const std::vector<Vec3f>& vectors, bool has_bounds) {
-    OrderedJson accessor = add_view(vectors.data(), vectors.size() * sizeof(Vec3f), Target::vertices);
-    describe(accessor, ComponentType::single, vectors.size(), "VEC3");
-    if (has_bounds) {
-      Vec3f low = vectors.front();
-      Vec3f high = vectors.front();
-      for (const Vec3f& v : vectors) {
-        low = low.cwiseMin(v);
-        high = high.cwiseMax(v);
-      }
-      accessor["min"] = {low[0], low[1], low[2]};
-      accessor["max"] = {high[0], high[1], high[2]};
-    }
-    return add("accessors", std::move(accessor));
-  }
-
-  std::size_t add_texture_coordinates(const std::vector<std::array<float, 2>>& pairs) {
-    OrderedJson accessor = add_view(pairs.data(), pairs.size() * sizeof(pairs[0]), Target::vertices);
-    describe(accessor, ComponentType::single, pairs.size(), "VEC2");
-    return add("accessors", std::move(accessor));
-  }
-
-  std::size_t add_indices(const std::vector<Index>& indices) {
-    OrderedJson accessor = add_view(indices.data(), indices.size() * sizeof(Index), Target::indices);
-    describe(accessor, ComponentType::unsigned_int, indices.size(), "SCALAR");
-    return add("accessors", std::move(accessor));
-  }
-
-  std::size_t add_times(const std::vector<float>& times) {
-    OrderedJson accessor = add_view(times.data(), times.size() * sizeof(float), Target::none);
-    describe(accessor, ComponentType::single, times.size(), "SCALAR");
-    accessor["min"] = {times.front()};
-    accessor["max"] = {times.back()};
-    return add("accessors", std::move(accessor));
-  }
-
-  /// Vectors that are not those of vertices, as an animation has them.
-  template <class Vector>
-  std::size_t add_numbers(const std::vector<Vector>& vectors) {
-    static_assert(sizeof(Vector) == 3 * sizeof(float) || sizeof(Vector) == 4 * sizeof(float));
-    OrderedJson accessor = add_view(vectors.data(), vectors.size() * sizeof(Vector), Target::none);
-    describe(accessor, ComponentType::single, vectors.size(), sizeof(Vector) == 3 * sizeof(float) ? "VEC3" : "VEC4");
-    return add("accessors", std::move(accessor));
-  }
-
-  std::size_t add_scalars(const std::vector<float>& numbers) {
-    OrderedJson accessor = add_view(numbers.data(), numbers.size() * sizeof(float), Target::none);
-    describe(accessor, ComponentType::single, numbers.size(), "SCALAR");
-    return add("accessors", std::move(accessor));
-  }
-
- private:
-  /// An accessor of bytes that are appended to the buffer; all are of numbers of four bytes, so that they are aligned.
-  OrderedJson add_view(const void* data, std::size_t size, Target target) {
-    OrderedJson view = {{"buffer", 0}, {"byteOffset", buffer_.size()}, {"byteLength", size}};
-    if (target != Target::none) view["target"] = static_cast<int>(target);
-    buffer_.append(static_cast<const char*>(data), size);
-    return {{"bufferView", add("bufferViews", std::move(view))}};
-  }
-
-  static void describe(OrderedJson& accessor, ComponentType component, std::size_t count, const char* type) {
-    accessor["componentType"] = static_cast<int>(component);
-    accessor["count"] = count;
-    accessor["type"] = type;
-  }
-
-  OrderedJson json_;
-  std::string buffer_;
-};
 
 /// The same triangles seen from the other side.
 std::vector<Index> turned(std::vector<Index> triangles) {
@@ -135,7 +37,7 @@ std::vector<Index> turned(std::vector<Index> triangles) {
 class GltfExport {
  public:
   GltfExport(const Animation& animation, const std::vector<std::size_t>& frames, const ExportOptions& options)
-      : animation_(animation), frames_(frames), normals_(options.normals), colors_(options.colors) {
+      : animation_(animation), frames_(frames), normals_(options.normals), looks_(options.looks) {
     for (std::size_t body = 0; body < animation.bodies.size(); ++body) add_body(body);
     for (const AnimatedCollider& collider : animation.colliders) add_collider(collider);
     add_animation();
@@ -154,6 +56,12 @@ class GltfExport {
   struct Side {
     OrderedJson attributes;
     OrderedJson targets;  ///< null where nothing moves
+  };
+
+  struct BodyMaterials {
+    std::size_t front;                ///< of triangles
+    std::optional<std::size_t> back;  ///< of triangles seen from behind, where they look otherwise
+    std::size_t strokes;              ///< of lines and points
   };
 
   /// A collider whose node is animated.
@@ -180,24 +88,48 @@ class GltfExport {
       if (!side.targets.empty()) primitive["targets"] = side.targets;
       primitives.push_back(std::move(primitive));
     };
-    const std::optional<SurfaceColors> colors = number < colors_.size() ? colors_[number] : std::nullopt;
-    const bool has_two_tones = colors && colors->front != colors->back && !surface.triangles.empty();
-    const std::size_t tone = colors ? colored(colors->front, has_two_tones ? Sides::one : Sides::both)
-                                    : document_.add("materials", gltf_material_of_body(number));
-    if (!surface.triangles.empty()) add_primitive(Mode::triangles, surface.triangles, front, tone);
-    if (has_two_tones) {
-      add_primitive(Mode::triangles, turned(surface.triangles), back_side(body, surface, rest, front),
-                    colored(colors->back, Sides::one));
+    const BodyMaterials materials = materials_of(number, surface);
+    if (!surface.triangles.empty()) add_primitive(Mode::triangles, surface.triangles, front, materials.front);
+    if (materials.back) {
+      add_primitive(Mode::triangles, turned(surface.triangles), back_side(body, surface, rest, front), *materials.back);
     }
-    if (!surface.lines.empty()) add_primitive(Mode::lines, surface.lines, front, tone);
-    if (primitives.empty()) add_primitive(Mode::points, {}, front, tone);
+    if (!surface.lines.empty()) add_primitive(Mode::lines, surface.lines, front, materials.strokes);
+    if (primitives.empty()) add_primitive(Mode::points, {}, front, materials.strokes);
     add_node(body.name, std::move(primitives), is_moving);
   }
 
-  /// Bodies of one color share a material.
-  std::size_t colored(const std::array<Real, 3>& color, Sides sides) {
-    const auto [known, is_new] = materials_.try_emplace({color, sides});
-    if (is_new) known->second = document_.add("materials", gltf_material(light_of(color), sides));
+  BodyMaterials materials_of(std::size_t number, const GltfSurface& surface) {
+    if (number >= looks_.size() || !looks_[number]) {
+      const std::size_t material = document_.add("materials", gltf_material_of_body(number));
+      return {material, {}, material};
+    }
+    SurfaceLook look = *looks_[number];
+    if (surface.texture.empty()) look.front.image = look.back.image = nullptr;
+    const bool has_two_sides = !surface.triangles.empty() && !are_alike(look.front, look.back);
+    const SurfaceFinish finish = look.finish.value_or(SurfaceFinish{});
+    BodyMaterials result{};
+    result.front = result.strokes = material_of(look.front, finish, has_two_sides ? Sides::one : Sides::both);
+    if (has_two_sides) result.back = material_of(look.back, finish, Sides::one);
+    if (look.front.image && !surface.lines.empty()) {
+      result.strokes = material_of({look.front.color, nullptr}, finish, Sides::both);
+    }
+    return result;
+  }
+
+  /// Bodies that look alike share a material.
+  std::size_t material_of(const SurfaceSide& side, const SurfaceFinish& finish, Sides sides) {
+    GltfLook look{light_of(side.color), {}, finish};
+    if (side.image) look = {{1, 1, 1}, texture_of(*side.image), finish};
+    const auto [known, is_new] =
+        materials_.try_emplace({look.light, look.texture, finish.is_metal, finish.roughness, sides});
+    if (is_new) known->second = document_.add("materials", gltf_material(look, sides));
+    return known->second;
+  }
+
+  /// Pictures of the same bytes are there once.
+  std::size_t texture_of(const SurfaceImage& image) {
+    const auto [known, is_new] = textures_.try_emplace(image.bytes);
+    if (is_new) known->second = document_.add_texture(image);
     return known->second;
   }
 
@@ -240,7 +172,7 @@ class GltfExport {
       normals.push_back(y_up(corners.normals.row(i).transpose().cast<float>().normalized()));
     }
     if (!collider_material_)
-      collider_material_ = document_.add("materials", gltf_material(collider_light, Sides::both));
+      collider_material_ = document_.add("materials", gltf_material({collider_light}, Sides::both));
     OrderedJson attributes = {{"POSITION", document_.add_vectors(positions, true)}};
     if (normals_ == Normals::smooth) attributes["NORMAL"] = document_.add_vectors(normals, false);
     const OrderedJson primitive = {{"attributes", std::move(attributes)},
@@ -386,8 +318,9 @@ class GltfExport {
   const Animation& animation_;
   const std::vector<std::size_t>& frames_;
   Normals normals_;
-  std::vector<std::optional<SurfaceColors>> colors_;
-  std::map<std::pair<std::array<Real, 3>, Sides>, std::size_t> materials_;
+  const std::vector<std::optional<SurfaceLook>>& looks_;
+  std::map<std::tuple<std::array<double, 3>, std::optional<std::size_t>, bool, Real, Sides>, std::size_t> materials_;
+  std::map<std::string_view, std::size_t> textures_;  ///< by the bytes of their pictures
   std::optional<std::size_t> collider_material_;
   GltfDocument document_;
   std::vector<std::size_t> moving_nodes_;
@@ -395,63 +328,16 @@ class GltfExport {
   Positions positions_;  ///< scratch
 };
 
-std::string dump(const OrderedJson& json) {
-  // Names may hold bytes that are not UTF-8; they must not cost the file.
-  return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
-}
-
-void append_word(std::string& bytes, std::uint32_t word) {
-  bytes.append(reinterpret_cast<const char*>(&word), sizeof word);
-}
-
-/// A chunk of a binary file (Sec. 4.4.3); `filler` makes its size a multiple of 4.
-void write_chunk(AtomicFile& file, std::string_view type, std::string_view data, char filler) {
-  const std::size_t padding = (4 - data.size() % 4) % 4;
-  std::string head;
-  append_word(head, static_cast<std::uint32_t>(data.size() + padding));
-  head += type;
-  file.write(head);
-  file.write(data);
-  file.write(std::string(padding, filler));
-}
-
-void write_binary(AtomicFile& file, const std::string& json, const std::string& buffer,
-                  const std::filesystem::path& path) {
-  constexpr std::size_t heads = 12 + 8 + 8;
-  const std::size_t size = heads + (json.size() + 3) / 4 * 4 + (buffer.size() + 3) / 4 * 4;
-  if (size > std::numeric_limits<std::uint32_t>::max()) {
-    fail_input(fmt::format("{}: {} bytes are past the 4 GiB of a GLB file; reduce --max-keyframes, or write USD",
-                           path.string(), size));
-  }
-  std::string head = "glTF";
-  append_word(head, 2);
-  append_word(head, static_cast<std::uint32_t>(size));
-  file.write(head);
-  write_chunk(file, "JSON", json, ' ');
-  write_chunk(file, std::string_view("BIN\0", 4), buffer, '\0');
-}
-
 }  // namespace
 
 void write_gltf(const std::filesystem::path& path, const Animation& animation, const std::vector<std::size_t>& frames,
                 const ExportOptions& options) {
-  GltfExport result(animation, frames, options);
-  GltfDocument& document = result.document();
-  document.add("buffers", {{"byteLength", document.buffer().size()},
-                           {"uri", "data:application/octet-stream;base64," + base64(document.buffer())}});
-  AtomicFile file(path);
-  file.write(dump(document.json()) + '\n');
-  file.commit();
+  GltfExport(animation, frames, options).document().write_text(path);
 }
 
 void write_glb(const std::filesystem::path& path, const Animation& animation, const std::vector<std::size_t>& frames,
                const ExportOptions& options) {
-  GltfExport result(animation, frames, options);
-  GltfDocument& document = result.document();
-  document.add("buffers", {{"byteLength", document.buffer().size()}});
-  AtomicFile file(path);
-  write_binary(file, dump(document.json()), document.buffer(), path);
-  file.commit();
+  GltfExport(animation, frames, options).document().write_binary(path);
 }
 
 }  // namespace pliant

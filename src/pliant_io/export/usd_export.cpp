@@ -1,14 +1,13 @@
 // USD as text (OpenUSD, usda 1.0) with the schemas of UsdGeom.
 #include <cmath>
-#include <map>
-#include <set>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "pliant/core/version.h"
 #include "pliant_io/export/detail/export_formats.h"
 #include "pliant_io/export/detail/gltf_materials.h"
+#include "pliant_io/export/detail/usd_pictures.h"
+#include "pliant_io/export/detail/usd_text.h"
 #include "pliant_io/files/atomic_file.h"
 #include "pliant_io/recorder/detail/array_format.h"
 #include "pliant_io/recorder/detail/one_mesh.h"
@@ -20,67 +19,6 @@ namespace {
 constexpr Real curve_width = 0.005;
 /// Times that are as close to a whole frame are at it.
 constexpr Real code_rounding = 1e-6;
-
-/// Text with an indentation, handed to the file in blocks.
-class UsdText {
- public:
-  explicit UsdText(AtomicFile& file) : file_(file) {}
-
-  void line(std::string_view text) {
-    constexpr std::size_t block = 1 << 20;
-    buffer_.append(4 * depth_, ' ');
-    buffer_ += text;
-    buffer_ += '\n';
-    if (buffer_.size() >= block) flush();
-  }
-  void open(std::string_view head, std::string_view bracket = "{") {
-    line(head);
-    line(bracket);
-    ++depth_;
-  }
-  void close(std::string_view bracket = "}") {
-    --depth_;
-    line(bracket);
-  }
-  void flush() {
-    file_.write(buffer_);
-    buffer_.clear();
-  }
-
- private:
-  AtomicFile& file_;
-  std::string buffer_;
-  std::size_t depth_ = 0;
-};
-
-/// In quotes, on one line, as valid UTF-8; JSON and USD quote alike but for control characters.
-std::string string_text(std::string text) {
-  for (char& c : text) {
-    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = ' ';
-  }
-  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
-/// Names of prims: a letter or _, then letters, digits and _, each once among its siblings.
-class PrimNames {
- public:
-  std::string name(std::string_view text) {
-    std::string name;
-    for (const char c : text) {
-      const bool is_letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-      const bool is_digit = c >= '0' && c <= '9';
-      if (is_digit && name.empty()) name += '_';
-      name += is_letter || is_digit ? c : '_';
-    }
-    if (name.empty()) name = "_";
-    std::string result = name;
-    for (int i = 1; !used_.insert(result).second; ++i) result = fmt::format("{}_{}", name, i);
-    return result;
-  }
-
- private:
-  std::set<std::string> used_;
-};
 
 template <typename Items, typename Write>
 std::string list(const Items& items, const Write& write) {
@@ -118,12 +56,13 @@ struct Curves {
 
 class UsdExport {
  public:
-  UsdExport(UsdText& text, const Animation& animation, const std::vector<std::size_t>& frames,
+  UsdExport(UsdText& text, UsdPictures& pictures, const Animation& animation, const std::vector<std::size_t>& frames,
             const ExportOptions& options)
       : text_(text),
+        pictures_(pictures),
         animation_(animation),
         frames_(frames),
-        colors_(options.colors),
+        looks_(options.looks),
         rate_(frame_rate(animation.times)) {
     constexpr Real rate_of_uneven_frames = 24;
     if (rate_ == 0) rate_ = rate_of_uneven_frames;
@@ -135,7 +74,7 @@ class UsdExport {
     text_.line("#usda 1.0");
     text_.line("(");
     text_.line(fmt::format("    defaultPrim = \"{}\"", root));
-    text_.line(fmt::format("    doc = {}", string_text(fmt::format("pliant {}", version))));
+    text_.line(fmt::format("    doc = {}", usd_string(fmt::format("pliant {}", version))));
     text_.line(fmt::format("    endTimeCode = {}", time_code(frames_.back())));
     text_.line(fmt::format("    framesPerSecond = {}", rate_));
     text_.line("    metersPerUnit = 1");
@@ -148,8 +87,8 @@ class UsdExport {
     const std::vector<Real> sizes = body_sizes(animation_);
     PrimNames bodies;
     for (std::size_t i = 0; i < animation_.bodies.size(); ++i) {
-      color_ = i < colors_.size() ? colors_[i] : std::nullopt;
-      write_body(animation_.bodies[i], bodies, sizes[i]);
+      look_ = i < looks_.size() ? looks_[i] : std::nullopt;
+      write_body(animation_.bodies[i], root, bodies, sizes[i]);
     }
     for (const AnimatedCollider& collider : animation_.colliders) write_collider(collider, bodies);
     text_.close();
@@ -161,19 +100,29 @@ class UsdExport {
     return std::abs(code - std::round(code)) <= code_rounding * std::max<Real>(1, code) ? std::round(code) : code;
   }
 
-  void write_body(const Body& body, PrimNames& names, Real size) {
-    text_.line(fmt::format("def Xform \"{}\" (", names.name(body.name)));
-    text_.line(fmt::format("    customData = {{ string name = {} }}", string_text(body.name)));
+  void write_body(const Body& body, const std::string& root, PrimNames& names, Real size) {
+    const std::string name = names.name(body.name);
+    text_.line(fmt::format("def Xform \"{}\" (", name));
+    text_.line(fmt::format("    customData = {{ string name = {} }}", usd_string(body.name)));
     text_.open(")");
     const PolygonFaces faces = visible_faces(body.mesh);
-    if (faces.face_count() > 0) write_mesh(body, faces);
+    if (faces.face_count() > 0) write_mesh(body, faces, fmt::format("/{}/{}", root, name));
     if (!body.mesh.edges.empty()) write_curves(body, size);
     if (faces.face_count() == 0 && body.mesh.edges.empty() && body.mesh.vertex_count() > 0) write_points(body, size);
     text_.close();
   }
 
-  void write_mesh(const Body& body, const PolygonFaces& faces) {
-    text_.open("def Mesh \"mesh\"");
+  /// `place` is the path of the body's prim.
+  void write_mesh(const Body& body, const PolygonFaces& faces, const std::string& place) {
+    const bool has_material = look_ && (look_->finish || look_->front.image);
+    if (has_material) {
+      text_.line("def Mesh \"mesh\" (");
+      text_.line("    prepend apiSchemas = [\"MaterialBindingAPI\"]");
+      text_.open(")");
+      text_.line(fmt::format("rel material:binding = <{}>", usd_material(place)));
+    } else {
+      text_.open("def Mesh \"mesh\"");
+    }
     text_.line("uniform bool doubleSided = 1");
     std::vector<Index> counts;
     for (std::size_t f = 1; f < faces.offsets.size(); ++f) counts.push_back(faces.offsets[f] - faces.offsets[f - 1]);
@@ -183,6 +132,9 @@ class UsdExport {
     if (!faces.texture_coordinates.empty()) write_texture(body.mesh, faces);
     text_.line("uniform token subdivisionScheme = \"none\"");
     text_.close();
+    if (!has_material) return;
+    const bool has_picture = look_->front.image && !faces.texture_coordinates.empty();
+    write_usd_material(text_, place, *look_, has_picture ? pictures_.reference(*look_->front.image) : "");
   }
 
   /// A rigid mesh under the transform of its prim.
@@ -191,7 +143,7 @@ class UsdExport {
     const auto is_there = [&](Real time) { return collider.is_there(time); };
     if (surface.triangles.empty() || std::ranges::none_of(animation_.times, is_there)) return;
     text_.line(fmt::format("def Xform \"{}\" (", names.name(collider.name)));
-    text_.line(fmt::format("    customData = {{ string name = {} }}", string_text(collider.name)));
+    text_.line(fmt::format("    customData = {{ string name = {} }}", usd_string(collider.name)));
     text_.open(")");
     write_pose(collider);
     if (!std::ranges::all_of(animation_.times, is_there)) write_visibility(collider);
@@ -311,7 +263,7 @@ class UsdExport {
     write_over_time("point3f[] points", [&] {
       return list(vertices, [&](std::string& text, Index v) { append_point(text, point(body, v)); });
     });
-    if (color_) write_color(light_of(color_->front));
+    if (look_) write_color(light_of(look_->front.color));
   }
 
   Eigen::Vector3f point(const Body& body, Index vertex) const {
@@ -347,10 +299,11 @@ class UsdExport {
   void sample(std::size_t frame) { animation_.cache.sample(animation_.times[frame], positions_); }
 
   UsdText& text_;
+  UsdPictures& pictures_;
   const Animation& animation_;
   const std::vector<std::size_t>& frames_;
-  const std::vector<std::optional<SurfaceColors>>& colors_;
-  std::optional<SurfaceColors> color_;  ///< of the body that is being written
+  const std::vector<std::optional<SurfaceLook>>& looks_;
+  std::optional<SurfaceLook> look_;  ///< of the body that is being written
   Real rate_;
   Positions positions_;  ///< of the frame that is being written
 };
@@ -361,8 +314,10 @@ void write_usda(const std::filesystem::path& path, const Animation& animation, c
                 const ExportOptions& options) {
   AtomicFile file(path);
   UsdText text(file);
-  UsdExport(text, animation, frames, options).write();
+  UsdPictures pictures(path);
+  UsdExport(text, pictures, animation, frames, options).write();
   text.flush();
+  pictures.commit();
   file.commit();
 }
 

@@ -18,6 +18,8 @@ AnimationWriter write_glb;
 
 /// USD as text: an Xform for each body with a Mesh of its polygons and BasisCurves of its edges.
 AnimationWriter write_usda;
+/// `flag_textures` beside `flag.usda`, where its pictures are, if it has any. It is replaced as a whole.
+std::filesystem::path usd_folder(const std::filesystem::path& path);
 
 /// A collection for ParaView: every frame with the body of each vertex and `ExportOptions::values`, at the animation's
 /// own times, as a .vtu file in pvd_folder().

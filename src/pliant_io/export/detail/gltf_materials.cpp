@@ -11,11 +11,13 @@ std::array<double, 3> light_of(const std::array<Real, 3>& color) {
   return {light(color[0]), light(color[1]), light(color[2])};
 }
 
-nlohmann::ordered_json gltf_material(const std::array<double, 3>& light, Sides sides) {
-  const auto& [red, green, blue] = light;
-  return {{"pbrMetallicRoughness",
-           {{"baseColorFactor", {red, green, blue, 1}}, {"metallicFactor", 0}, {"roughnessFactor", 0.8}}},
-          {"doubleSided", sides == Sides::both}};
+nlohmann::ordered_json gltf_material(const GltfLook& look, Sides sides) {
+  const auto& [red, green, blue] = look.light;
+  nlohmann::ordered_json surface = {{"baseColorFactor", {red, green, blue, 1}}};
+  if (look.texture) surface["baseColorTexture"] = {{"index", *look.texture}};
+  surface["metallicFactor"] = look.finish.is_metal ? 1 : 0;
+  surface["roughnessFactor"] = look.finish.roughness;
+  return {{"pbrMetallicRoughness", std::move(surface)}, {"doubleSided", sides == Sides::both}};
 }
 
 nlohmann::ordered_json gltf_material_of_body(std::size_t body) {
@@ -25,7 +27,7 @@ nlohmann::ordered_json gltf_material_of_body(std::size_t body) {
                                                             {0.80, 0.64, 0.26},
                                                             {0.52, 0.40, 0.62},
                                                             {0.45, 0.45, 0.45}}};
-  return gltf_material(lights[body % lights.size()], Sides::both);
+  return gltf_material({lights[body % lights.size()]}, Sides::both);
 }
 
 }  // namespace pliant
