@@ -322,7 +322,7 @@ class LookExport(ExportCase):
         self.run_scene("cut", {"flag": {"mesh": SHEET, "appearance": {"texture": "gone.png"}}})
         gltf = self.gltf("cut.glb", source="cut")
         self.assertIn("flag: its texture", self.done.stderr)
-        self.assertIn("the picture is damaged", self.done.stderr)
+        self.assertIn("the picture is broken", self.done.stderr)
         self.assertNotIn("images", gltf.json)
 
     def test_a_run_that_was_moved_without_its_texture(self):
