@@ -28,6 +28,7 @@ picture() { # NAME SCENE OPTION...
   "$pliant" render "$2" --out "$out/$1.png" --size 640x360 --quiet "${@:3}"
 }
 "$pliant" render "$out/silk.json" --out "$out/silk.png" --size 1280x560 --quiet
+"$pliant" render "$out/finishes.json" --out "$out/finishes.png" --size 960x480 --quiet
 picture curtain curtain_wind --steps 100
 picture bridge rope_bridge --steps 170
 picture pillow pillow --steps 150 --color energy

@@ -6,6 +6,7 @@
 #include "pliant_io/scene/detail/read_factors.h"
 #include "pliant_io/scene/detail/read_mesh.h"
 #include "pliant_io/scene/detail/read_solid.h"
+#include "pliant_io/scene/detail/scene_files.h"
 #include "pliant_io/scene/detail/scene_reader.h"
 #include "pliant_io/scene/texture_file.h"
 
