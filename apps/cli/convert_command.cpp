@@ -195,9 +195,7 @@ std::optional<pliant::Scene> scene_of_run(const fs::path& folder, Animation& ani
   std::error_code ignored;
   if (!fs::exists(checkpoint, ignored)) return {};
   try {
-    pliant::ResumeOptions resume;
-    resume.without_texture = [](const std::string&, const std::string&) {};  // these numbers need none
-    pliant::Scene scene = pliant::parse_scene(pliant::read_checkpoint(checkpoint, resume).source);
+    pliant::Scene scene = pliant::parse_scene(pliant::read_checkpoint(checkpoint).source);
     pliant_render::take_tetrahedra(animation, scene.simulation);
     return scene;
   } catch (const pliant::Error& error) {
@@ -214,9 +212,7 @@ std::vector<pliant::AnimatedCollider> colliders_of_run(const fs::path& folder, c
   std::error_code ignored;
   if (!fs::exists(checkpoint, ignored)) return {};
   try {
-    pliant::ResumeOptions resume;
-    resume.without_texture = [](const std::string&, const std::string&) {};  // looks_of_run() tells
-    pliant::SceneSource source = pliant::read_checkpoint(checkpoint, resume).source;
+    pliant::SceneSource source = pliant::read_checkpoint(checkpoint).source;
     if (!mentions(source, "collider")) return {};  // it is not made again, which may take long
     return pliant_render::recorded_colliders(pliant::parse_scene(std::move(source)), frames);
   } catch (const pliant::Error& error) {

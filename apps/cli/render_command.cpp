@@ -155,7 +155,10 @@ class FrameDrawer {
  public:
   FrameDrawer(const RenderArguments& arguments, const Clip& clip, std::vector<std::size_t> chosen,
               const std::array<pliant::Index, 2>& size)
-      : arguments_(arguments), clip_(clip), chosen_(std::move(chosen)), maker_(clip.render_mesh, options(size)) {}
+      : arguments_(arguments), clip_(clip), chosen_(std::move(chosen)), maker_(clip.render_mesh, options(size)) {
+    if (maker_.texture_error().empty()) return;
+    print_to_stderr(fmt::format("warning: {}; the body has its plain color\n", maker_.texture_error()));
+  }
 
   std::size_t count() const { return chosen_.size(); }
   /// Who drew, and whether it had fewer samples than were asked for.

@@ -57,10 +57,9 @@ pliant::SurfaceFinish surface_finish(pliant::Finish finish) {
   return {false, 0.8};
 }
 
-void warn_of_texture(const std::string& body, const std::string& texture, std::string_view reason) {
-  print_to_stderr(fmt::format("warning: {}: its texture {} is left out, and it has plain colors: {}\n",
-                              pliant::printable(body), pliant::printable_place(texture),
-                              pliant::printable_place(reason, message_limit)));
+void warn_of_texture(const std::string& body, std::string_view reason) {
+  print_to_stderr(fmt::format("warning: {}: its texture is left out, and it has plain colors: {}\n",
+                              pliant::printable(body), pliant::printable_place(reason, message_limit)));
 }
 
 /// A texture's file with the size of its picture.
@@ -154,7 +153,7 @@ class LookMaker {
       return &textures_.emplace(path, read_texture(path)).first->second;
     } catch (const pliant::Error& error) {
       if (error.kind() != pliant::ErrorKind::input) throw;
-      warn_of_texture(body, path, error.what());
+      warn_of_texture(body, error.what());
       return nullptr;
     }
   }
@@ -197,12 +196,7 @@ RunLooks looks_of_run(const fs::path& folder, pliant::Animation& animation) {
   RunLooks looks;
   if (!fs::exists(checkpoint, ignored)) return looks;
   try {
-    pliant::ResumeOptions options;
-    options.without_texture = [&](const std::string& body, const std::string& texture) {
-      if (std::ranges::find(animation.bodies, body, &pliant::Body::name) == animation.bodies.end()) return;
-      warn_of_texture(body, texture, "no such file");
-    };
-    pliant::Scene known = pliant::read_checkpoint(checkpoint, options);
+    pliant::Scene known = pliant::read_checkpoint(checkpoint);
     looks.of_bodies.assign(animation.bodies.size(), look_of_view(known.view));
     if (!mentions(known.source, "appearance")) return looks;
     const pliant::Scene scene = pliant::parse_scene(std::move(known.source));

@@ -1,6 +1,7 @@
 #include "render/mesh_buffers.h"
 
 #include <cstddef>
+#include <filesystem>
 #include <set>
 
 #include "pliant/core/error.h"
@@ -23,8 +24,16 @@ void point_at(GLuint place, GLint size, GLenum type, std::size_t stride, std::si
                         offset_of(offset));
 }
 
-/// Repeated to all sides, and smoothed where it is drawn small.
-void fill(const Texture& texture, const TextureImage& image) {
+/// Repeated to all sides, and smoothed where it is drawn small. What is transparent has no color of its own that could
+/// be seen at its edges: shares are multiplied by opacity.
+void fill(const Texture& texture, TextureImage image) {
+  for (std::size_t i = 0; i + 3 < image.pixels.size(); i += 4) {
+    const int opacity = image.pixels[i + 3];
+    if (opacity == 255) continue;
+    for (std::size_t k = i; k < i + 3; ++k) {
+      image.pixels[k] = static_cast<std::uint8_t>((image.pixels[k] * opacity + 127) / 255);
+    }
+  }
   glBindTexture(GL_TEXTURE_2D, texture.id());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, image.width, image.height, 0, GL_RGBA, GL_UNSIGNED_BYTE,
@@ -93,25 +102,28 @@ void MeshBuffers::set_looks(BodyLooks looks) {
 }
 
 void MeshBuffers::read_textures() {
-  texture_error_.clear();
   std::set<std::string> used;
   for (const auto& [body, path] : render_mesh_.looks.textures) used.insert(path);
   std::erase_if(textures_, [&](const auto& texture) { return !used.contains(texture.first); });
+  texture_error_.clear();
   for (const std::string& path : used) {
-    if (textures_.contains(path)) continue;
+    std::error_code ignored;
+    const auto time = std::filesystem::last_write_time(path, ignored);
+    KnownTexture& known = textures_[path];
+    if (known.is_read && known.time == time) continue;
+    known = {.time = time, .is_read = true};
     try {
-      const TextureImage image = read_texture(path);
-      auto texture = std::make_unique<Texture>();
-      fill(*texture, image);
-      textures_.emplace(path, std::move(texture));
+      TextureImage image = read_texture(path);
+      known.texture = std::make_unique<Texture>();
+      fill(*known.texture, std::move(image));
     } catch (const pliant::Error& error) {
-      texture_error_ = error.what();
+      if (texture_error_.empty()) texture_error_ = error.what();
     }
   }
 }
 
 /// Copies look like their vertices, but for the places that they have in textures; those between others as the first of
-/// these. Sheets have the sheen of cloth.
+/// these. Where nothing is said of the surface sheets have the sheen of cloth.
 void MeshBuffers::upload_looks() {
   std::vector<VertexLook> looks = render_mesh_.looks.vertices;
   looks.resize(static_cast<std::size_t>(render_mesh_.vertex_count));
@@ -139,40 +151,40 @@ void MeshBuffers::upload_looks() {
 }
 
 bool MeshBuffers::set_subdivision(int levels) {
+  constexpr std::size_t most_triangles = 4'000'000;
+  while (levels > 0 && (render_mesh_.triangles.size() / 3) << (2 * levels) > most_triangles) --levels;
   if (levels == levels_) return false;
-  levels_ = levels;
-  fine_ = {};
-  fine_mesh_ = {};
+  FineSurface fine;
   if (levels > 0) {
-    fine_ = subdivide({static_cast<std::uint32_t>(render_mesh_.vertex_count), render_mesh_.triangles,
-                       render_mesh_.corners, render_mesh_.copies, render_mesh_.normals_from, render_mesh_.edges,
-                       render_mesh_.springs, render_mesh_.rest_lengths},
-                      levels);
-    fine_mesh_ = mesh_of(fine_, render_mesh_, levels);
+    fine = subdivide({static_cast<std::uint32_t>(render_mesh_.vertex_count), render_mesh_.triangles,
+                      render_mesh_.corners, render_mesh_.copies, render_mesh_.normals_from, render_mesh_.edges,
+                      render_mesh_.springs, render_mesh_.rest_lengths},
+                     levels);
   }
+  levels_ = levels;
+  fine_ = std::move(fine);
+  fine_mesh_ = levels > 0 ? mesh_of(fine_, render_mesh_, levels) : RenderMesh();
   upload_lists();
   upload_looks();
   return true;
 }
 
 void MeshBuffers::set_frame(const FrameContent& frame, bool has_values) {
-  values_.assign(render_mesh_.tones.begin(), render_mesh_.tones.end());
+  std::vector<float>& values = levels_ > 0 ? coarse_values_ : values_;
+  values.assign(render_mesh_.tones.begin(), render_mesh_.tones.end());
   if (has_values) {
-    values_ = frame.values;
+    values = frame.values;
   } else {
-    for (const std::uint32_t vertex : frame.held) values_[vertex] = -1;
+    for (const std::uint32_t vertex : frame.held) values[vertex] = -1;
   }
-  positions_ = frame.positions;
-  if (levels_ > 0) {
-    std::vector<float> values = std::move(values_);
+  if (levels_ == 0) {
+    positions_ = frame.positions;
+  } else {
     apply_stencils(fine_.points, frame.positions, positions_);
-    if (has_values) {
-      apply_stencils(fine_.points, values, values_);
-    } else {
-      values_.clear();
-      for (std::size_t i = 0; i < positions_.size(); ++i) {
-        values_.push_back(values[fine_.points.sources[fine_.points.offsets[i]]]);
-      }
+    if (has_values) apply_stencils(fine_.points, values, values_);
+    if (!has_values) values_.resize(positions_.size());
+    for (std::size_t i = 0; !has_values && i < positions_.size(); ++i) {
+      values_[i] = values[fine_.points.sources[fine_.points.offsets[i]]];
     }
   }
   const std::vector<Vec3f> normals = corner_normals(drawn(), positions_);
@@ -198,7 +210,8 @@ void MeshBuffers::draw_textured_triangles(int unit) const {
     const auto path = render_mesh_.looks.textures.find(static_cast<std::uint32_t>(number));
     if (path == render_mesh_.looks.textures.end()) return no_texture_.id();
     const auto texture = textures_.find(path->second);
-    return texture == textures_.end() ? no_texture_.id() : texture->second->id();
+    const bool is_there = texture != textures_.end() && texture->second.texture != nullptr;
+    return is_there ? texture->second.texture->id() : no_texture_.id();
   };
   while (body + 1 < first.size()) {  // bodies of one texture at once
     const std::size_t begin = body;

@@ -1,6 +1,7 @@
 #pragma once
 // The bodies on the graphics card: vertices, what they look like, and lists of triangles, ropes and edges. They may be
 // drawn smoother than they are simulated.
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <span>
@@ -21,10 +22,10 @@ class MeshBuffers {
   const RenderMesh& render_mesh() const { return render_mesh_; }
   /// What bodies look like from now on. Textures that cannot be read are left out, see texture_error.
   void set_looks(BodyLooks looks);
-  /// Why a texture is left out; empty: none is.
+  /// Why a texture is left out that the last call of set_looks() has tried to read; empty: none is.
   const std::string& texture_error() const { return texture_error_; }
   /// From the next frame on each triangle is cut into four so many times, and the surface is rounder; 0: as it is.
-  /// Returns whether that is new.
+  /// Fewer times where that would be more than four million triangles. Returns whether it is new.
   bool set_subdivision(int levels);
   /// values: one per vertex, or none. Without them vertices have the number of their tones, -1 those that are held.
   void set_frame(const FrameContent& frame, bool has_values);
@@ -47,6 +48,13 @@ class MeshBuffers {
     float value;
   };
 
+  /// Read again when its file is another.
+  struct KnownTexture {
+    std::filesystem::file_time_type time{};
+    bool is_read = false;
+    std::unique_ptr<Texture> texture{};  // null: it cannot be read
+  };
+
   void set_layout() const;
   void upload_lists();
   void upload_looks();
@@ -57,11 +65,11 @@ class MeshBuffers {
   FineSurface fine_;
   int levels_ = 0;
   std::vector<Vec3f> positions_;
-  std::vector<float> values_;
+  std::vector<float> values_, coarse_values_;
   std::vector<Vertex> vertices_;
   VertexArray triangles_array_, ropes_array_, edges_array_;
   Buffer vertex_buffer_, looks_, triangles_, ropes_, edges_;
-  std::map<std::string, std::unique_ptr<Texture>> textures_;  // by path
+  std::map<std::string, KnownTexture> textures_;  // by path
   std::string texture_error_;
   Texture no_texture_;  // through which the color is seen
 };

@@ -1,7 +1,5 @@
 #include "render/picture_maker.h"
 
-#include "pliant/core/error.h"
-
 namespace pliant_render {
 
 PictureMaker::PictureMaker(RenderMesh render_mesh, PictureOptions options)
@@ -12,7 +10,6 @@ PictureMaker::PictureMaker(RenderMesh render_mesh, PictureOptions options)
               static_cast<float>(target_.width()) / static_cast<float>(target_.height()),
               legend_ ? legend_width(target_.height()) / static_cast<float>(target_.width()) : 0),
       renderer_(std::move(render_mesh)) {
-  if (!renderer_.texture_error().empty()) pliant::fail_input(renderer_.texture_error());
   renderer_.set_subdivision(options_.appearance.subdivision);
 }
 

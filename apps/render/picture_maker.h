@@ -26,6 +26,8 @@ class PictureMaker {
 
   const std::string& driver() const { return context_.renderer(); }
   int samples() const { return target_.samples(); }  ///< fewer than asked for where the driver has no more
+  /// Why a texture is left out; empty: none is.
+  const std::string& texture_error() const { return renderer_.texture_error(); }
   /// time: at which the camera is there [s]
   Image draw(const FrameContent& frame, const std::optional<WindAnnotation>& wind, pliant::Real time = 0);
 

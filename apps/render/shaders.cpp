@@ -50,8 +50,9 @@ vec3 in_turn(vec3 at) {
 /// A place in the plane of two axes, the one that the surface lies along most at rest.
 vec2 laid(vec3 at) {
   vec3 n = abs(cross(dFdx(at), dFdy(at)));
-  if (n.z >= max(n.x, n.y)) return at.xy;
-  return n.y >= n.x ? at.xz : at.yz;
+  const float clearly = 1.01;  // more, so that rounding does not choose
+  if (clearly * n.z >= max(n.x, n.y)) return at.xy;
+  return clearly * n.y >= n.x ? at.xz : at.yz;
 }
 
 vec3 own_tone(vec2 here) {
@@ -66,7 +67,7 @@ vec3 own_tone(vec2 here) {
     if ((pattern == 5 || pattern == 7) && !gl_FrontFacing) return base;
     vec2 size = vec2(textureSize(picture, 0));
     vec4 seen = texture(picture, vec2(here.x, -here.y * (pattern >= 6 ? 1.0 : size.x / size.y)));  // rows go down
-    return mix(base, seen.rgb, seen.a);
+    return base * (1.0 - seen.a) + seen.rgb;
   }
   vec3 turns = in_turn(in_pattern_here);
   float turn = pattern == 1 ? turns.x * turns.y * turns.z : turns.x;
@@ -76,11 +77,11 @@ vec3 own_tone(vec2 here) {
 /// Plain weave: in each square of threads one way lies on top, in its neighbors the other. Fades where a thread has
 /// less than some pixels. Bends the normal, and gives how dark it is between threads.
 float weave(vec2 at, inout vec3 n) {
+  vec3 px = dFdx(point_here), py = dFdy(point_here);
   vec2 x = dFdx(at), y = dFdy(at);
   float width = max(length(x), length(y)), fade = 1.0 - smoothstep(0.12, 0.4, width);
   float area = x.x * y.y - x.y * y.x;
   if (fade <= 0.0 || abs(area) < 1e-12) return 1.0;
-  vec3 px = dFdx(point_here), py = dFdy(point_here);
   vec3 along = (px * y.y - py * x.y) / area, across = (py * x.x - px * y.x) / area;
   vec2 square = floor(at), inside = at - square - 0.5;
   bool is_along = mod(square.x + square.y, 2.0) < 1.0;
@@ -95,7 +96,9 @@ void main() {
   if (!gl_FrontFacing) n = -n;
   vec2 here = laid(in_pattern_here);
   vec3 tone = held;
+  int finish = int(255.0 * second_here.a + 0.5);
   if (is_colored != 0) {
+    finish = min(finish, 2);  // what reflects would change what colors tell
     float place = clamp((value_here - low) / (high - low), 0.002, 0.998);
     tone = textureLod(colors, vec2(place, 0.5), 0.0).rgb;
   } else if (front_here.a > 0.5) {
@@ -104,8 +107,8 @@ void main() {
     int number = int(value_here + 0.5);
     tone = gl_FrontFacing ? fronts[number] : backs[number];
   }
-  if (threads_here > 0.0) tone *= weave(threads_here * here, n);
-  color = vec4(lit(tone, point_here, n, int(255.0 * second_here.a + 0.5)), 1);
+  if (threads_here > 0.0 && is_colored == 0) tone *= weave(threads_here * here, n);
+  color = vec4(lit(tone, point_here, n, finish), 1);
 })";
 
 const std::string_view solid_vertex = R"(#version 330 core

@@ -33,7 +33,6 @@ void check(const pliant::BodyAppearance& appearance) {
   if (appearance.weave && !(*appearance.weave >= 0 && *appearance.weave <= 1)) {
     pliant::fail_input("from thread to thread it is 0 to 1 m");
   }
-  if (!appearance.texture.empty()) pliant::read_texture_file(appearance.texture);
 }
 
 /// Of the highest plane that faces up [m]; minus infinity without one.
@@ -81,8 +80,10 @@ void Session::set_looks(const SceneChanges& changes) {
 
 void Session::set_appearance(const std::string& body, const pliant::BodyAppearance& appearance, bool goes_on) {
   const auto noted = note(action::SetAppearance{body, appearance, goes_on});
-  find_body(body);
+  const auto before = scene_.appearances.find(find_body(body));
   check(appearance);
+  const bool has_texture = before != scene_.appearances.end() && before->second.texture == appearance.texture;
+  if (!has_texture && !appearance.texture.empty() && !is_replaying()) pliant::check_texture_file(appearance.texture);
   Edit edit{.what = body + ": appearance", .before = changes_};
   changes_.appearances[body] = appearance;
   set_looks(changes_);

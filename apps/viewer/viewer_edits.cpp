@@ -89,11 +89,17 @@ void Viewer::take_dropped_files() {
   if (files.empty()) return;
   if (!is_picture(files.front())) return open(files.front());
   LiveScene* live = source_.live();
-  if (live == nullptr) return say("this is a run; a picture is laid on bodies of a scene");
+  if (live == nullptr) return say("this is a run; open its scene to lay a picture on a body");
   const Snapshot& shown = live->shown();
   const auto point = pick_surface(*shown.render_mesh, shown.frame.content.positions, screen_, window_.cursor(), 0);
   if (!point && shown.body_names->size() != 1) return say("drop the picture onto the body that it is for");
   const std::string body = (*shown.body_names)[point ? shown.render_mesh->bodies[point->vertices[0]] : 0];
+  const auto has_surface = [&](std::uint32_t triangle_vertex) {
+    return (*shown.body_names)[shown.render_mesh->bodies[triangle_vertex]] == body;
+  };
+  if (std::ranges::none_of(shown.render_mesh->triangles, has_surface)) {
+    return say(body + " has no surface that a picture could lie on");
+  }
   pliant::BodyAppearance appearance;
   if (const auto given = shown.appearances->find(body); given != shown.appearances->end()) appearance = given->second;
   appearance.back.reset();  // on both sides

@@ -38,8 +38,9 @@ bool draw_appearance_panel(pliant::ViewSettings& appearance, int& samples, plian
   explain("on the ground, and with light of bodies on bodies");
   row_label("smoother", "each triangle is cut into four so many times, to be drawn rounder than it is simulated");
   ImGui::SetNextItemWidth(-1);
-  ImGui::SliderInt("##subdivision", &appearance.subdivision, 0, 3, appearance.subdivision == 0 ? "as simulated" : "%d",
-                   ImGuiSliderFlags_AlwaysClamp);
+  constexpr std::array<const char*, 4> finer = {"as simulated", "4 x the triangles", "16 x the triangles",
+                                                "64 x the triangles"};
+  ImGui::Combo("##subdivision", &appearance.subdivision, finer.data(), static_cast<int>(finer.size()));
   row_label("", "");
   bool is_lit = quality != pliant::Quality::low;
   if (ImGui::Checkbox("light", &is_lit)) appearance.quality = is_lit ? pliant::Quality::high : pliant::Quality::low;

@@ -14,6 +14,7 @@ namespace {
 using pliant::BodyAppearance;
 using pliant::Color;
 using pliant::Finish;
+using pliant::Mapping;
 using pliant::Pattern;
 
 constexpr std::size_t few_bodies = 3;  // that are unfolded at first
@@ -79,10 +80,10 @@ void draw_energy(const std::vector<std::span<const Slider>>& groups, const plian
   ImGui::TextUnformatted(energy_text(sum).c_str());
 }
 
-bool draw_size(const char* label, pliant::Real& size) {
+bool draw_size(const char* label, const char* unit, pliant::Real& size) {
   constexpr double least = 1e-3, most = 10;
   double shown = size;
-  if (!ImGui::SliderScalar(label, ImGuiDataType_Double, &shown, &least, &most, number_format(shown, "m").c_str(),
+  if (!ImGui::SliderScalar(label, ImGuiDataType_Double, &shown, &least, &most, number_format(shown, unit).c_str(),
                            ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat)) {
     return false;
   }
@@ -90,13 +91,45 @@ bool draw_size(const char* label, pliant::Real& size) {
   return true;
 }
 
+bool draw_mapping(Mapping& mapping) {
+  constexpr auto names = choice_names(Mapping{});
+  bool has_changed = false;
+  if (ImGui::BeginCombo("##mapping", names[static_cast<std::size_t>(mapping)].data())) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const auto choice = static_cast<Mapping>(i);
+      if (!ImGui::Selectable(names[i].data(), choice == mapping) || choice == mapping) continue;
+      mapping = choice;
+      has_changed = true;
+    }
+    ImGui::EndCombo();
+  }
+  explain(
+      "rest: by places on the body at rest; uv: by the texture coordinates of its mesh; automatic: uv where it has "
+      "them");
+  return has_changed;
+}
+
+/// None of a body without vertices. Vertices are numbered from body to body.
+std::optional<std::size_t> first_vertex(const std::string& body, const Snapshot& snapshot) {
+  const std::vector<std::uint32_t>& bodies = snapshot.render_mesh->bodies;
+  const auto number = std::ranges::find(*snapshot.body_names, body) - snapshot.body_names->begin();
+  const auto found = std::ranges::lower_bound(bodies, static_cast<std::uint32_t>(number));
+  if (found == bodies.end() || *found != static_cast<std::uint32_t>(number)) return {};
+  return static_cast<std::size_t>(found - bodies.begin());
+}
+
+/// Whether what is laid on a body now goes by texture coordinates.
+bool goes_by_uv(const std::string& body, const Snapshot& snapshot) {
+  const std::vector<pliant_render::VertexLook>& looks = snapshot.render_mesh->looks.vertices;
+  const auto vertex = first_vertex(body, snapshot);
+  return vertex && *vertex < looks.size() && looks[*vertex].by_uv > 0;
+}
+
 /// What the finish of a body is where it is left open.
 Finish usual_finish(const std::string& body, const Snapshot& snapshot) {
   const pliant_render::RenderMesh& mesh = *snapshot.render_mesh;
-  const auto number = std::ranges::find(*snapshot.body_names, body) - snapshot.body_names->begin();
-  const auto vertex = std::ranges::find(mesh.bodies, static_cast<std::uint32_t>(number)) - mesh.bodies.begin();
-  const bool is_sheet =
-      static_cast<std::size_t>(vertex) < mesh.is_sheet.size() && mesh.is_sheet[static_cast<std::size_t>(vertex)] != 0;
+  const auto vertex = first_vertex(body, snapshot);
+  const bool is_sheet = vertex && mesh.is_sheet[*vertex] != 0;
   const auto row = std::ranges::find(*snapshot.materials, body, &BodyMaterial::name);
   return pliant_render::finish_of({}, row == snapshot.materials->end() ? "" : row->material, is_sheet);
 }
@@ -154,8 +187,9 @@ void BodyPanel::draw_appearance(const std::string& body, const pliant::BodyTones
   has_changed |= has_new_back;
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-1);
-  has_changed |= draw_pattern(body, appearance);
-  if (!appearance.texture.empty()) has_changed |= draw_texture(body, appearance);
+  const char* const unit = goes_by_uv(body, snapshot) ? "of uv" : "m";
+  has_changed |= draw_pattern(body, unit, appearance);
+  if (!appearance.texture.empty()) has_changed |= draw_texture(body, unit, appearance);
   has_changed |= draw_finish(body, usual_finish(body, snapshot), appearance);
   if (!is_held_ && held_.first == body) held_ = {};
   if (!has_changed) return;
@@ -181,7 +215,8 @@ bool BodyPanel::draw_color(const std::string& body, const char* what, Color& col
   return has_changed;
 }
 
-bool BodyPanel::draw_pattern(const std::string& body, BodyAppearance& appearance) {
+/// unit: of its size.
+bool BodyPanel::draw_pattern(const std::string& body, const char* unit, BodyAppearance& appearance) {
   constexpr auto names = choice_names(Pattern{});
   bool has_changed = false;
   const auto shown = [&](std::size_t i) { return i == 0 ? "plain" : names[i].data(); };
@@ -201,22 +236,29 @@ bool BodyPanel::draw_pattern(const std::string& body, BodyAppearance& appearance
   has_changed |= draw_color(body, "pattern_color", appearance.pattern_color, "of every second field or stripe");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-1);
-  const bool has_resized = draw_size("##size", appearance.pattern_size);
+  const bool has_resized = draw_size("##size", unit, appearance.pattern_size);
   note_widget(body, "pattern_size", has_resized);
   return has_changed || has_resized;
 }
 
-/// A button that takes it off, and its size.
-bool BodyPanel::draw_texture(const std::string& body, BodyAppearance& appearance) {
-  row_label("texture", appearance.texture + "\nits width: in meters on the body at rest, or by texture coordinates");
+/// A button that takes it off, how it lies, and its width.
+bool BodyPanel::draw_texture(const std::string& body, const char* unit, BodyAppearance& appearance) {
+  row_label("texture", appearance.texture);
   const bool is_taken_off = ImGui::Button("take off");
   note_widget(body, "no_texture", is_taken_off);
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-1);
-  const bool has_resized = draw_size("##texture_size", appearance.texture_size);
+  const bool lies_otherwise = draw_mapping(appearance.mapping);
+  note_widget(body, "mapping", lies_otherwise);
+  row_label("", "");
+  ImGui::SetNextItemWidth(-1);
+  const bool has_resized = draw_size("##texture_size", unit, appearance.texture_size);
+  explain(
+      "its width: in meters on the body at rest, or by the texture coordinates of its mesh, as a share of the unit "
+      "square");
   note_widget(body, "texture_size", has_resized);
   if (is_taken_off) appearance.texture.clear();
-  return is_taken_off || has_resized;
+  return is_taken_off || lies_otherwise || has_resized;
 }
 
 bool BodyPanel::draw_finish(const std::string& body, Finish usual, BodyAppearance& appearance) {
@@ -225,7 +267,7 @@ bool BodyPanel::draw_finish(const std::string& body, Finish usual, BodyAppearanc
     return i == 0 ? fmt::format("usual ({})", names[static_cast<std::size_t>(usual)]) : std::string(names[i]);
   };
   bool has_changed = false;
-  row_label("finish", "how its surface throws light back; usual: as its material");
+  row_label("finish", "how its surface throws light back; usual: follows its material");
   ImGui::SetNextItemWidth(-1);
   if (ImGui::BeginCombo("##finish", shown(static_cast<std::size_t>(appearance.finish)).c_str())) {
     for (std::size_t i = 0; i < names.size(); ++i) {

@@ -20,8 +20,8 @@ class BodyPanel {
             const pliant_plot::MeasuredRun& measured);
   const MaterialPanel& materials() const { return materials_; }
   /// Where a widget of a body stands in the window, "cloth.front", "cloth.back", "cloth.pattern",
-  /// "cloth.pattern_color", "cloth.pattern_size", "cloth.no_texture", "cloth.texture_size" or "cloth.finish", as of the
-  /// last drawing: left, top, right, bottom.
+  /// "cloth.pattern_color", "cloth.pattern_size", "cloth.no_texture", "cloth.mapping", "cloth.texture_size" or
+  /// "cloth.finish", as of the last drawing: left, top, right, bottom.
   std::optional<std::array<float, 4>> place_of(const std::string& key) const;
 
  private:
@@ -33,8 +33,8 @@ class BodyPanel {
   void draw_appearance(const std::string& body, const pliant::BodyTones& tones, const Snapshot& snapshot,
                        LiveScene& live);
   bool draw_color(const std::string& body, const char* what, pliant::Color& color, const char* help);
-  bool draw_pattern(const std::string& body, pliant::BodyAppearance& appearance);
-  bool draw_texture(const std::string& body, pliant::BodyAppearance& appearance);
+  bool draw_pattern(const std::string& body, const char* unit, pliant::BodyAppearance& appearance);
+  bool draw_texture(const std::string& body, const char* unit, pliant::BodyAppearance& appearance);
   /// usual: what `automatic` means for this body.
   bool draw_finish(const std::string& body, pliant::Finish usual, pliant::BodyAppearance& appearance);
   void note_widget(const std::string& body, const std::string& what, bool has_changed);

@@ -5,9 +5,7 @@
 //     Scene scene = read_checkpoint("curtain.pliant");      // there, or on another day
 //     while (scene.simulation.state().step < scene.steps) scene.step();
 #include <filesystem>
-#include <functional>
 #include <optional>
-#include <string>
 
 #include "pliant_io/scene/scene.h"
 
@@ -27,9 +25,6 @@ std::string checkpoint_bytes(const Scene& scene, const std::filesystem::path& fo
 struct ResumeOptions {
   std::optional<std::int64_t> steps = {};  ///< in all, with those taken
   std::optional<Index> threads = {};       ///< as SolverSettings::threads; none: as the run has it
-  /// Called with the body and the path of each texture whose file is no longer there: the body is read without it.
-  /// None: such a file is missed as any other.
-  std::function<void(const std::string& body, const std::string& texture)> without_texture = {};
 };
 
 /// The scene as it was. The steps that follow have the same bits as if the run had gone on, by one build of the library

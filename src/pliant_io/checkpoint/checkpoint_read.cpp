@@ -1,9 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <set>
-
-#include <fmt/format.h>
 
 #include "pliant/core/printable.h"
 #include "pliant_io/checkpoint/checkpoint.h"
@@ -107,45 +104,11 @@ FileStamp read_stamp(const Node& node) {
   return {read_bytes(node.require("path")), static_cast<std::uint64_t>(size), static_cast<std::uint32_t>(sum)};
 }
 
-bool is_gone(const fs::path& path, const RunMove& move) {
-  std::error_code ignored;
-  return !fs::exists(path, ignored) && !fs::exists(move(path), ignored);
-}
-
-/// The paths of textures that are not there, of the files in `list`. The source is changed so that their bodies are
-/// read without them.
-std::set<fs::path> leave_out_textures(SceneSource& source, const Node& list, const RunMove& move,
-                                      const ResumeOptions& options) {
-  bool has_all = true;
-  for_each(list, [&](const Node& node) { has_all = has_all && !is_gone(read_stamp(node).path, move); });
-  std::set<fs::path> gone;
-  if (!options.without_texture || has_all) return gone;
-  SceneFiles files;
-  const ResolvedScene resolved = resolve_scene(source, files);
-  const auto bodies = Node(resolved.document).find("bodies");
-  for (std::size_t i = 0; bodies && i < bodies->size(); ++i) {
-    const Node body = (*bodies)[i];
-    const auto appearance = body.find("appearance");
-    const auto texture = appearance ? appearance->find("texture") : std::nullopt;
-    if (!texture || !texture->is_text() || texture->text().empty()) continue;
-    const fs::path path = absolute_path(read_path(*texture));
-    if (!is_gone(path, move)) continue;
-    gone.insert(path);
-    source.overrides.set.push_back(fmt::format("bodies[{}].appearance.texture=\"\"", i));
-    std::string name = fmt::format("body {}", i);
-    read_optional(body, "name", name);
-    options.without_texture(name, path.string());
-  }
-  return gone;
-}
-
-/// Refuses a mesh or a map that is another than it was, but for those that are known to be gone.
-/// @returns whether any is where it was moved to with the run
-bool check_files(const Node& list, const RunMove& move, const std::set<fs::path>& gone) {
+/// Refuses a mesh or a map that is another than it was. @returns whether any is where it was moved to with the run
+bool check_files(const Node& list, const RunMove& move) {
   bool has_moved = false;
   for_each(list, [&](const Node& node) {
     const FileStamp stamp = read_stamp(node);
-    if (gone.contains(stamp.path.lexically_normal())) return;
     if (stamp.is_at(stamp.path)) return;
     const fs::path there = move(stamp.path);
     if (move.has_happened() && stamp.is_at(there)) {
@@ -175,14 +138,9 @@ void move_folders(SceneSource& source, const RunMove& move) {
 }
 
 /// A scene with relative and absolute paths may find some of its files in their new places and others in the old ones.
-void check_files_read(const Node& list, const Scene& scene, const std::set<fs::path>& gone) {
-  std::vector<FileStamp> stamps;
-  for_each(list, [&](const Node& node) {
-    FileStamp stamp = read_stamp(node);
-    if (!gone.contains(stamp.path.lexically_normal())) stamps.push_back(std::move(stamp));
-  });
+void check_files_read(const Node& list, const Scene& scene) {
   for (std::size_t i = 0; i < scene.files.size(); ++i) {
-    const FileStamp stamp = i < stamps.size() ? stamps[i] : FileStamp{};
+    const FileStamp stamp = i < list.size() ? read_stamp(list[i]) : FileStamp{};
     if (scene.files[i].size == stamp.size && scene.files[i].crc32 == stamp.sum) continue;
     list.fail(
         fmt::format("this run was moved, and {} is not as it was when this checkpoint was made; move all files of "
@@ -412,14 +370,13 @@ Scene restore_scene(std::string_view bytes, std::string_view name, const fs::pat
   if (options.threads) source.overrides.threads = options.threads;
   const Node files = root.require("files");
   const RunMove move = read_move(root, folder);
-  const std::set<fs::path> gone = leave_out_textures(source, files, move, options);
-  const bool has_moved = check_files(files, move, gone);
+  const bool has_moved = check_files(files, move);
   if (has_moved) move_folders(source, move);
   Scene scene = root.require("source").locate([&] {
     if (unsealed.has_old_contact) keep_old_contact(source);
     return parse_scene(std::move(source));
   });
-  if (has_moved) check_files_read(files, scene, gone);
+  if (has_moved) check_files_read(files, scene);
 
   Simulation& simulation = scene.simulation;
   const Node timeline = root.require("timeline");

@@ -49,15 +49,21 @@ Mass read_body_mass(const Node& body, const Mesh& mesh, const std::string& name,
   return mass;
 }
 
-/// The texture's path is from the root from here on.
-BodyAppearance read_appearance(const Node& node) {
+/// The texture's path is from the root from here on. One that cannot be read moves nothing otherwise, so it is told and
+/// no more.
+BodyAppearance read_appearance(const Node& node, std::vector<std::string>& warnings) {
   BodyAppearance appearance;
   read_options(node, appearance);
-  const auto texture = node.find("texture");
-  if (!texture || texture->text().empty()) return appearance;
-  const NamedFile file = read_named_file(*texture);
-  texture->locate([&] { check_texture(file.path, file.bytes); });
-  appearance.texture = absolute_path(file.path).string();
+  if (appearance.texture.empty()) return appearance;
+  const Node texture = node.require("texture");
+  const std::filesystem::path path = read_path(texture);
+  try {
+    check_texture_file(path);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::input) throw;
+    warnings.push_back(texture.at(fmt::format("{}; the body has its plain color", error.what())));
+  }
+  appearance.texture = absolute_path(path).string();
   return appearance;
 }
 
@@ -110,7 +116,7 @@ void SceneReader::read_body(const Node& node) {
   const BodyId id = node.locate([&] { return simulation.add_body(std::move(mesh), mass, std::move(options)); });
   bodies.emplace(name, id);
   bodies_of[&node.origin()].push_back(id);
-  if (const auto appearance = node.find("appearance")) appearance_of[id] = read_appearance(*appearance);
+  if (const auto appearance = node.find("appearance")) appearance_of[id] = read_appearance(*appearance, warnings);
   if (animation_node) add_animation(*animation_node, id, std::move(animation.path));
   if (material) add_material(*material_node, id, *material);
   if (const auto constraints = node.find("constraints")) add_groups(*constraints, id);
