@@ -4,12 +4,14 @@ import os
 import pathlib
 import shutil
 import signal
-import struct
 import subprocess
+import sys
 import tempfile
 import time
 import unittest
-import zlib
+
+sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "recorder"))
+import png_file  # noqa: E402
 
 PLIANT = os.environ["PLIANT"]
 # The drivers keep memory to the end of the program.
@@ -18,30 +20,8 @@ ENVIRONMENT = os.environ | {"ASAN_OPTIONS": "detect_leaks=0"}
 
 def read_png(path):
     """Width, height and the rows of RGB of a PNG file."""
-    data = path.read_bytes()
-    assert data[:8] == b"\x89PNG\r\n\x1a\n"
-    place, body = 8, b""
-    while place < len(data):
-        length, kind = struct.unpack(">I4s", data[place:place + 8])
-        chunk = data[place + 8:place + 8 + length]
-        if kind == b"IHDR":
-            width, height, depth, color = struct.unpack(">IIBB", chunk[:10])
-            assert (depth, color) == (8, 2)
-        if kind == b"IDAT":
-            body += chunk
-        place += 12 + length
-    raw, rows, before = zlib.decompress(body), [], bytearray(3 * width)
-    for y in range(height):
-        method, row = raw[y * (3 * width + 1)], bytearray(raw[y * (3 * width + 1) + 1:(y + 1) * (3 * width + 1)])
-        for i in range(3 * width):
-            left, up = row[i - 3] if i >= 3 else 0, before[i]
-            corner = before[i - 3] if i >= 3 else 0
-            guess = left + up - corner
-            paeth = min((left, up, corner), key=lambda x: abs(guess - x))
-            row[i] = (row[i] + (0, left, up, (left + up) // 2, paeth)[method]) % 256
-        rows.append(row)
-        before = row
-    return width, height, rows
+    pixels = png_file.read(path.read_bytes())
+    return pixels.shape[1], pixels.shape[0], [row.tobytes() for row in pixels]
 
 
 def colors(rows):

@@ -76,11 +76,12 @@ char seen(const Image& image, double x, double z) {
   return name_of(at(image, 0.75 * to_v * (x - 0.5), to_v * (z - 0.5)));
 }
 
-pliant::Scene scene_in(const TemporaryFolder& folder, const std::string& appearance) {
+pliant::Scene scene_in(const TemporaryFolder& folder, const std::string& appearance,
+                       std::vector<std::string> set = {}) {
   return pliant::parse_scene(R"({ "pliant": 1, "steps": 1, "bodies": [ { "name": "sheet", "mass": { "total": 1 },
       "mesh": { "shape": "grid", "columns": 3, "rows": 3 }, "appearance": )" +
                                  appearance + "} ] }",
-                             folder.path(), "textured");
+                             folder.path(), "textured", {.set = std::move(set)});
 }
 
 }  // namespace
@@ -239,6 +240,8 @@ TEST_CASE("textures that are missing, broken, too large or of another kind are t
   };
   CHECK(contains(warning(R"({ "texture": "none.png" })"), "bodies[0].appearance.texture"));
   CHECK(contains(warning(R"({ "texture": "none.png" })"), "none.png: no such file"));
+  const pliant::Scene set = scene_in(folder, "{}", {"bodies[0].appearance.texture=none.png"});
+  CHECK(contains(set.warnings.at(0), "texture=none.png: none.png: no such file"));
   CHECK(contains(refused(R"({ "texture": 3 })"), "bodies[0].appearance.texture"));
   std::ofstream(folder.path() / "text.png") << "no picture";
   CHECK(contains(warning(R"({ "texture": "text.png" })"), "PNG or JPEG"));

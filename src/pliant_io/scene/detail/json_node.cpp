@@ -121,7 +121,8 @@ std::string_view Node::require_one_of(const std::vector<std::string_view>& keys)
 
 std::string Node::at(std::string_view what) const {
   const SourcePlace place = this->place();
-  return fmt::format("{}: {}: {}", printable_place(place.origin->name), place.path, what);
+  const std::string path = place.path.empty() ? std::string() : place.path + ": ";  // a --set is its own place
+  return fmt::format("{}: {}{}", printable_place(place.origin->name), path, what);
 }
 
 void Node::fail(std::string_view what) const {
