@@ -35,6 +35,7 @@ struct RenderArguments : AppearanceArguments {
       frames;              ///< how many, spread evenly, 1 to 100,000; none: all for a film, the last for a picture
   bool sheet = false;      ///< all frames in one picture
   bool turntable = false;  ///< the camera goes around once
+  bool timing = false;     ///< print how long each pass of a picture takes
   bool quiet = false;      ///< print warnings and errors only
 };
 
@@ -172,16 +173,19 @@ class FrameDrawer {
     const pliant_render::ClipFrame& frame = clip_.frames[chosen_[i]];
     return maker_.draw(frame.content, frame.wind, frame.time);
   }
+  /// Of the passes of a picture; empty: it was not asked for.
+  std::string timing() const { return clock_.text(); }
   /// What the frames show lasts [s].
   pliant::Real duration() const { return clip_.frames[chosen_.back()].time - clip_.frames[chosen_.front()].time; }
 
  private:
-  pliant_render::PictureOptions options(const std::array<pliant::Index, 2>& size) const {
+  pliant_render::PictureOptions options(const std::array<pliant::Index, 2>& size) {
     const pliant_render::Bounds bounds = bounds_of(clip_);
     pliant_render::PictureOptions options{clip_.appearance, static_cast<int>(arguments_.samples), bounds,
                                           ground_height(clip_, bounds), color_range(clip_)};
     options.appearance.size = size;
     options.appearance.camera = camera_of(clip_, bounds, size);
+    if (arguments_.timing) options.clock = &clock_;
     if (arguments_.turntable) options.appearance.camera.turn_rate = turntable_rate();
     return options;
   }
@@ -198,6 +202,7 @@ class FrameDrawer {
   const RenderArguments& arguments_;
   const Clip& clip_;
   std::vector<std::size_t> chosen_;
+  pliant_render::PassClock clock_;
   pliant_render::PictureMaker maker_;
 };
 
@@ -218,8 +223,9 @@ std::string write_sheet(const RenderArguments& arguments, const Clip& clip) {
   const int gap = std::max(2, clip.appearance.size[0] / 160);
   const pliant_render::Image sheet = contact_sheet(images, columns, gap, bytes_of(clip.appearance.background));
   write_png(arguments.out, sheet);
-  return fmt::format("{}: {} frames, {} x {} pixels, drawn by {}", pliant::printable_place(arguments.out.string()),
-                     images.size(), sheet.width, sheet.height, drawer.driver());
+  return fmt::format("{}{}: {} frames, {} x {} pixels, drawn by {}", drawer.timing(),
+                     pliant::printable_place(arguments.out.string()), images.size(), sheet.width, sheet.height,
+                     drawer.driver());
 }
 
 std::string speed_text(pliant::Real duration, std::size_t frames, std::int64_t fps) {
@@ -246,7 +252,7 @@ std::string write_film(const RenderArguments& arguments, const Clip& clip) {
   const std::string written = writer.close();
   show(arguments, "");
   if (!writer.hint().empty()) print_to_stderr("hint: " + writer.hint() + "\n");
-  return fmt::format("{}: {}{} x {} pixels, drawn by {}", pliant::printable_place(written),
+  return fmt::format("{}{}: {}{} x {} pixels, drawn by {}", drawer.timing(), pliant::printable_place(written),
                      is_picture(arguments) ? "" : speed_text(drawer.duration(), drawer.count(), arguments.fps),
                      clip.appearance.size[0], clip.appearance.size[1], drawer.driver());
 }
@@ -321,6 +327,7 @@ void add_render_command(CLI::App& program, int& exit_code) {
              "Number of frames, spread evenly; default: all for a film, the last for a picture");
   command->add_flag("--sheet", arguments->sheet, "All frames in one picture; default: 12 of them");
   command->add_flag("--turntable", arguments->turntable, "The camera goes around once while the film lasts");
+  command->add_flag("--timing", arguments->timing, "Say how long each pass of a picture takes");
   command->add_flag("--quiet", arguments->quiet, "No progress");
   add_setting_options(*command, *arguments);
   add_simulated_import_options(*command, arguments->import);

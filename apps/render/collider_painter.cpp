@@ -30,9 +30,7 @@ Vec3f flatten(const Vec3f& point_in_frame, const Vec3f& light_in_frame) {
   return point_in_frame - light_in_frame * (std::max(point_in_frame.z(), 0.0F) / light_in_frame.z());
 }
 
-ColliderPainter::ColliderPainter()
-    : solid_(shaders::solid_vertex, "", shaders::lit(shaders::surface_fragment)),
-      plane_(shaders::plane_vertex, "", shaders::plane_fragment) {}
+ColliderPainter::ColliderPainter() : plane_(shaders::plane_vertex, "", shaders::plane_fragment) {}
 
 void ColliderPainter::set_frame(const std::vector<DrawnCollider>& colliders) {
   colliders_ = colliders;
@@ -77,6 +75,15 @@ std::vector<Mat4f> ColliderPainter::planes(const Vec3f& eye) const {
   return planes;
 }
 
+void ColliderPainter::each_point(const std::function<void(const Vec3f&)>& take) const {
+  for (const DrawnCollider& each : colliders_) {
+    const Mat4f place = matrix_of(each.pose);
+    for (const Vec3f& point : each.surface->points) {
+      take(place.topLeftCorner<3, 3>() * point + place.topRightCorner<3, 1>());
+    }
+  }
+}
+
 Bounds ColliderPainter::bounds_in(const Mat4f& frame, const Vec3f& light) const {
   Bounds bounds;
   for (const DrawnCollider& each : colliders_) {
@@ -102,16 +109,19 @@ void ColliderPainter::draw_triangles_of(const DrawnCollider& each, const Program
 }
 
 void ColliderPainter::draw_solids(const Projection& projection, const SceneLight& light,
-                                  std::optional<pliant::Index> lit) const {
+                                  std::optional<pliant::Index> lit) {
   if (solids_.empty()) return;
-  solid_.use();
-  solid_.set("camera", projection.camera);
-  solid_.set("setback", projection.setback);
-  light.set(solid_);
-  solid_.set("is_colored", 0);
+  SurfaceTraits traits{.is_solid = true};
+  traits.has_shadows = light.has_shadows();
+  traits.has_occlusion = light.has_occlusion();
+  const Program& solid = programs_.of(traits);
+  solid.use();
+  solid.set("camera", projection.camera);
+  solid.set("setback", projection.setback);
+  light.set(solid);
   for (const DrawnCollider& each : colliders_) {
-    solid_.set("held", each.number == lit ? lit_tone : solid_tone);
-    draw_triangles_of(each, solid_, Mat4f::Identity());
+    solid.set("held", each.number == lit ? lit_tone : solid_tone);
+    draw_triangles_of(each, solid, Mat4f::Identity());
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 // Draws the colliders of a frame: solid surfaces, and planes with a shadow on them.
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -8,6 +9,7 @@
 #include "pliant_io/scene/view_settings.h"
 #include "render/collider_view.h"
 #include "render/scene_light.h"
+#include "render/surface_programs.h"
 
 namespace pliant_render {
 
@@ -32,13 +34,15 @@ class ColliderPainter {
   /// Planes that are seen from their front, floors first.
   std::vector<Mat4f> planes(const Vec3f& eye) const;
   bool has_planes() const;
+  /// Of those that are not planes, in space [m].
+  void each_point(const std::function<void(const Vec3f&)>& take) const;
   /// What casts shadows, in space.
   Bounds bounds_in(const Mat4f& frame, const Vec3f& light) const;
 
   /// Draws the triangles of all solids with a program that takes the place of each as its uniform `place`.
   void draw_triangles(const Program& program, const Mat4f& frame) const;
   /// `lit`: the number of one that is drawn brighter.
-  void draw_solids(const Projection& projection, const SceneLight& light, std::optional<pliant::Index> lit) const;
+  void draw_solids(const Projection& projection, const SceneLight& light, std::optional<pliant::Index> lit);
   /// A plane that fades from the middle of the scene outward; the texture bound last is the mask of its shadow.
   struct PlaneLook {
     Vec3f middle;  ///< of the scene [m]
@@ -60,7 +64,8 @@ class ColliderPainter {
 
   std::vector<DrawnCollider> colliders_;
   std::map<const ColliderSurface*, std::unique_ptr<Solid>> solids_;
-  Program solid_, plane_;
+  SurfacePrograms programs_;
+  Program plane_;
   VertexArray empty_array_;
 };
 

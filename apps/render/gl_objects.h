@@ -49,6 +49,7 @@ class Program {
   void set(const char* name, std::span<const Vec3f> values) const {
     glUniform3fv(place(name), static_cast<GLsizei>(values.size()), values.front().data());
   }
+  void set(const char* name, const Mat3f& value) const { glUniformMatrix3fv(place(name), 1, GL_FALSE, value.data()); }
   void set(const char* name, const Mat4f& value) const { glUniformMatrix4fv(place(name), 1, GL_FALSE, value.data()); }
 
  private:

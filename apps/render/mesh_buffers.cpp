@@ -1,8 +1,10 @@
 #include "render/mesh_buffers.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <set>
+#include <utility>
 
 #include "pliant/core/error.h"
 #include "render/texture_image.h"
@@ -43,6 +45,20 @@ void fill(const Texture& texture, TextureImage image) {
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_REPEAT);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_REPEAT);
+}
+
+/// What a program needs for a vertex of this look.
+SurfaceTraits traits_of(const VertexLook& look) {
+  const int pattern = look.back[3], finish = look.second[3];
+  SurfaceTraits traits;
+  traits.has_looks = look.front[3] != 0;
+  traits.has_gradient = traits.has_looks && pattern == gradient_pattern;
+  traits.has_picture = traits.has_looks && pattern >= texture_pattern;
+  traits.has_fields = traits.has_looks && pattern > 0 && pattern < gradient_pattern;
+  traits.has_weave = look.threads > 0;
+  traits.has_cloth = finish == static_cast<int>(pliant::Finish::cloth);
+  traits.has_gloss = finish > static_cast<int>(pliant::Finish::matte);
+  return traits;
 }
 
 /// The lists of a finer surface, without what frames are measured by.
@@ -136,6 +152,7 @@ void MeshBuffers::upload_looks() {
   for (std::size_t i = 0; i < render_mesh_.texture_coordinates.size(); ++i) {
     if (looks[i].by_uv > 0) looks[i].place.head<2>() = looks[i].by_uv * render_mesh_.texture_coordinates[i];
   }
+  find_traits(looks);
   if (levels_ > 0) {
     std::vector<Vec3f> places, fine_places;
     for (const VertexLook& look : looks) places.push_back(look.place);
@@ -201,29 +218,56 @@ void MeshBuffers::draw_triangles() const {
   glDrawElements(GL_TRIANGLES, size_of(drawn().corners), GL_UNSIGNED_INT, nullptr);
 }
 
-void MeshBuffers::draw_textured_triangles(int unit) const {
+/// Of the surfaces of bodies; without copies, which look like their vertices.
+void MeshBuffers::find_traits(const std::vector<VertexLook>& looks) {
+  const std::size_t bodies = render_mesh_.first_corners.size();
+  traits_.assign(bodies > 0 ? bodies - 1 : 0, {});
+  const auto count = static_cast<std::size_t>(render_mesh_.vertex_count);
+  for (std::size_t i = 0; i < std::min(count, render_mesh_.bodies.size()); ++i) {
+    if (render_mesh_.bodies[i] >= traits_.size()) continue;
+    SurfaceTraits& traits = traits_[render_mesh_.bodies[i]].traits;
+    traits = traits.with(traits_of(looks[i]));
+  }
+  for (std::size_t i = 0; i < render_mesh_.rest_lengths.size(); ++i) {
+    const std::uint32_t a = render_mesh_.springs[2 * i], b = render_mesh_.springs[2 * i + 1];
+    const float length = render_mesh_.rest_lengths[i];
+    if (render_mesh_.bodies[a] >= traits_.size() || !(length > 0) || !(looks[a].threads > 0)) continue;
+    BodyTraits& body = traits_[render_mesh_.bodies[a]];
+    const float threads = looks[a].threads * (looks[a].place - looks[b].place).norm() / length;
+    body.threads = body.threads > 0 ? std::min(body.threads, threads) : threads;
+  }
+}
+
+GLuint MeshBuffers::texture_of(std::size_t body) const {
+  const auto path = render_mesh_.looks.textures.find(static_cast<std::uint32_t>(body));
+  if (path == render_mesh_.looks.textures.end()) return no_texture_.id();
+  const auto texture = textures_.find(path->second);
+  const bool is_there = texture != textures_.end() && texture->second.texture != nullptr;
+  return is_there ? texture->second.texture->id() : no_texture_.id();
+}
+
+void MeshBuffers::draw_looks(int unit, float pixel, const std::function<void(const SurfaceTraits&)>& use) const {
+  constexpr float too_many = 0.6F;  // threads in a pixel, a little more than the program shows
   const std::vector<std::uint32_t>& first = drawn().first_corners;
   glBindVertexArray(triangles_array_.id());
-  glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
-  std::size_t body = 0;
-  const auto texture_of = [&](std::size_t number) -> GLuint {
-    const auto path = render_mesh_.looks.textures.find(static_cast<std::uint32_t>(number));
-    if (path == render_mesh_.looks.textures.end()) return no_texture_.id();
-    const auto texture = textures_.find(path->second);
-    const bool is_there = texture != textures_.end() && texture->second.texture != nullptr;
-    return is_there ? texture->second.texture->id() : no_texture_.id();
+  const auto look_of = [&](std::size_t body) {
+    SurfaceTraits traits = traits_[body].traits;
+    traits.has_weave = traits.has_weave && traits_[body].threads * pixel < too_many;
+    return std::pair(texture_of(body), traits);
   };
-  while (body + 1 < first.size()) {  // bodies of one texture at once
+  for (std::size_t body = 0; body + 1 < first.size();) {  // those of one look at once
     const std::size_t begin = body;
-    const GLuint texture = texture_of(begin);
-    while (body + 1 < first.size() && texture_of(body) == texture) ++body;
+    const auto look = look_of(begin);
+    while (body + 1 < first.size() && look_of(body) == look) ++body;
     const std::uint32_t count = first[body] - first[begin];
     if (count == 0) continue;
-    glBindTexture(GL_TEXTURE_2D, texture);
+    use(look.second);
+    glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+    glBindTexture(GL_TEXTURE_2D, look.first);
+    glActiveTexture(GL_TEXTURE0);
     glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT,
                    offset_of(first[begin] * sizeof(std::uint32_t)));
   }
-  glActiveTexture(GL_TEXTURE0);
 }
 
 void MeshBuffers::draw_ropes() const {

@@ -2,6 +2,7 @@
 // The bodies on the graphics card: vertices, what they look like, and lists of triangles, ropes and edges. They may be
 // drawn smoother than they are simulated.
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <span>
@@ -10,6 +11,7 @@
 #include "render/gl_objects.h"
 #include "render/loop_subdivision.h"
 #include "render/render_mesh.h"
+#include "render/surface_programs.h"
 
 namespace pliant_render {
 
@@ -33,8 +35,9 @@ class MeshBuffers {
   std::span<const Vec3f> positions() const { return positions_; }
 
   void draw_triangles() const;
-  /// With the texture of each body at this unit, the program in use.
-  void draw_textured_triangles(int unit) const;
+  /// Body by body, each with its texture at this unit; `use` prepares the program for what a body has. `pixel`: what a
+  /// pixel shows of the nearest one, across [m].
+  void draw_looks(int unit, float pixel, const std::function<void(const SurfaceTraits&)>& use) const;
   void draw_ropes() const;
   void draw_edges() const;
   bool has_triangles() const { return !render_mesh_.triangles.empty(); }
@@ -55,10 +58,18 @@ class MeshBuffers {
     std::unique_ptr<Texture> texture{};  // null: it cannot be read
   };
 
+  /// What is known of a body's look before it is drawn.
+  struct BodyTraits {
+    SurfaceTraits traits;
+    float threads = 0;  ///< of the weave, a meter at rest, where they are the widest [1/m]; 0: none
+  };
+
   void set_layout() const;
   void upload_lists();
   void upload_looks();
+  void find_traits(const std::vector<VertexLook>& looks);
   void read_textures();
+  GLuint texture_of(std::size_t body) const;
   const RenderMesh& drawn() const { return levels_ > 0 ? fine_mesh_ : render_mesh_; }
 
   RenderMesh render_mesh_, fine_mesh_;  // the fine one has lists to draw alone
@@ -71,7 +82,8 @@ class MeshBuffers {
   Buffer vertex_buffer_, looks_, triangles_, ropes_, edges_;
   std::map<std::string, KnownTexture> textures_;  // by path
   std::string texture_error_;
-  Texture no_texture_;  // through which the color is seen
+  std::vector<BodyTraits> traits_;  // of each body
+  Texture no_texture_;              // through which the color is seen
 };
 
 }  // namespace pliant_render

@@ -14,7 +14,10 @@ PictureMaker::PictureMaker(RenderMesh render_mesh, PictureOptions options)
 }
 
 Image PictureMaker::draw(const FrameContent& frame, const std::optional<WindAnnotation>& wind, pliant::Real time) {
+  PassClock* const clock = options_.clock;
+  if (clock != nullptr) clock->begin();
   DrawOptions options;
+  options.clock = clock;
   options.viewpoint = camera_.at(time);
   options.range = options_.range;
   options.quality = options_.appearance.quality;
@@ -28,12 +31,16 @@ Image PictureMaker::draw(const FrameContent& frame, const std::optional<WindAnno
   } else {
     renderer_.set_frame(visible_part(frame, options_.appearance), options_.appearance.color);
   }
+  if (clock != nullptr) clock->end("vertices");
   target_.begin();
   renderer_.draw(options_.appearance, options, width, height);
   target_.resolve();
+  if (clock != nullptr) clock->end("samples to pixels");
   const std::optional<WindAnnotation> shown_wind = options_.appearance.wind_arrow ? wind : std::nullopt;
   overlay_.draw(options_.appearance, options.viewpoint, legend_, shown_wind, target_.width(), target_.height());
-  return target_.read();
+  Image image = target_.read();
+  if (clock != nullptr) clock->end("text, and reading");
+  return image;
 }
 
 }  // namespace pliant_render

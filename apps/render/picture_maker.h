@@ -17,6 +17,7 @@ struct PictureOptions {
   Bounds bounds;                        ///< what the automatic camera fits into the picture
   float ground_height = 0;              ///< [m]
   std::array<float, 2> range = {0, 1};  ///< values at the ends of the color map
+  PassClock* clock = nullptr;           ///< of the passes of all pictures, alive as long as the maker
 };
 
 class PictureMaker {

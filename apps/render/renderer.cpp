@@ -1,6 +1,7 @@
 #include "render/renderer.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "render/scalar_fields.h"
 #include "render/shaders.h"
@@ -79,8 +80,6 @@ GLsizei count_of(const std::vector<std::uint32_t>& list) {
 Renderer::Renderer(RenderMesh render_mesh)
     : mesh_(std::move(render_mesh)),
       setback_(setback_of(mesh_.render_mesh().rest_lengths)),
-      surface_(shaders::surface_vertex, "", shaders::lit(shaders::surface_fragment)),
-      flat_surface_(shaders::flat_vertex, shaders::flat_geometry, shaders::lit(shaders::surface_fragment)),
       line_(shaders::stroke_vertex, shaders::line_geometry, shaders::line_fragment),
       marker_(shaders::stroke_vertex, shaders::marker_geometry, shaders::marker_fragment),
       flatten_(shaders::flatten_vertex, "", shaders::flatten_fragment),
@@ -117,6 +116,9 @@ void Renderer::draw(const pliant::ViewSettings& appearance, const DrawOptions& o
   const Mat4f camera = options.viewpoint.projection(picture.x() / picture.y()) * options.viewpoint.view();
   draw_light_maps(appearance, options);
   go_to_picture(static_cast<GLuint>(target));
+  const auto end = [&options](std::string_view pass) {
+    if (options.clock != nullptr) options.clock->end(pass);
+  };
   const Vec3f background = tone_of(appearance.background);
   glClearColor(background.x(), background.y(), background.z(), 1);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
@@ -127,14 +129,19 @@ void Renderer::draw(const pliant::ViewSettings& appearance, const DrawOptions& o
   } else if (appearance.ground) {
     draw_floor(appearance, options, camera, static_cast<GLuint>(target));
   }
+  end("background and floor");
   glEnable(GL_BLEND);
-  light_.shade_floors();
+  light_.shade_floors(picture);
+  end("sky on the floor");
   glEnable(GL_DEPTH_TEST);
+  draw_surface(appearance, options, camera);  // first, since they lie in front of what they lie on
+  end("bodies");
   colliders_.draw_solids(projection(options), light_, options.lit_collider);
-  draw_surface(appearance, options, camera);
+  end("colliders");
   draw_lines(appearance, options, camera, picture);
   draw_markers(options, camera, picture);
   draw_selection(options, camera, picture);
+  end("lines and marks");
   glDisable(GL_BLEND);
   glDisable(GL_DEPTH_TEST);
   glBindVertexArray(0);
@@ -149,11 +156,37 @@ void Renderer::draw_light_maps(const pliant::ViewSettings& appearance, const Dra
       draw_rope_shadows();
       draw_depths(setback);
     });
+    if (options.clock != nullptr) options.clock->end("shadows on bodies");
   }
-  light_.draw_occlusion(options.viewpoint, {size_, 0.5F / options.pixel, occlusion_reach * bounds_.radius()}, [&] {
+  const float reach = occlusion_reach * bounds_.radius();
+  light_.draw_screen_light(options.viewpoint, {size_, 1 / options.pixel, reach, area_of(options, reach)}, [&] {
     draw_floor_depths(appearance, options);
     draw_depths(projection(options).setback);
   });
+  if (options.clock != nullptr) options.clock->end("share of the sky");
+}
+
+/// The part of the picture in which all bodies and colliders lie, and what is nearer to them than `reach`.
+Box Renderer::area_of(const DrawOptions& options, float reach) const {
+  const Mat4f camera = projection(options).camera;
+  const float rows = options.viewpoint.projection(size_.x() / size_.y())(1, 1);
+  Box area{Vec2f::Ones(), Vec2f::Zero()};
+  bool is_all = false;
+  const auto add = [&](const Vec3f& point) {
+    const Vec4f seen = camera * point.homogeneous();
+    if (!(seen.w() > options.viewpoint.near + reach)) is_all = true;  // the camera is among them
+    const Vec2f at = (seen.head<2>() / seen.w()).array() / 2 + 0.5F;
+    const float height = rows * reach / (seen.w() - reach) / 2;
+    const Vec2f around(height * size_.y() / size_.x(), height);
+    area.low = area.low.cwiseMin(at - around);
+    area.high = area.high.cwiseMax(at + around);
+  };
+  for (const Vec3f& point : mesh_.positions()) add(point);
+  colliders_.each_point(add);
+  if (is_all) return {};
+  area.low = area.low.cwiseMax(0).cwiseMin(1);
+  area.high = area.high.cwiseMax(area.low).cwiseMin(1);
+  return area;
 }
 
 void Renderer::draw_depths(float setback) const {
@@ -209,7 +242,9 @@ void Renderer::draw_floor(const pliant::ViewSettings& appearance, const DrawOpti
   if (!appearance.shadow || !(light.z() > least_slope_of_light) || bounds_.is_empty()) return;
   Mat4f to_floor = Mat4f::Identity();
   to_floor(2, 3) = -options.ground_height;
+  if (options.clock != nullptr) options.clock->end("background and floor");
   const ShadowArea area = draw_shadow(to_floor, light);
+  if (options.clock != nullptr) options.clock->end("shadow on the floor");
   go_to_picture(target);
   glEnable(GL_BLEND);
   lay_shadow(area, options.ground_height, camera);
@@ -318,24 +353,38 @@ void Renderer::lay_shadow(const ShadowArea& area, float height, const Mat4f& cam
   glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
 }
 
-void Renderer::draw_surface(const pliant::ViewSettings& appearance, const DrawOptions& options,
-                            const Mat4f& camera) const {
+float Renderer::nearest_pixel(const DrawOptions& options) const {
+  const Vec3f nearest = options.viewpoint.eye.cwiseMax(bounds_.low).cwiseMin(bounds_.high);
+  const float rows = options.viewpoint.projection(size_.x() / size_.y())(1, 1) * size_.y();
+  return 2 * (nearest - options.viewpoint.eye).norm() / rows;
+}
+
+void Renderer::draw_surface(const pliant::ViewSettings& appearance, const DrawOptions& options, const Mat4f& camera) {
   if (!mesh_.has_triangles()) return;
-  const Program& program = appearance.shading == pliant::Shading::flat ? flat_surface_ : surface_;
-  program.use();
-  program.set("camera", camera);
-  light_.set(program);
-  set_tones(program, appearance);
-  program.set("held", solid_tone);
-  program.set("is_colored", has_values_ ? 1 : 0);
-  program.set("low", options.range[0]);
-  program.set("high", options.range[1]);
-  program.set("colors", 0);
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, map_.id());
   constexpr int texture_unit = 3;  // beside those of the light
-  program.set("picture", texture_unit);
-  mesh_.draw_textured_triangles(texture_unit);
+  const Program* in_use = nullptr;
+  mesh_.draw_looks(texture_unit, nearest_pixel(options), [&](SurfaceTraits traits) {
+    if (has_values_) {  // these tell something, whatever bodies look like
+      traits = {.has_cloth = traits.has_cloth};
+      traits.is_colored = true;
+    }
+    traits.is_flat = appearance.shading == pliant::Shading::flat;
+    traits.has_shadows = light_.has_shadows();
+    traits.has_occlusion = light_.has_occlusion();
+    const Program& program = surface_programs_.of(traits);
+    if (&program == std::exchange(in_use, &program)) return;
+    program.use();
+    program.set("camera", camera);
+    light_.set(program);
+    set_tones(program, appearance);
+    program.set("held", solid_tone);
+    program.set("low", options.range[0]);
+    program.set("high", options.range[1]);
+    program.set("colors", 0);
+    program.set("picture", texture_unit);
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, map_.id());
+  });
 }
 
 void Renderer::draw_lines(const pliant::ViewSettings& appearance, const DrawOptions& options, const Mat4f& camera,

@@ -5,6 +5,7 @@
 #include "render/collider_painter.h"
 #include "render/gl_objects.h"
 #include "render/mesh_buffers.h"
+#include "render/pass_clock.h"
 
 namespace pliant_render {
 
@@ -19,6 +20,7 @@ struct DrawOptions {
   bool selection = false;               ///< marks on selected vertices
   std::optional<pliant::Index> lit_collider{};      ///< the number of one that is drawn brighter
   pliant::Quality quality = pliant::Quality::high;  ///< `automatic` is `high` here
+  PassClock* clock = nullptr;                       ///< for who wants to know what takes how long
 };
 
 class Renderer {
@@ -45,6 +47,7 @@ class Renderer {
   ShadowArea draw_shadow(const Mat4f& to_floor, const Vec3f& light);
   Projection projection(const DrawOptions& options) const;
   void draw_light_maps(const pliant::ViewSettings& appearance, const DrawOptions& options);
+  Box area_of(const DrawOptions& options, float reach) const;
   void draw_depths(float setback) const;
   void draw_floor_depths(const pliant::ViewSettings& appearance, const DrawOptions& options) const;
   void draw_rope_shadows() const;
@@ -55,7 +58,9 @@ class Renderer {
   void blur(const Texture& from, const Framebuffer& to, const Vec2f& step) const;
   void draw_ground(const pliant::ViewSettings& appearance, const DrawOptions& options, const Mat4f& camera) const;
   void lay_shadow(const ShadowArea& area, float height, const Mat4f& camera) const;
-  void draw_surface(const pliant::ViewSettings& appearance, const DrawOptions& options, const Mat4f& camera) const;
+  void draw_surface(const pliant::ViewSettings& appearance, const DrawOptions& options, const Mat4f& camera);
+  /// What a pixel shows of the nearest body, across [m]; 0: the camera is among them.
+  float nearest_pixel(const DrawOptions& options) const;
   void draw_lines(const pliant::ViewSettings& appearance, const DrawOptions& options, const Mat4f& camera,
                   const Vec2f& picture) const;
   void draw_markers(const DrawOptions& options, const Mat4f& camera, const Vec2f& picture) const;
@@ -71,7 +76,8 @@ class Renderer {
   bool has_values_ = false;
   pliant::ColorBy map_of_ = pliant::ColorBy::none;
   GLsizei marker_count_ = 0, selected_count_ = 0;
-  Program surface_, flat_surface_, line_, marker_, flatten_, flatten_ropes_, blur_, ground_, shadow_;
+  SurfacePrograms surface_programs_;
+  Program line_, marker_, flatten_, flatten_ropes_, blur_, ground_, shadow_;
   VertexArray markers_array_, selected_array_, empty_array_;
   Buffer markers_, selected_;
   Texture map_, mask_, half_blurred_;

@@ -13,9 +13,9 @@ constexpr int shadow_map_size = 1024;  // of shadows [texels]
 
 /// A texture of numbers with this target drawing into it.
 void set_up(const Texture& texture, const Framebuffer& target, GLenum format, int width, int height) {
-  const bool is_depth = format == GL_DEPTH_COMPONENT24;
+  const bool is_depth = format == GL_DEPTH_COMPONENT32F;
   glBindTexture(GL_TEXTURE_2D, texture.id());
-  glTexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(format), width, height, 0, is_depth ? GL_DEPTH_COMPONENT : GL_RG,
+  glTexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(format), width, height, 0, is_depth ? GL_DEPTH_COMPONENT : GL_RGBA,
                GL_FLOAT, nullptr);
   const GLint filter = is_depth ? GL_NEAREST : GL_LINEAR;
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
@@ -25,9 +25,6 @@ void set_up(const Texture& texture, const Framebuffer& target, GLenum format, in
   glBindFramebuffer(GL_FRAMEBUFFER, target.id());
   glFramebufferTexture2D(GL_FRAMEBUFFER, is_depth ? GL_DEPTH_ATTACHMENT : GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
                          texture.id(), 0);
-  if (!is_depth) return;
-  glDrawBuffer(GL_NONE);
-  glReadBuffer(GL_NONE);
 }
 
 /// Compared with a depth, between texels; what lies outside is in the light.
@@ -68,6 +65,29 @@ void draw_screen(const VertexArray& empty_array) {
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
+/// Nothing outside of this part of a picture is drawn, until GL_SCISSOR_TEST is disabled.
+void limit_to(const Box& area, const Vec2f& picture) {
+  const Vec2f low = area.low.cwiseProduct(picture).array().floor(),
+              high = area.high.cwiseProduct(picture).array().ceil();
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(static_cast<GLint>(low.x()), static_cast<GLint>(low.y()), static_cast<GLsizei>(high.x() - low.x()),
+            static_cast<GLsizei>(high.y() - low.y()));
+}
+
+/// For a program that goes over the pixels of this part; the others are in full light, and far away.
+void begin_screen(const Framebuffer& target, const Vec2f& size, const Box& area) {
+  glBindFramebuffer(GL_FRAMEBUFFER, target.id());
+  glViewport(0, 0, static_cast<GLsizei>(size.x()), static_cast<GLsizei>(size.y()));
+  glClearColor(1, 6e4F, 1, 1);
+  glClear(GL_COLOR_BUFFER_BIT);
+  limit_to(area, size);
+}
+
+void set_lens(const Program& program, const Mat4f& projection) {
+  program.set("lens", Vec4f(1 / projection(0, 0), 1 / projection(1, 1), projection(2, 2), projection(2, 3)));
+  program.set("inset", projection(0, 2));
+}
+
 void bind(GLenum unit, const Texture& texture) {
   glActiveTexture(unit);
   glBindTexture(GL_TEXTURE_2D, texture.id());
@@ -78,10 +98,14 @@ void bind(GLenum unit, const Texture& texture) {
 SceneLight::SceneLight()
     : depth_(shaders::depth_vertex, "", shaders::depth_fragment),
       rope_depth_(shaders::depth_vertex, shaders::line_geometry, shaders::depth_fragment),
-      occlusion_(shaders::screen_vertex, "", shaders::occlusion_fragment),
+      screen_depth_(shaders::screen_depth_vertex, "", shaders::screen_depth_fragment),
+      occlusion_(shaders::screen_vertex, "", shaders::reading_depths(shaders::occlusion_fragment)),
       occlusion_blur_(shaders::screen_vertex, "", shaders::occlusion_blur_fragment),
+      screen_light_program_(shaders::screen_vertex, "", shaders::reading_depths(shaders::screen_light_fragment)),
       floors_(shaders::screen_vertex, "", shaders::occlusion_floor_fragment) {
-  set_up(shadow_map_, shadow_target_, GL_DEPTH_COMPONENT24, shadow_map_size, shadow_map_size);
+  set_up(shadow_map_, shadow_target_, GL_DEPTH_COMPONENT32F, shadow_map_size, shadow_map_size);
+  glDrawBuffer(GL_NONE);
+  glReadBuffer(GL_NONE);
   compare_depths(shadow_map_);
   const std::vector<Vec3f> corners = {{-1, -1, 0}, {1, -1, 0}, {-1, 1, 0}, {1, 1, 0}};
   glBindVertexArray(square_array_.id());
@@ -122,75 +146,102 @@ void SceneLight::draw_shadow_map(const Bounds& bounds, float setback, const Draw
   has_shadows_ = true;
 }
 
-void SceneLight::set_up_occlusion(int width, int height) {
+void SceneLight::set_up_screen(int width, int height) {
   if (width == width_ && height == height_) return;
   width_ = width;
   height_ = height;
-  set_up(depths_, depth_target_, GL_DEPTH_COMPONENT24, width, height);
-  set_up(raw_, raw_target_, GL_RG16F, width, height);
-  set_up(shares_, share_target_, GL_RG16F, width, height);
+  const int half_width = (width + 1) / 2, half_height = (height + 1) / 2;
+  set_up(depths_, depth_target_, GL_DEPTH_COMPONENT32F, width, height);
+  set_up(normals_, depth_target_, GL_RGBA8, width, height);
+  set_up(raw_, raw_target_, GL_RG16F, half_width, half_height);
+  set_up(shares_, share_target_, GL_RG16F, half_width, half_height);
+  set_up(screen_light_, screen_target_, GL_RGBA16F, width, height);
 }
 
-void SceneLight::draw_occlusion(const Viewpoint& viewpoint, const OcclusionLook& look,
-                                const std::function<void()>& draw) {
+void SceneLight::draw_screen_light(const Viewpoint& viewpoint, const ScreenLook& look,
+                                   const std::function<void()>& draw) {
   const Vec2f size = (look.share * look.picture).array().floor().max(1);
-  set_up_occlusion(static_cast<int>(size.x()), static_cast<int>(size.y()));
-  occlusion_scale_ = size.cwiseQuotient(look.picture);
+  set_up_screen(static_cast<int>(size.x()), static_cast<int>(size.y()));
+  screen_scale_ = size.cwiseQuotient(look.picture);
+  area_ = look.area;
   const Mat4f projection = viewpoint.projection(look.picture.x() / look.picture.y());
   begin_depths(depth_target_, width_, height_);
-  depth_.use();
-  depth_.set("camera", Mat4f(projection * viewpoint.view()));
+  screen_depth_.use();
+  screen_depth_.set("camera", Mat4f(projection * viewpoint.view()));
+  depth_in_use_ = &screen_depth_;
   draw();
+  depth_in_use_ = &depth_;
   glDisable(GL_DEPTH_TEST);
   find_occlusion(projection, look.reach);
   has_occlusion_ = true;
+  find_screen_light(projection, viewpoint.view());
 }
 
 void SceneLight::draw_square(const Mat4f& place) const {
-  depth_.use();
-  depth_.set("place", place);
-  depth_.set("setback", 0.0F);
+  depth_program().use();
+  depth_program().set("place", place);
+  depth_program().set("setback", 0.0F);
+  glVertexAttrib3f(1, 0, 0, 0);
   glBindVertexArray(square_array_.id());
   glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
 }
 
 void SceneLight::find_occlusion(const Mat4f& projection, float reach) const {
-  glBindFramebuffer(GL_FRAMEBUFFER, raw_target_.id());
+  const Vec2f size((width_ + 1) / 2, (height_ + 1) / 2);
+  begin_screen(raw_target_, size, area_);
   bind(GL_TEXTURE0, depths_);
   occlusion_.use();
   occlusion_.set("depths", 0);
-  occlusion_.set("lens", Vec4f(1 / projection(0, 0), 1 / projection(1, 1), projection(2, 2), projection(2, 3)));
-  occlusion_.set("inset", projection(0, 2));
+  set_lens(occlusion_, projection);
   occlusion_.set("reach", reach);
-  occlusion_.set("pixels", projection(1, 1) * static_cast<float>(height_) / 2);
+  occlusion_.set("pixels", projection(1, 1) * static_cast<float>(height_) / 4);
   draw_screen(empty_array_);
-  glBindFramebuffer(GL_FRAMEBUFFER, share_target_.id());
+  begin_screen(share_target_, size, area_);
   bind(GL_TEXTURE0, raw_);
   occlusion_blur_.use();
   occlusion_blur_.set("occlusion", 0);
   draw_screen(empty_array_);
+  glDisable(GL_SCISSOR_TEST);
 }
 
-void SceneLight::shade_floors() const {
-  if (!has_occlusion_) return;
-  floors_.use();
-  floors_.set("occlusion", 0);
-  bind(GL_TEXTURE0, shares_);
+void SceneLight::find_screen_light(const Mat4f& projection, const Mat4f& view) const {
+  begin_screen(screen_target_, Vec2f(width_, height_), area_);
+  const Program& program = screen_light_program_;
+  program.use();
+  program.set("depths", 0);
+  program.set("shadow_map", 1);
+  program.set("occlusion", 2);
+  bind(GL_TEXTURE0, depths_);
+  bind(GL_TEXTURE1, shadow_map_);
+  bind(GL_TEXTURE2, shares_);
+  set_lens(program, projection);
+  program.set("normals", 3);
+  bind(GL_TEXTURE3, normals_);
+  program.set("has_shadows", has_shadows_ ? 1 : 0);
+  program.set("view", Mat3f(view.topLeftCorner<3, 3>()));
+  program.set("to_shadow_map", Mat4f(to_shadow_map_ * view.inverse()));
+  program.set("texel", texel_);
+  program.set("light", Vec3f(view.topLeftCorner<3, 3>() * to_light_));
   draw_screen(empty_array_);
+  glDisable(GL_SCISSOR_TEST);
+}
+
+void SceneLight::shade_floors(const Vec2f& picture) const {
+  if (!has_occlusion_) return;
+  limit_to(area_, picture);
+  floors_.use();
+  floors_.set("screen_light", 0);
+  bind(GL_TEXTURE0, screen_light_);
+  draw_screen(empty_array_);
+  glDisable(GL_SCISSOR_TEST);
 }
 
 void SceneLight::set(const Program& program) const {
   program.set("eye", eye_);
   program.set("light", to_light_);
-  program.set("has_shadows", has_shadows_ ? 1 : 0);
-  program.set("has_occlusion", has_occlusion_ ? 1 : 0);
-  program.set("to_shadow_map", to_shadow_map_);
-  program.set("texel", texel_);
-  program.set("shadow_map", 1);
-  program.set("occlusion", 2);
-  program.set("occlusion_scale", occlusion_scale_);
-  bind(GL_TEXTURE1, shadow_map_);
-  bind(GL_TEXTURE2, shares_);
+  program.set("screen_light", 1);
+  program.set("screen_scale", screen_scale_);
+  bind(GL_TEXTURE1, screen_light_);
   glActiveTexture(GL_TEXTURE0);
 }
 

@@ -36,7 +36,6 @@ flat in vec4 front_here, back_here, second_here;
 flat in float threads_here;
 uniform vec3 held;
 uniform vec3 fronts[7], backs[7];  // of body_tones
-uniform int is_colored;
 uniform float low, high;
 uniform sampler2D colors, picture;
 out vec4 color;
@@ -57,18 +56,19 @@ vec2 laid(vec3 at) {
 
 vec3 own_tone(vec2 here) {
   int pattern = int(255.0 * back_here.a + 0.5);
-  if (pattern == 3) {
+  if (has_gradient && pattern == 3) {
     float share = clamp(in_pattern_here.x, -1.0, 1.0);
     return mix(front_here.rgb, share < 0.0 ? back_here.rgb : second_here.rgb, abs(share));
   }
   vec3 base = gl_FrontFacing ? front_here.rgb : back_here.rgb;
   if (pattern == 0) return base;
-  if (pattern >= 4) {
+  if (has_picture && pattern >= 4) {
     if ((pattern == 5 || pattern == 7) && !gl_FrontFacing) return base;
     vec2 size = vec2(textureSize(picture, 0));
     vec4 seen = texture(picture, vec2(here.x, -here.y * (pattern >= 6 ? 1.0 : size.x / size.y)));  // rows go down
     return base * (1.0 - seen.a) + seen.rgb;
   }
+  if (!has_fields) return base;
   vec3 turns = in_turn(in_pattern_here);
   float turn = pattern == 1 ? turns.x * turns.y * turns.z : turns.x;
   return mix(base, second_here.rgb, 0.5 + 0.5 * turn);
@@ -94,20 +94,20 @@ float weave(vec2 at, inout vec3 n) {
 void main() {
   vec3 n = normalize(normal_here + 1e-9 * (eye - point_here));  // never of length zero
   if (!gl_FrontFacing) n = -n;
-  vec2 here = laid(in_pattern_here);
+  vec2 here = has_picture || has_weave ? laid(in_pattern_here) : vec2(0);
   vec3 tone = held;
-  int finish = int(255.0 * second_here.a + 0.5);
-  if (is_colored != 0) {
+  int finish = is_solid ? 2 : int(255.0 * second_here.a + 0.5);
+  if (is_colored) {
     finish = min(finish, 2);  // what reflects would change what colors tell
     float place = clamp((value_here - low) / (high - low), 0.002, 0.998);
     tone = textureLod(colors, vec2(place, 0.5), 0.0).rgb;
-  } else if (front_here.a > 0.5) {
+  } else if (has_looks && front_here.a > 0.5) {
     tone = own_tone(here);
-  } else if (value_here > -0.5) {
+  } else if (!is_solid && value_here > -0.5) {
     int number = int(value_here + 0.5);
     tone = gl_FrontFacing ? fronts[number] : backs[number];
   }
-  if (threads_here > 0.0 && is_colored == 0) tone *= weave(threads_here * here, n);
+  if (has_weave && threads_here > 0.0) tone *= weave(threads_here * here, n);
   color = vec4(lit(tone, point_here, n, finish), 1);
 })";
 

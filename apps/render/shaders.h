@@ -11,16 +11,20 @@ extern const std::string_view surface_fragment;
 extern const std::string_view flat_vertex;
 extern const std::string_view flat_geometry;
 
-// How light falls on surfaces, of which the fragment programs above are one part each.
+// How light falls on surfaces: behind the head of a fragment program, see head_of, and before its own part.
 extern const std::string_view lighting;
-inline std::string lit(std::string_view fragment) {
-  return std::string(lighting).append(fragment);
-}
 extern const std::string_view depth_vertex;
 extern const std::string_view depth_fragment;
+extern const std::string_view screen_depth_vertex;
+extern const std::string_view screen_depth_fragment;
+extern const std::string_view depth_reading;
 extern const std::string_view occlusion_fragment;
 extern const std::string_view occlusion_blur_fragment;
+extern const std::string_view screen_light_fragment;
 extern const std::string_view occlusion_floor_fragment;
+inline std::string reading_depths(std::string_view fragment) {
+  return std::string(depth_reading).append(fragment);
+}
 
 // Lines as ribbons of a width in pixels, and points as discs.
 extern const std::string_view stroke_vertex;

@@ -3,53 +3,33 @@
 
 namespace pliant_render::shaders {
 
-// Put before the fragment programs of surfaces. Light is added up in linear light, and rolls off where a tone would be
-// brighter than white; a tone in full light comes out about as it was given.
-const std::string_view lighting = R"(#version 330 core
+// Put before the fragment programs of surfaces, behind the constants of SurfaceTraits. Light is added up in linear
+// light, and rolls off where a tone would be brighter than white; a tone in full light comes out about as it was given.
+const std::string_view lighting = R"(
 uniform vec3 eye, light;              // in space [m]; to the light, of length 1
-uniform int has_shadows, has_occlusion;
-uniform sampler2DShadow shadow_map;   // depths as the light sees them
-uniform mat4 to_shadow_map;           // from space to its texture
-uniform float texel;                  // of the map [m]
-uniform sampler2D occlusion;          // share of the sky, and depth [m], in a smaller picture
-uniform vec2 occlusion_scale;         // pixels of that for a pixel drawn
+uniform sampler2D screen_light;       // of the picture: share of the sky, depth [m], share of the key light
+uniform vec2 screen_scale;            // pixels of that for a pixel drawn
 
 const vec3 key_light = vec3(0.80, 0.755, 0.69), sky = vec3(0.37, 0.41, 0.46), ground = vec3(0.22, 0.205, 0.19);
 const float from_eye = 0.12;
 const float through = 0.3;  // of the light on the other side of cloth
 
-/// Sixteen places in a disc of three texels; where the four outer ones agree, the others would too.
-float key_share(vec3 point, vec3 n, float towards) {
-  if (has_shadows == 0) return 1.0;
-  vec3 from = point + n * (texel * (1.0 + 2.5 * sqrt(1.0 - min(towards * towards, 1.0))));
-  vec3 at = (to_shadow_map * vec4(from, 1)).xyz;
-  vec2 unit = 3.0 / vec2(textureSize(shadow_map, 0));
-  float sum = 0.0;
-  for (int i = 15; i >= 0; --i) {
-    float reach = sqrt((float(i) + 0.5) / 16.0), angle = 2.39996 * float(i);
-    sum += texture(shadow_map, vec3(at.xy + unit * reach * vec2(cos(angle), sin(angle)), at.z));
-    if (i == 12 && (sum < 0.001 || sum > 3.999)) return sum / 4.0;
-  }
-  return sum / 16.0;
-}
-
-/// Between texels that are at the depth of this point.
-float sky_share() {
-  if (has_occlusion == 0) return 1.0;
+/// Shares of the sky and of the key light, between pixels that are at the depth of this point.
+vec2 open_shares() {
+  if (!has_occlusion && !has_shadows) return vec2(1.0);
   float depth = 1.0 / gl_FragCoord.w;
-  vec2 at = occlusion_scale * gl_FragCoord.xy - 0.5;
-  ivec2 corner = ivec2(floor(at)), last = textureSize(occlusion, 0) - 1;
+  vec2 at = screen_scale * gl_FragCoord.xy - 0.5;
+  ivec2 corner = ivec2(floor(at)), last = textureSize(screen_light, 0) - 1;
   vec2 share = at - vec2(corner);
-  float sum = 0.0, weights = 0.0;
+  vec3 sum = vec3(0.0);
   for (int i = 0; i < 4; ++i) {
     ivec2 aside = ivec2(i & 1, i >> 1);
-    vec2 seen = texelFetch(occlusion, clamp(corner + aside, ivec2(0), last), 0).rg;
+    vec3 seen = texelFetch(screen_light, clamp(corner + aside, ivec2(0), last), 0).rgb;
     vec2 near = mix(1.0 - share, share, vec2(aside));
-    float weight = (near.x * near.y + 0.01) / (0.001 + abs(seen.y / depth - 1.0));
-    sum += weight * seen.x;
-    weights += weight;
+    float weight = (near.x * near.y + 0.01) / (0.001 + abs(seen.g / depth - 1.0));
+    sum += weight * vec3(seen.rb, 1.0);
   }
-  return sum / weights;
+  return sum.xy / sum.z;
 }
 
 vec3 roll_off(vec3 c) {
@@ -70,17 +50,16 @@ vec3 seen_towards(vec3 way, float key) {
 /// solid and has a soft highlight.
 vec3 lit(vec3 tone, vec3 point, vec3 n, int finish) {
   vec3 to_eye = normalize(eye - point);
-  float towards = dot(n, light), sheen = finish == 1 ? 1.0 : 0.0;
-  float key = 0.0;
-  if (towards > 0.0) key = towards * key_share(point, n, towards);
-  else if (sheen > 0.5) key = -through * towards * key_share(point, -n, -towards);
-  float open = sky_share();
+  float towards = dot(n, light), sheen = has_cloth && finish == 1 ? 1.0 : 0.0;
+  vec2 shares = open_shares();
+  float open = shares.x;
+  float key = shares.y * max(towards, -through * sheen * towards);
   float facing = clamp(dot(n, to_eye), 0.0, 1.0);
   vec3 around = open * (mix(ground, sky, 0.5 + 0.5 * n.z) + from_eye * facing);
   vec3 base = pow(tone, vec3(2.2));
   vec3 color = base * ((0.6 + 0.4 * open) * key * key_light + around);
   float rim = pow(1.0 - facing, 4.0);
-  if (finish >= 3) {
+  if (has_gloss && finish >= 3) {
     float lies_in_light = towards > 0.0 ? min(key / max(towards, 0.05), 1.0) : 0.0;
     vec3 seen = (0.3 + 0.7 * open) * seen_towards(reflect(-to_eye, n), lies_in_light);
     float glance = pow(max(dot(n, normalize(light + to_eye)), 0.0), 180.0) * lies_in_light;
@@ -112,14 +91,34 @@ void main() {
 const std::string_view depth_fragment = R"(#version 330 core
 void main() {})";
 
+// Depths of the picture, and normals in space as colors; floors, which have none here, are marked by zero.
+const std::string_view screen_depth_vertex = R"(#version 330 core
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+uniform mat4 camera, place;
+uniform float setback;
+out vec3 normal_here;
+void main() {
+  normal_here = mat3(place) * normal;
+  gl_Position = camera * (place * vec4(position, 1));
+  gl_Position.z += setback * gl_Position.w;
+})";
+
+const std::string_view screen_depth_fragment = R"(#version 330 core
+in vec3 normal_here;
+out vec4 color;
+void main() {
+  float size = length(normal_here);
+  color = vec4(0.5 + 0.5 * normal_here / max(size, 1e-9), size > 0.1 ? 1.0 : 0.0);
+})";
+
 // After McGuire, Osman, Bukowski and Hennessy, "The Alchemy Screen-Space Ambient Obscurance Algorithm", 2011, eq. 10,
 // with the falloff of their "Scalable Ambient Obscurance", 2012.
-const std::string_view occlusion_fragment = R"(#version 330 core
+// Before the programs that find light from the depths of the picture.
+const std::string_view depth_reading = R"(#version 330 core
 uniform sampler2D depths;
-uniform vec4 lens;         // of the projection: 1/m00, 1/m11, m22, m23
-uniform float inset;       // m02
-uniform float reach;       // how far away what occludes is looked for [m]
-uniform float pixels;      // of this picture, that 1 m at a distance of 1 m has
+uniform vec4 lens;   // of the projection: 1/m00, 1/m11, m22, m23
+uniform float inset; // m02
 out vec4 color;
 
 vec3 point_at(ivec2 pixel) {
@@ -129,6 +128,11 @@ vec3 point_at(ivec2 pixel) {
   float z = -lens.w / (texelFetch(depths, pixel, 0).r * 2.0 - 1.0 + lens.z);
   return vec3(-z * (ndc + vec2(inset, 0)) * lens.xy, z);
 }
+)";
+
+const std::string_view occlusion_fragment = R"(
+uniform float reach;   // how far away what occludes is looked for [m]
+uniform float pixels;  // of this picture, that 1 m at a distance of 1 m has
 
 /// Of two neighbors the one that lies nearer is on the same surface.
 vec3 slope(vec3 here, ivec2 at, ivec2 along) {
@@ -138,19 +142,23 @@ vec3 slope(vec3 here, ivec2 at, ivec2 along) {
 
 void main() {
   ivec2 at = ivec2(gl_FragCoord.xy);
-  if (texelFetch(depths, at, 0).r == 1.0) {
+  const int step_size = 2;  // from pixel to pixel of this picture in that of the depths
+  if (texelFetch(depths, step_size * at, 0).r == 1.0) {
     color = vec4(1, 1e6, 0, 1);
     return;
   }
-  vec3 here = point_at(at);
-  vec3 n = normalize(cross(slope(here, at, ivec2(1, 0)), slope(here, at, ivec2(0, 1))));
+  vec3 here = point_at(step_size * at);
+  ivec2 pixel = step_size * at;
+  vec3 n = normalize(cross(slope(here, pixel, ivec2(1, 0)), slope(here, pixel, ivec2(0, 1))));
   const int count = 12;
   float radius = min(pixels * reach / -here.z, 120.0);
-  float turn = 6.2831853 * fract(0.25 * float(((at.x & 3) + 4 * (at.y & 3)) * 5 % 16) / 4.0);
+  float angle = 6.2831853 * fract(0.25 * float(((at.x & 3) + 4 * (at.y & 3)) * 5 % 16) / 4.0);
+  mat2 turn = radius * mat2(cos(angle), sin(angle), -sin(angle), cos(angle));
   float sum = 0.0;
   for (int i = 0; i < count; ++i) {
-    float far = radius * (float(i) + 0.5) / float(count), angle = 2.39996 * float(i) + turn;
-    vec3 v = point_at(at + ivec2(far * vec2(cos(angle), sin(angle)))) - here;
+    float far = (float(i) + 0.5) / float(count);
+    vec2 aside = turn * (far * vec2(cos(2.39996 * float(i)), sin(2.39996 * float(i))));
+    vec3 v = point_at(step_size * (at + ivec2(aside))) - here;
     float square = dot(v, v), left = max(1.0 - square / (reach * reach), 0.0);
     sum += left * left * left * max(dot(v, n) + 0.004 * here.z, 0.0) / (square + 1e-4 * reach * reach) * reach;
   }
@@ -175,11 +183,69 @@ void main() {
   color = vec4(sum / weights, depth, 0, 1);
 })";
 
+// Puts together what light a pixel is in: the share of the sky, between the pixels of the smaller picture that are as
+// far away, and that of the key light.
+const std::string_view screen_light_fragment = R"(
+uniform sampler2D occlusion;
+uniform sampler2DShadow shadow_map;  // depths as the light sees them
+uniform sampler2D normals;
+uniform int has_shadows;
+uniform mat4 to_shadow_map;          // from what the eye sees to its texture
+uniform mat3 view;                   // from space to what the eye sees
+uniform float texel;                 // of the map [m]
+uniform vec3 light;                  // as the eye sees it
+
+float sky_share(ivec2 pixel, float depth) {
+  vec2 at = (vec2(pixel) + 0.5) / 2.0 - 0.5;
+  ivec2 corner = ivec2(floor(at)), last = textureSize(occlusion, 0) - 1;
+  vec2 share = at - vec2(corner);
+  float sum = 0.0, weights = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    ivec2 aside = ivec2(i & 1, i >> 1);
+    vec2 seen = texelFetch(occlusion, clamp(corner + aside, ivec2(0), last), 0).rg;
+    vec2 near = mix(1.0 - share, share, vec2(aside));
+    float weight = (near.x * near.y + 0.01) / (0.001 + abs(seen.g / depth - 1.0));
+    sum += weight * seen.r;
+    weights += weight;
+  }
+  return sum / weights;
+}
+
+/// Sixteen places in a disc of three texels; where the four outer ones agree, the others would too. Cloth is lit from
+/// either side. A loop, which a processor leaves where a branch would be gone through all the same.
+float key_share(vec3 point, vec3 n, bool is_wanted) {
+  float towards = dot(n, light), slant = sqrt(1.0 - min(towards * towards, 1.0));
+  vec3 from = point + (towards < 0.0 ? -n : n) * (texel * (1.0 + 2.5 * slant));
+  vec3 at = (to_shadow_map * vec4(from, 1)).xyz;
+  vec2 way = vec2(3.0 / float(textureSize(shadow_map, 0).x), 0.0);
+  const mat2 golden_angle = mat2(-0.737369, 0.675490, -0.675490, -0.737369);
+  float sum = 0.0;
+  int last = is_wanted ? 12 : 16;
+  for (int i = 15; i >= last; --i) {
+    sum += textureLod(shadow_map, vec3(at.xy + sqrt((float(i) + 0.5) / 16.0) * way, at.z), 0.0);
+    way = golden_angle * way;
+    if (i == 12 && sum > 0.001 && sum < 3.999) last = 0;
+  }
+  return is_wanted ? sum / float(16 - last) : 1.0;
+}
+
+void main() {
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  if (texelFetch(depths, at, 0).r == 1.0) {
+    color = vec4(1, 1e6, 1, 1);
+    return;
+  }
+  vec3 here = point_at(at);
+  color = vec4(sky_share(at, -here.z), -here.z, 1, 1);
+  vec4 normal = texelFetch(normals, at, 0);
+  color.b = key_share(here, view * normalize(2.0 * normal.xyz - 1.0), has_shadows != 0 && normal.a > 0.5);
+})";
+
 // Over floors, before anything stands on them.
 const std::string_view occlusion_floor_fragment = R"(#version 330 core
 in vec2 place;
-uniform sampler2D occlusion;
+uniform sampler2D screen_light;
 out vec4 color;
-void main() { color = vec4(0, 0, 0, 0.7 * (1.0 - textureLod(occlusion, place, 0.0).r)); })";
+void main() { color = vec4(0, 0, 0, 0.7 * (1.0 - textureLod(screen_light, place, 0.0).r)); })";
 
 }  // namespace pliant_render::shaders
