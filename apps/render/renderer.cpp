@@ -44,6 +44,14 @@ void set_tones(const Program& program, const pliant::ViewSettings& appearance) {
   program.set("backs", std::span<const Vec3f>(backs));
 }
 
+/// Of the picture, in space, as lines take them.
+void set_directions(const Program& program, const Viewpoint& viewpoint) {
+  const Mat4f view = viewpoint.view();
+  program.set("to_right", Vec3f(view.block<1, 3>(0, 0).transpose()));
+  program.set("to_top", Vec3f(view.block<1, 3>(1, 0).transpose()));
+  program.set("to_eye", Vec3f(view.block<1, 3>(2, 0).transpose()));
+}
+
 /// What shifts a point at the middle of the scene that far towards the eye, in the depths of OpenGL.
 float depth_shift(const Viewpoint& view, const Bounds& bounds, float shift) {
   const float depth = std::max((bounds.center() - view.eye).dot(view.forward()), view.near);
@@ -138,7 +146,8 @@ void Renderer::draw(const pliant::ViewSettings& appearance, const DrawOptions& o
   end("bodies");
   colliders_.draw_solids(projection(options), light_, options.lit_collider);
   end("colliders");
-  draw_lines(appearance, options, camera, picture);
+  draw_ropes(appearance, options, camera);
+  if (appearance.wireframe) draw_wireframe(options, camera);
   draw_markers(options, camera, picture);
   draw_selection(options, camera, picture);
   end("lines and marks");
@@ -152,18 +161,20 @@ void Renderer::draw_light_maps(const pliant::ViewSettings& appearance, const Dra
   light_.begin(options.viewpoint.eye, light_of(appearance));
   if (options.quality == pliant::Quality::low || bounds_.is_empty()) return;
   if (appearance.shadow) {
-    light_.draw_shadow_map(bounds_, setback_, [this](float setback) {
-      draw_rope_shadows();
+    light_.draw_shadow_map(bounds_, setback_, [&](float setback) {
+      draw_rope_depths(options, rope_shadow_width);
       draw_depths(setback);
     });
     if (options.clock != nullptr) options.clock->end("shadows on bodies");
   }
   const float reach = occlusion_reach * bounds_.radius();
-  light_.draw_screen_light(options.viewpoint, {size_, 1 / options.pixel, reach, area_of(options, reach)}, [&] {
+  const auto draw_solid = [&] {
     draw_floor_depths(appearance, options);
     draw_depths(projection(options).setback);
-  });
-  if (options.clock != nullptr) options.clock->end("share of the sky");
+  };
+  light_.draw_screen_light(options.viewpoint, {size_, 1 / options.pixel, reach, area_of(options, reach)}, draw_solid,
+                           [&] { draw_rope_depths(options, rope_width * options.scale / options.pixel); });
+  if (options.clock != nullptr) options.clock->end("light on what is seen");
 }
 
 /// The part of the picture in which all bodies and colliders lie, and what is nearer to them than `reach`.
@@ -214,13 +225,15 @@ void Renderer::draw_floor_depths(const pliant::ViewSettings& appearance, const D
   light_.draw_square(ground * grown);
 }
 
-void Renderer::draw_rope_shadows() const {
+void Renderer::draw_rope_depths(const DrawOptions& options, float width) const {
+  if (!mesh_.has_ropes()) return;
   const Program& program = light_.rope_depth_program();
   program.use();
   program.set("place", Mat4f::Identity().eval());
   program.set("setback", 0.0F);
-  program.set("width", rope_shadow_width);
+  program.set("width", width);
   program.set("lift", 0.0F);
+  set_directions(program, options.viewpoint);
   mesh_.draw_ropes();
 }
 
@@ -378,43 +391,49 @@ void Renderer::draw_surface(const pliant::ViewSettings& appearance, const DrawOp
     light_.set(program);
     set_tones(program, appearance);
     program.set("held", solid_tone);
-    program.set("low", options.range[0]);
-    program.set("high", options.range[1]);
-    program.set("colors", 0);
     program.set("picture", texture_unit);
-    glActiveTexture(GL_TEXTURE0);
-    glBindTexture(GL_TEXTURE_2D, map_.id());
+    set_colors(program, options);
   });
 }
 
-void Renderer::draw_lines(const pliant::ViewSettings& appearance, const DrawOptions& options, const Mat4f& camera,
-                          const Vec2f& picture) const {
+void Renderer::draw_ropes(const pliant::ViewSettings& appearance, const DrawOptions& options, const Mat4f& camera) {
+  if (!mesh_.has_ropes()) return;
+  SurfaceTraits traits{.is_rope = true};
+  traits.is_colored = has_values_;
+  traits.has_looks = !has_values_;
+  traits.has_shadows = light_.has_shadows();
+  traits.has_occlusion = light_.has_occlusion();
+  const Program& program = surface_programs_.of(traits);
+  program.use();
+  program.set("camera", camera);
+  program.set("picture", size_);
+  program.set("lift", depth_shift(options.viewpoint, bounds_, lift * bounds_.radius()));
+  program.set("width", rope_width * options.scale);
+  set_directions(program, options.viewpoint);
+  set_tones(program, appearance);
+  light_.set(program);
+  set_colors(program, options);
+  mesh_.draw_ropes();
+}
+
+void Renderer::draw_wireframe(const DrawOptions& options, const Mat4f& camera) const {
   line_.use();
-  set_tones(line_, appearance);
   line_.set("camera", camera);
-  line_.set("picture", picture);
+  line_.set("picture", size_);
   line_.set("lift", depth_shift(options.viewpoint, bounds_, lift * bounds_.radius()));
-  line_.set("low", options.range[0]);
-  line_.set("high", options.range[1]);
-  line_.set("colors", 0);
+  line_.set("width", edge_width * options.scale);
+  line_.set("opacity", 0.55F);
+  line_.set("tone", edge_color);
+  mesh_.draw_edges();
+}
+
+/// What shows values.
+void Renderer::set_colors(const Program& program, const DrawOptions& options) const {
+  program.set("low", options.range[0]);
+  program.set("high", options.range[1]);
+  program.set("colors", 0);
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, map_.id());
-  const auto set_up = [&](float width, float opacity, bool is_rope) {
-    line_.set("width", width * options.scale);
-    line_.set("opacity", opacity);
-    line_.set("tone", edge_color);
-    line_.set("has_tones", is_rope ? 1 : 0);
-    line_.set("is_round", is_rope ? 1 : 0);
-    line_.set("is_colored", is_rope && has_values_ ? 1 : 0);
-  };
-  if (mesh_.has_ropes()) {
-    set_up(rope_width, 1, true);
-    mesh_.draw_ropes();
-  }
-  if (appearance.wireframe) {
-    set_up(edge_width, 0.55F, false);
-    mesh_.draw_edges();
-  }
 }
 
 void Renderer::set_selection(const std::vector<std::uint32_t>& vertices) {

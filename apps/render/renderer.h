@@ -50,7 +50,8 @@ class Renderer {
   Box area_of(const DrawOptions& options, float reach) const;
   void draw_depths(float setback) const;
   void draw_floor_depths(const pliant::ViewSettings& appearance, const DrawOptions& options) const;
-  void draw_rope_shadows() const;
+  /// width: in the picture that is drawn [pixels]
+  void draw_rope_depths(const DrawOptions& options, float width) const;
   void go_to_picture(GLuint target) const;
   void draw_floor(const pliant::ViewSettings& appearance, const DrawOptions& options, const Mat4f& camera,
                   GLuint target);
@@ -61,8 +62,9 @@ class Renderer {
   void draw_surface(const pliant::ViewSettings& appearance, const DrawOptions& options, const Mat4f& camera);
   /// What a pixel shows of the nearest body, across [m]; 0: the camera is among them.
   float nearest_pixel(const DrawOptions& options) const;
-  void draw_lines(const pliant::ViewSettings& appearance, const DrawOptions& options, const Mat4f& camera,
-                  const Vec2f& picture) const;
+  void draw_ropes(const pliant::ViewSettings& appearance, const DrawOptions& options, const Mat4f& camera);
+  void draw_wireframe(const DrawOptions& options, const Mat4f& camera) const;
+  void set_colors(const Program& program, const DrawOptions& options) const;
   void draw_markers(const DrawOptions& options, const Mat4f& camera, const Vec2f& picture) const;
   void draw_selection(const DrawOptions& options, const Mat4f& camera, const Vec2f& picture) const;
   void set_up_markers(const DrawOptions& options, const Mat4f& camera, const Vec2f& picture) const;

@@ -74,10 +74,14 @@ void limit_to(const Box& area, const Vec2f& picture) {
             static_cast<GLsizei>(high.y() - low.y()));
 }
 
-/// For a program that goes over the pixels of this part; the others are in full light, and far away.
-void begin_screen(const Framebuffer& target, const Vec2f& size, const Box& area) {
+void go_to(const Framebuffer& target, const Vec2f& size) {
   glBindFramebuffer(GL_FRAMEBUFFER, target.id());
   glViewport(0, 0, static_cast<GLsizei>(size.x()), static_cast<GLsizei>(size.y()));
+}
+
+/// For a program that goes over the pixels of this part; the others are in full light, and far away.
+void begin_screen(const Framebuffer& target, const Vec2f& size, const Box& area) {
+  go_to(target, size);
   glClearColor(1, 6e4F, 1, 1);
   glClear(GL_COLOR_BUFFER_BIT);
   limit_to(area, size);
@@ -99,6 +103,7 @@ SceneLight::SceneLight()
     : depth_(shaders::depth_vertex, "", shaders::depth_fragment),
       rope_depth_(shaders::depth_vertex, shaders::line_geometry, shaders::depth_fragment),
       screen_depth_(shaders::screen_depth_vertex, "", shaders::screen_depth_fragment),
+      rope_screen_depth_(shaders::depth_vertex, shaders::line_geometry, shaders::rope_screen_depth_fragment),
       occlusion_(shaders::screen_vertex, "", shaders::reading_depths(shaders::occlusion_fragment)),
       occlusion_blur_(shaders::screen_vertex, "", shaders::occlusion_blur_fragment),
       screen_light_program_(shaders::screen_vertex, "", shaders::reading_depths(shaders::screen_light_fragment)),
@@ -159,21 +164,28 @@ void SceneLight::set_up_screen(int width, int height) {
 }
 
 void SceneLight::draw_screen_light(const Viewpoint& viewpoint, const ScreenLook& look,
-                                   const std::function<void()>& draw) {
+                                   const std::function<void()>& draw, const std::function<void()>& draw_thin) {
   const Vec2f size = (look.share * look.picture).array().floor().max(1);
   set_up_screen(static_cast<int>(size.x()), static_cast<int>(size.y()));
   screen_scale_ = size.cwiseQuotient(look.picture);
   area_ = look.area;
   const Mat4f projection = viewpoint.projection(look.picture.x() / look.picture.y());
   begin_depths(depth_target_, width_, height_);
-  screen_depth_.use();
-  screen_depth_.set("camera", Mat4f(projection * viewpoint.view()));
+  for (const Program* program : {&rope_screen_depth_, &screen_depth_}) {
+    program->use();
+    program->set("camera", Mat4f(projection * viewpoint.view()));
+    program->set("picture", size);
+  }
   depth_in_use_ = &screen_depth_;
   draw();
-  depth_in_use_ = &depth_;
   glDisable(GL_DEPTH_TEST);
   find_occlusion(projection, look.reach);
   has_occlusion_ = true;
+  go_to(depth_target_, size);
+  glEnable(GL_DEPTH_TEST);
+  draw_thin();
+  glDisable(GL_DEPTH_TEST);
+  depth_in_use_ = &depth_;
   find_screen_light(projection, viewpoint.view());
 }
 

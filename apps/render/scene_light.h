@@ -33,8 +33,10 @@ class SceneLight {
     float reach;    ///< how far away what stands in the way of the sky is looked for [m]
     Box area;       ///< where bodies and colliders may be, with what they may keep light from
   };
-  /// Only depth_program() may draw here.
-  void draw_screen_light(const Viewpoint& viewpoint, const ScreenLook& look, const std::function<void()>& draw);
+  /// Only depth_program() and rope_depth_program() may draw here. draw_thin: what is lit, but too thin to keep light
+  /// from others in a picture.
+  void draw_screen_light(const Viewpoint& viewpoint, const ScreenLook& look, const std::function<void()>& draw,
+                         const std::function<void()>& draw_thin);
   /// Darkens floors where they see less of the sky, over the bound framebuffer.
   void shade_floors(const Vec2f& picture) const;
 
@@ -42,7 +44,8 @@ class SceneLight {
   void draw_square(const Mat4f& place) const;
   /// For triangles, with their normals as attribute 1.
   const Program& depth_program() const { return *depth_in_use_; }
-  const Program& rope_depth_program() const { return rope_depth_; }
+  /// For ropes, through shaders::line_geometry.
+  const Program& rope_depth_program() const { return depth_in_use_ == &depth_ ? rope_depth_ : rope_screen_depth_; }
   bool has_shadows() const { return has_shadows_; }
   bool has_occlusion() const { return has_occlusion_; }
   /// Sets the uniforms of shaders::lighting in a program that is in use, and binds textures 1 and 2.
@@ -60,7 +63,8 @@ class SceneLight {
   int width_ = 0, height_ = 0;  // of the depths [pixels]; what is seen of the sky is found at half of that
   Vec2f screen_scale_ = {1, 1};
   Box area_;
-  Program depth_, rope_depth_, screen_depth_, occlusion_, occlusion_blur_, screen_light_program_, floors_;
+  Program depth_, rope_depth_, screen_depth_, rope_screen_depth_, occlusion_, occlusion_blur_, screen_light_program_,
+      floors_;
   const Program* depth_in_use_ = &depth_;
   Texture shadow_map_, depths_, normals_, raw_, shares_, screen_light_;
   Framebuffer shadow_target_, depth_target_, raw_target_, share_target_, screen_target_;

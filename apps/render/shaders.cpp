@@ -190,9 +190,11 @@ layout(location = 3) in vec4 front;
 uniform mat4 camera;
 out float value_at;
 out vec4 front_at;
+out vec3 place_at;
 void main() {
   value_at = value;
   front_at = front;
+  place_at = position;
   gl_Position = camera * vec4(position, 1);
 })";
 
@@ -201,22 +203,36 @@ layout(lines) in;
 layout(triangle_strip, max_vertices = 4) out;
 in float value_at[];
 in vec4 front_at[];
+in vec3 place_at[];
 uniform vec2 picture;  // pixels
 uniform float width, lift;
+uniform vec3 to_right, to_top, to_eye;  // of the picture, in space
 out float across, value_here;
-out vec2 sideways;
+out vec3 point_here;
+flat out vec3 side_here, outward_here;  // of a tube that faces the eye, in space
 flat out vec4 front_here;
 void main() {
   vec4 a = gl_in[0].gl_Position, b = gl_in[1].gl_Position;
   float va = value_at[0], vb = value_at[1];
+  vec3 pa = place_at[0], pb = place_at[1];
   const float least = 1e-4;
   if (a.w < least && b.w < least) return;
-  if (a.w < least) { float s = (least - a.w) / (b.w - a.w); a = mix(a, b, s); va = mix(va, vb, s); }
-  if (b.w < least) { float s = (least - b.w) / (a.w - b.w); b = mix(b, a, s); vb = mix(vb, va, s); }
+  if (a.w < least) {
+    float s = (least - a.w) / (b.w - a.w);
+    a = mix(a, b, s);
+    va = mix(va, vb, s);
+    pa = mix(pa, pb, s);
+  }
+  if (b.w < least) {
+    float s = (least - b.w) / (a.w - b.w);
+    b = mix(b, a, s);
+    vb = mix(vb, va, s);
+    pb = mix(pb, pa, s);
+  }
   vec2 along = (b.xy / b.w - a.xy / a.w) * picture;
   float size = length(along);
   along = size > 1e-6 ? along / size : vec2(1, 0);
-  sideways = vec2(-along.y, along.x);
+  vec2 sideways = vec2(-along.y, along.x);
   float reach = width / 2.0 + 0.75;  // half a pixel and some for the soft edge
   vec2 side = sideways * 2.0 * reach / picture;
   for (int end = 0; end < 2; ++end) {
@@ -224,6 +240,9 @@ void main() {
     p.z -= lift * p.w;
     for (int s = -1; s <= 1; s += 2) {
       across = float(s) * reach;
+      side_here = sideways.x * to_right + sideways.y * to_top;
+      outward_here = to_eye;
+      point_here = end == 0 ? pa : pb;
       value_here = end == 0 ? va : vb;
       front_here = front_at[0];
       gl_Position = p + vec4(float(s) * side * p.w, 0, 0);
@@ -234,26 +253,33 @@ void main() {
 })";
 
 const std::string_view line_fragment = R"(#version 330 core
+in float across;
+uniform float width, opacity;
+uniform vec3 tone;
+out vec4 color;
+void main() {
+  float edge = clamp(width / 2.0 + 0.5 - abs(across), 0.0, 1.0);
+  if (edge * opacity < 0.01) discard;
+  color = vec4(tone, edge * opacity);
+})";
+
+// A line lit as a tube, behind `lighting`.
+const std::string_view rope_fragment = R"(
 in float across, value_here;
-in vec2 sideways;
+in vec3 point_here;
+flat in vec3 side_here, outward_here;
 flat in vec4 front_here;
-uniform float width, opacity, low, high;
-uniform vec3 tone, fronts[7];
-uniform int is_round, is_colored, has_tones;
+uniform float width, low, high;
+uniform vec3 fronts[7];
 uniform sampler2D colors;
 out vec4 color;
 void main() {
   float edge = clamp(width / 2.0 + 0.5 - abs(across), 0.0, 1.0);
-  vec3 base = has_tones != 0 && is_colored == 0 ? fronts[max(int(value_here + 0.5), 0)] : tone;
-  if (has_tones != 0 && is_colored == 0 && front_here.a > 0.5) base = front_here.rgb;
-  if (is_colored != 0) base = texture(colors, vec2(clamp((value_here - low) / (high - low), 0.002, 0.998), 0.5)).rgb;
-  if (is_round != 0) {
-    float t = clamp(across / (width / 2.0), -1.0, 1.0);
-    vec3 n = vec3(sideways * t, sqrt(max(0.0, 1.0 - t * t)));  // of a tube that faces the eye
-    base *= 0.62 + 0.40 * max(dot(n, normalize(vec3(-0.3, 0.7, 0.7))), 0.0);
-  }
-  if (edge * opacity < 0.01) discard;
-  color = vec4(base, edge * opacity);
+  if (edge < 0.01) discard;
+  vec3 tone = has_looks && front_here.a > 0.5 ? front_here.rgb : fronts[max(int(value_here + 0.5), 0)];
+  if (is_colored) tone = textureLod(colors, vec2(clamp((value_here - low) / (high - low), 0.002, 0.998), 0.5), 0.0).rgb;
+  float t = clamp(across / (width / 2.0), -1.0, 1.0);
+  color = vec4(lit(tone, point_here, side_here * t + outward_here * sqrt(1.0 - t * t), 2), edge);
 })";
 
 const std::string_view marker_geometry = R"(#version 330 core
@@ -297,9 +323,11 @@ uniform vec3 light;
 uniform vec2 middle, reach;
 out float value_at;  // as line_geometry takes it
 out vec4 front_at;
+out vec3 place_at;
 void main() {
   value_at = 0.0;
   front_at = vec4(0);
+  place_at = vec3(0);
   vec3 p = (place * vec4(position, 1)).xyz;
   p -= light * (max(p.z, 0.0) / light.z);
   gl_Position = vec4((p.xy - middle) / reach, 0, 1);

@@ -17,6 +17,7 @@ extern const std::string_view depth_vertex;
 extern const std::string_view depth_fragment;
 extern const std::string_view screen_depth_vertex;
 extern const std::string_view screen_depth_fragment;
+extern const std::string_view rope_screen_depth_fragment;
 extern const std::string_view depth_reading;
 extern const std::string_view occlusion_fragment;
 extern const std::string_view occlusion_blur_fragment;
@@ -30,6 +31,7 @@ inline std::string reading_depths(std::string_view fragment) {
 extern const std::string_view stroke_vertex;
 extern const std::string_view line_geometry;
 extern const std::string_view line_fragment;
+extern const std::string_view rope_fragment;
 extern const std::string_view marker_geometry;
 extern const std::string_view marker_fragment;
 

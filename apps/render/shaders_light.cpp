@@ -81,9 +81,11 @@ uniform mat4 camera, place;
 uniform float setback;
 out float value_at;  // as line_geometry takes it
 out vec4 front_at;
+out vec3 place_at;
 void main() {
   value_at = 0.0;
   front_at = vec4(0);
+  place_at = vec3(0);
   gl_Position = camera * (place * vec4(position, 1));
   gl_Position.z += setback * gl_Position.w;
 })";
@@ -110,6 +112,18 @@ out vec4 color;
 void main() {
   float size = length(normal_here);
   color = vec4(0.5 + 0.5 * normal_here / max(size, 1e-9), size > 0.1 ? 1.0 : 0.0);
+})";
+
+// The same of a rope, behind line_geometry.
+const std::string_view rope_screen_depth_fragment = R"(#version 330 core
+in float across;
+flat in vec3 side_here, outward_here;
+uniform float width;
+out vec4 color;
+void main() {
+  if (abs(across) > width / 2.0) discard;
+  float t = across / (width / 2.0);
+  color = vec4(0.5 + 0.5 * (side_here * t + outward_here * sqrt(1.0 - t * t)), 1);
 })";
 
 // After McGuire, Osman, Bukowski and Hennessy, "The Alchemy Screen-Space Ambient Obscurance Algorithm", 2011, eq. 10,

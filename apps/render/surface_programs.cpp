@@ -41,8 +41,12 @@ std::string head_of(const SurfaceTraits& traits) {
 const Program& SurfacePrograms::of(const SurfaceTraits& traits) {
   std::unique_ptr<Program>& program = programs_[traits];
   if (program == nullptr) {
-    const std::string fragment = head_of(traits).append(shaders::lighting).append(shaders::surface_fragment);
-    if (traits.is_solid) {
+    const std::string fragment = head_of(traits)
+                                     .append(shaders::lighting)
+                                     .append(traits.is_rope ? shaders::rope_fragment : shaders::surface_fragment);
+    if (traits.is_rope) {
+      program = std::make_unique<Program>(shaders::stroke_vertex, shaders::line_geometry, fragment);
+    } else if (traits.is_solid) {
       program = std::make_unique<Program>(shaders::solid_vertex, "", fragment);
     } else if (traits.is_flat) {
       program = std::make_unique<Program>(shaders::flat_vertex, shaders::flat_geometry, fragment);

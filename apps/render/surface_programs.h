@@ -12,6 +12,7 @@ namespace pliant_render {
 /// What a program of surfaces has code for; see shaders::surface_fragment.
 struct SurfaceTraits {
   bool is_solid = false;      ///< of a collider, in the tone `held`
+  bool is_rope = false;       ///< a line that is lit as a tube
   bool is_flat = false;       ///< each face by itself
   bool is_colored = false;    ///< by a value, whatever the bodies look like
   bool has_looks = false;     ///< colors of the bodies' own, see VertexLook

@@ -90,6 +90,21 @@ class Render(unittest.TestCase):
         width, height, _ = read_png(self.folder / "sheet.png")
         self.assertEqual((width, height), (2 * 32 + 3 * 2, 2 * 24 + 3 * 2))
 
+    def test_timing_tells_what_each_pass_takes(self):
+        def passes(*options):
+            told = self.render("chain", "--steps", 8, "--out", "c.png", "--size", "64x48", "--frames", 3, "--timing",
+                               *options).stdout
+            self.assertIn("in the median of 2 pictures", told)
+            rows = [line.split(maxsplit=1) for line in told.splitlines() if line[:1] == " "][1:]
+            times = {name: float(time) for time, name in rows}
+            self.assertGreater(times["in all"], 0)
+            self.assertGreaterEqual(times["in all"] * 1.5 + 1, max(times.values()))
+            return times
+
+        self.assertIn("light on what is seen", passes())
+        self.assertNotIn("light on what is seen", passes("--set", "view.quality=low"))
+        self.assertNotIn("in the median", self.render("chain", "--steps", 2, "--out", "c.png", "--size", "64x48").stdout)
+
     def test_a_turntable_goes_around_once(self):
         # All is held, so that nothing but the camera moves.
         scene = {"pliant": 1, "steps": 6, "settings": {"time_step": 0.125}, "gravity": None,

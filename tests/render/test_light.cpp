@@ -6,6 +6,8 @@
 
 #include "pliant/mesh/topology.h"
 #include "render/hard_edges.h"
+#include "render/offscreen_context.h"
+#include "render/surface_programs.h"
 #include "studio.h"
 #include "viewer/quality_chooser.h"
 
@@ -180,6 +182,99 @@ TEST_CASE("a window leaves light out where pictures take too long, unless the sc
   chooser.forget();
   CHECK(chooser.choose(Quality::automatic) == Quality::high);
   CHECK(chooser.choose(Quality::low) == Quality::low);
+}
+
+TEST_CASE("ropes are lit as tubes, and what hangs above them keeps light away") {
+  Studio studio;
+  studio.show_rope();
+  studio.options.appearance.camera.position = pliant::Vec3(0, -1, 0);
+  studio.options.appearance.camera.field_of_view = 40;
+  studio.options.appearance.light = pliant::Vec3(0, 0, 1);
+  const std::optional<Image> from_above = studio.draw();
+  if (!from_above) return;
+  const auto brightest = [](const Image& image, double from, double to) {  // of rows near the middle
+    int most = 0;
+    for (double v = from; v <= to; v += 1.0 / image.height) {
+      const Rgb color = at(image, 0.1, v);
+      if (color[0] > color[2] + 20) most = std::max(most, brightness(color));  // the rope is brown
+    }
+    return most;
+  };
+  const int top = brightest(*from_above, 0, 0.02);
+  CHECK(top > brightest(*from_above, -0.02, -0.001) + 10);
+  studio.options.appearance.light = pliant::Vec3(0, 0, -1);
+  CHECK(brightest(*studio.draw(), 0, 0.02) < top - 10);
+
+  // A sheet above the right half of it.
+  const pliant::Mesh sheet = pliant::grid({.columns = 9, .rows = 9, .size = {1, 1}});
+  const auto first = static_cast<pliant::Index>(studio.frame.positions.size());
+  for (pliant::Index i = 0; i < sheet.vertex_count(); ++i) {
+    const pliant::Vec3 x = sheet.vertices.row(i).transpose();
+    studio.frame.positions.push_back({static_cast<float>(x.x()), static_cast<float>(x.y() + x.z() - 0.5), 0.3F});
+  }
+  studio.bodies.push_back({"sheet", sheet, first});
+  studio.options.bounds = bounds_of(studio.frame.positions);
+  studio.options.appearance.light = pliant::Vec3(0, 0, 1);
+  studio.options.appearance.shadow = true;
+  const Image shaded = *studio.draw();
+  const auto brightest_at = [&](double u) {
+    int most = 0;
+    for (double v = -0.02; v <= 0.02; v += 1.0 / shaded.height) {
+      const Rgb color = at(shaded, u, v);
+      if (color[0] > color[2] + 20) most = std::max(most, brightness(color));
+    }
+    return most;
+  };
+  CHECK(brightest_at(0.5) > 0);
+  CHECK(brightest_at(0.5) < brightest_at(-0.5) - 30);
+}
+
+TEST_CASE("pictures can be drawn with the camera among the bodies, and with all bodies beside the picture") {
+  Studio studio = two_sheets();
+  studio.options.appearance.shadow = studio.options.appearance.ground = true;
+  for (const pliant::Vec3& eye : {pliant::Vec3(0.1, -0.2, 0.2), pliant::Vec3(0, 0, 0.01), pliant::Vec3(30, -2, 0)}) {
+    studio.options.appearance.camera.position = eye;
+    studio.options.appearance.camera.target = eye + pliant::Vec3(0, 1, -0.1);
+    const std::optional<Image> image = studio.draw();
+    if (!image) return;
+    CHECK(image->width == 320);
+    CHECK(glGetError() == GL_NO_ERROR);
+  }
+  const Rgb ground = at(*studio.draw(), 0, -0.9);  // nothing but this is seen in the last of them
+  CHECK(distance(at(*studio.draw(), -0.5, -0.9), ground) < 12);
+}
+
+TEST_CASE("programs of surfaces compile with any two traits") {
+  std::optional<OffscreenContext> context;
+  try {
+    context.emplace();
+  } catch (const pliant::Error& error) {
+    MESSAGE("skipped: ", std::string(error.what()));
+    return;
+  }
+  constexpr std::array<bool SurfaceTraits::*, 11> traits = {
+      &SurfaceTraits::is_colored,    &SurfaceTraits::has_looks,   &SurfaceTraits::has_fields,
+      &SurfaceTraits::has_gradient,  &SurfaceTraits::has_picture, &SurfaceTraits::has_weave,
+      &SurfaceTraits::has_cloth,     &SurfaceTraits::has_gloss,   &SurfaceTraits::has_shadows,
+      &SurfaceTraits::has_occlusion, &SurfaceTraits::is_flat};
+  SurfacePrograms programs;
+  std::set<const Program*> made;
+  SurfaceTraits all;
+  for (const auto first : traits) {
+    for (const auto second : traits) {
+      SurfaceTraits both;
+      both.*first = both.*second = true;
+      made.insert(&programs.of(both));
+      all = all.with(both);
+    }
+  }
+  CHECK(made.size() == 11 + 11 * 10 / 2);
+  made.insert(&programs.of(all));
+  for (const bool is_lit : {false, true}) {
+    made.insert(&programs.of({.is_solid = true, .has_shadows = is_lit, .has_occlusion = is_lit}));
+    made.insert(&programs.of({.is_rope = true, .has_shadows = is_lit, .has_occlusion = is_lit}));
+  }
+  CHECK(made.size() == 66 + 1 + 4);
 }
 
 }  // namespace test_light
