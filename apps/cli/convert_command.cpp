@@ -1,4 +1,4 @@
-// pliant convert: meshes to meshes, runs and point caches to animations.
+// pliant convert: meshes to meshes; runs, recorded sessions and point caches to animations.
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -22,6 +22,8 @@
 #include "render/run_replay.h"
 #include "render/run_values.h"
 #include "run_looks.h"
+#include "scene_options.h"
+#include "session_film.h"
 #include "terminal.h"
 
 namespace pliant_cli {
@@ -31,7 +33,7 @@ namespace fs = std::filesystem;
 using pliant::Animation;
 
 struct ConvertOptions {
-  fs::path in;                                    ///< a mesh, the folder of a run, or a point cache
+  fs::path in;                                    ///< a mesh, the folder of a run, a session or a point cache
   fs::path out;                                   ///< file whose extension says the format
   std::optional<fs::path> mesh;                   ///< of the vertices of a point cache
   pliant::ImportOptions import;                   ///< how a mesh is read: scale and axis
@@ -138,11 +140,38 @@ Animation read_animation(const ConvertOptions& options) {
                                    pliant::point_cache_extensions()));
   }
   if (!pliant::mesh_format(options.in)) {
-    pliant::fail_input(fmt::format("{}: neither the folder of a run nor a point cache ({}) nor a mesh (.{})",
-                                   options.in.string(), pliant::point_cache_extensions(),
-                                   fmt::join(pliant::readable_mesh_extensions(), ", .")));
+    pliant::fail_input(fmt::format(
+        "{}: neither the folder of a run nor a session (.session) nor a point cache ({}) nor a mesh (.{})",
+        options.in.string(), pliant::point_cache_extensions(), fmt::join(pliant::readable_mesh_extensions(), ", .")));
   }
   return pliant::still(pliant::read_mesh(options.in, options.import), name);
+}
+
+/// Whether the output holds that beside bodies.
+bool holds(const ConvertOptions& options, pliant::AnimationFormat::Beside beside) {
+  const auto format = pliant::animation_format(options.out);
+  return format && format->beside == beside;
+}
+
+struct Input {
+  Animation animation;
+  std::optional<pliant::Scene> session;  ///< the scene of a recorded one, as it was left
+};
+
+/// A session is done again, and has its colliders at hand.
+Input read_input(const ConvertOptions& options) {
+  if (!is_session(options.in)) return {read_animation(options), {}};
+  if (options.mesh || options.import.scale != 1 || options.import.up != pliant::UpAxis::z) {
+    pliant::fail_input(
+        fmt::format("{}: a session has its own meshes, in meters and with z up; leave out --mesh, --scale and --up",
+                    pliant::printable_place(options.in.string())));
+  }
+  SessionAnimation session = animation_of_session(options.in);
+  if (options.body) session.animation.colliders.clear();
+  if (holds(options, pliant::AnimationFormat::Beside::values)) {
+    pliant_render::take_tetrahedra(session.animation, session.end.simulation);
+  }
+  return {std::move(session.animation), std::move(session.end)};
 }
 
 void select(Animation& animation, const ConvertOptions& options) {
@@ -174,12 +203,6 @@ void warn_of_tolerance(const pliant::ExportOptions& options, const pliant::Expor
       fmt::format("warning: the error {:.2g} is past the tolerance {:.2g}, since at most {} keyframes are "
                   "kept; raise --max-keyframes to reduce it\n",
                   report.largest_error, wanted, options.max_keyframes));
-}
-
-/// Whether the output holds that beside bodies.
-bool holds(const ConvertOptions& options, pliant::AnimationFormat::Beside beside) {
-  const auto format = pliant::animation_format(options.out);
-  return format && format->beside == beside;
 }
 
 /// Whether the output holds colliders, and the input is of a scene that may have some.
@@ -237,12 +260,14 @@ void agree_to_thin(const fs::path& out, const pliant::ExportReport& report) {
 }
 
 /// What the export needs to know beside its options. Bodies get the texture coordinates of what they look like.
-pliant::ExportOptions complete_options(const ConvertOptions& options, Animation& animation) {
+pliant::ExportOptions complete_options(const ConvertOptions& options, Animation& animation,
+                                       const std::optional<pliant::Scene>& session) {
   pliant::ExportOptions exported = options.exported;
   exported.max_keyframes = options.max_keyframes.value_or(exported.max_keyframes);
   std::error_code ignored;
-  if (holds(options, pliant::AnimationFormat::Beside::colliders) && fs::is_directory(options.in, ignored)) {
-    RunLooks looks = looks_of_run(options.in, animation);
+  if (holds(options, pliant::AnimationFormat::Beside::colliders) &&
+      (session || fs::is_directory(options.in, ignored))) {
+    RunLooks looks = session ? looks_of_scene(*session, animation) : looks_of_run(options.in, animation);
     for (const fs::path& texture : looks.textures) refuse_to_replace(options.out, texture);
     exported.looks = std::move(looks.of_bodies);
   }
@@ -261,13 +286,15 @@ void convert(const ConvertOptions& options) {
                                    writable_formats()));
   }
   refuse_to_replace(options);
-  Animation animation = read_animation(options);
+  Input input = read_input(options);
+  Animation& animation = input.animation;
   if (has_nodes(options)) animation.colliders = colliders_of_run(options.in, animation.cache);
   std::optional<pliant::Scene> scene;
-  if (holds(options, pliant::AnimationFormat::Beside::values)) scene = scene_of_run(options.in, animation);
+  if (holds(options, pliant::AnimationFormat::Beside::values) && !input.session)
+    scene = scene_of_run(options.in, animation);
   select(animation, options);
   if (!is_mesh) {
-    pliant::ExportOptions exported = complete_options(options, animation);
+    pliant::ExportOptions exported = complete_options(options, animation, input.session);
     std::optional<pliant_render::RunValues> values;
     if (holds(options, pliant::AnimationFormat::Beside::values) && !animation.bodies.empty()) {
       values.emplace(animation, std::move(scene));
@@ -295,15 +322,19 @@ Examples:
   pliant convert out/flag flag.pc2 --fps 24              a point cache for the mesh in out/flag/mesh.obj
   pliant convert out/flag frames/flag_####.ply           one file a frame
   pliant convert out/flag flag.obj --time 2.5            a single moment
+  pliant convert curtain_wind-1.session pulled.glb       what was done in the window
   pliant convert walk.mdd walk.glb --mesh walk.obj       a point cache and its mesh
   pliant convert part.stl part.obj --scale 0.001 --up y  a mesh in millimeters with y up)";
 
 }  // namespace
 
 void add_convert_command(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("convert", "Convert meshes; export runs and point caches as animations");
+  CLI::App* command =
+      program.add_subcommand("convert", "Convert meshes; export runs, sessions and point caches as animations");
   const auto options = std::make_shared<ConvertOptions>();
-  command->add_option("in", options->in, "A mesh, the folder of a run, or a point cache (pc2, mdd, npy)")
+  command
+      ->add_option("in", options->in,
+                   "A mesh, the folder of a run, a recorded session (.session) or a point cache (pc2, mdd, npy)")
       ->type_name("FILE")
       ->required();
   command->add_option("out", options->out, "The file to write")->type_name("FILE")->required();

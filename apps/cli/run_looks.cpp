@@ -190,6 +190,21 @@ bool mentions(const pliant::SceneSource& source, std::string_view word) {
          std::ranges::any_of(source.overrides.set, has_word);
 }
 
+RunLooks looks_of_scene(const pliant::Scene& scene, pliant::Animation& animation) {
+  RunLooks looks;
+  looks.of_bodies.assign(animation.bodies.size(), look_of_view(scene.view));
+  LookMaker maker(scene);
+  for (const auto& [id, appearance] : scene.appearances) {
+    const pliant::Body& body = scene.simulation.body(id);
+    const auto found = std::ranges::find(animation.bodies, body.name, &pliant::Body::name);
+    if (found == animation.bodies.end()) continue;
+    looks.of_bodies[static_cast<std::size_t>(found - animation.bodies.begin())] =
+        maker.look(id, appearance, found->mesh);
+  }
+  looks.textures = maker.textures();
+  return looks;
+}
+
 RunLooks looks_of_run(const fs::path& folder, pliant::Animation& animation) {
   const fs::path checkpoint = folder / pliant::checkpoint_name;
   std::error_code ignored;
@@ -199,16 +214,10 @@ RunLooks looks_of_run(const fs::path& folder, pliant::Animation& animation) {
     pliant::Scene known = pliant::read_checkpoint(checkpoint);
     looks.of_bodies.assign(animation.bodies.size(), look_of_view(known.view));
     if (!mentions(known.source, "appearance")) return looks;
-    const pliant::Scene scene = pliant::parse_scene(std::move(known.source));
-    LookMaker maker(scene);
-    for (const auto& [id, appearance] : scene.appearances) {
-      const pliant::Body& body = scene.simulation.body(id);
-      const auto found = std::ranges::find(animation.bodies, body.name, &pliant::Body::name);
-      if (found == animation.bodies.end()) continue;
-      looks.of_bodies[static_cast<std::size_t>(found - animation.bodies.begin())] =
-          maker.look(id, appearance, found->mesh);
-    }
-    looks.textures = maker.textures();
+    const pliant::ViewSettings view = known.view;
+    pliant::Scene scene = pliant::parse_scene(std::move(known.source));
+    scene.view = view;
+    looks = looks_of_scene(scene, animation);
   } catch (const pliant::Error& error) {
     if (error.kind() != pliant::ErrorKind::input) throw;
     print_to_stderr("warning: the colors that the scene gives its bodies are not known: " +

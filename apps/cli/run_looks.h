@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "pliant_io/export/export.h"
+#include "pliant_io/scene/scene.h"
 #include "pliant_io/scene/scene_source.h"
 
 namespace pliant_cli {
@@ -23,5 +24,7 @@ struct RunLooks {
 /// lies on them. A texture that cannot be read is left out, with a warning. A scene without any appearance is not made
 /// again, which may take long.
 RunLooks looks_of_run(const std::filesystem::path& folder, pliant::Animation& animation);
+/// The same of a scene as it is.
+RunLooks looks_of_scene(const pliant::Scene& scene, pliant::Animation& animation);
 
 }  // namespace pliant_cli

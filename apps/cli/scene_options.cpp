@@ -100,7 +100,11 @@ bool is_checkpoint(const SceneArguments& arguments) {
 }
 
 bool is_session(const SceneArguments& arguments) {
-  return fs::path(arguments.scene).extension() == ".session";
+  return is_session(fs::path(arguments.scene));
+}
+
+bool is_session(const fs::path& file) {
+  return file.extension() == ".session";
 }
 
 void check_session(const SceneArguments& arguments) {

@@ -36,6 +36,7 @@ bool is_mesh(const SceneArguments& arguments);
 
 /// Whether it is a session that the window has recorded.
 bool is_session(const SceneArguments& arguments);
+bool is_session(const std::filesystem::path& file);
 /// @throws pliant::Error (input): options that a session cannot follow
 void check_session(const SceneArguments& arguments);
 

@@ -1,11 +1,17 @@
-// A recorded session to frames.
+// A recorded session to frames, drawn or exported.
 #include "session_film.h"
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
 
 #include <fmt/format.h>
 
 #include "interrupts.h"
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
+#include "render/collider_tracks.h"
 #include "terminal.h"
 
 namespace pliant_cli {
@@ -26,40 +32,92 @@ pliant::StepReport replay_step(pliant_viewer::Session& session, const std::files
   }
 }
 
-pliant_render::Clip clip_from_session(const std::filesystem::path& file,
-                                      const std::function<std::int64_t(pliant::Scene&)>& prepare,
-                                      const std::function<bool(std::int64_t, std::int64_t)>& go_on) {
+void visit_session(const std::filesystem::path& file, const SessionVisitor& visitor) {
   pliant_viewer::SessionRecord record = pliant_viewer::read_session_record(file);
-  std::int64_t every = 1;
   pliant_viewer::Session session([&, make = scene_maker_of(record, file)] {
     pliant::Scene scene = make();
-    every = prepare(scene);
+    if (visitor.prepare) visitor.prepare(scene);
     return scene;
   });
   session.set_stop(waits_no_longer);
   const std::int64_t first = record.last_start(), steps = record.steps;
   session.replay(std::move(record));
-  pliant_render::ColliderSurfaces surfaces;
-  std::optional<pliant_render::Clip> clip;
-  const auto keep = [&] {
-    if (!clip) {
-      clip = pliant_render::Clip{pliant_render::make_render_mesh(session.scene()), session.scene().view, {}};
-      pliant_render::check_clip_size((steps - first) / every + 2, clip->render_mesh.vertex_count);
-    }
-    clip->frames.push_back(capture_frame(session.simulation(), clip->render_mesh, clip->appearance.color, surfaces));
-  };
   // The restart itself comes with the step that follows it.
-  if (first == 0) keep();
-  for (std::int64_t step = 0; session.is_replaying() && go_on(step, steps);) {
+  bool has_visited = false;
+  const auto visit = [&](std::int64_t since, bool is_last) {
+    visitor.visit(session, since, is_last);
+    has_visited = true;
+  };
+  if (first == 0) visit(0, steps == 0);
+  for (std::int64_t step = 0; session.is_replaying() && visitor.go_on(step, steps);) {
     replay_step(session, file);
     ++step;
-    if (step > first && ((step - first) % every == 0 || step == steps || !clip)) keep();
+    if (step > first) visit(step - first, step == steps);
   }
-  if (!clip) keep();
+  if (!has_visited) visit(0, true);
   if (const auto differs_from = session.replayed().differs_from) {
     print_to_stderr("note: " + difference_text(*differs_from) + "\n");
   }
+}
+
+pliant_render::Clip clip_from_session(const std::filesystem::path& file,
+                                      const std::function<std::int64_t(pliant::Scene&)>& prepare,
+                                      const std::function<bool(std::int64_t, std::int64_t)>& go_on) {
+  std::int64_t every = 1, all_steps = 0;
+  pliant_render::ColliderSurfaces surfaces;
+  std::optional<pliant_render::Clip> clip;
+  visit_session(
+      file, {[&](pliant::Scene& scene) { every = prepare(scene); },
+             [&](std::int64_t step, std::int64_t steps) {
+               all_steps = steps;
+               return go_on(step, steps);
+             },
+             [&](pliant_viewer::Session& session, std::int64_t since, bool is_last) {
+               if (clip && since % every != 0 && !is_last) return;
+               if (!clip) {
+                 clip = pliant_render::Clip{pliant_render::make_render_mesh(session.scene()), session.scene().view, {}};
+                 pliant_render::check_clip_size(all_steps / every + 2, clip->render_mesh.vertex_count);
+               }
+               clip->frames.push_back(
+                   capture_frame(session.simulation(), clip->render_mesh, clip->appearance.color, surfaces));
+             }});
   return std::move(*clip);
+}
+
+SessionAnimation animation_of_session(const std::filesystem::path& file) {
+  std::string bytes;
+  std::vector<pliant::Real> times;
+  std::vector<pliant::Body> bodies;
+  std::optional<pliant_render::ColliderTracks> colliders;
+  std::optional<pliant::Scene> end;
+  visit_session(file, {{},
+                       [](std::int64_t step, std::int64_t steps) {
+                         if (step % 16 == 0 && has_error_terminal()) {
+                           print_to_stderr(fmt::format("\r\x1b[Ksimulating: step {} of {}", step, steps));
+                         }
+                         return true;
+                       },
+                       [&](pliant_viewer::Session& session, std::int64_t, bool is_last) {
+                         const pliant::Simulation& simulation = session.simulation();
+                         if (!colliders) {
+                           colliders.emplace(simulation);
+                           bodies = simulation.bodies();
+                         }
+                         const std::vector<pliant_render::Vec3f> positions =
+                             pliant_render::to_floats(simulation.state().positions);
+                         pliant_render::check_clip_size(std::ssize(times) + 1, simulation.state().vertex_count());
+                         const std::span<const std::byte> numbers = std::as_bytes(std::span(positions));
+                         for (const std::byte each : numbers) bytes.push_back(static_cast<char>(each));
+                         times.push_back(simulation.state().time);
+                         colliders->add_frame(simulation, simulation.state().time);
+                         if (is_last) end = session.close();
+                       }});
+  if (has_error_terminal()) print_to_stderr("\r\x1b[K");
+  const auto count = static_cast<pliant::Index>(end->simulation.state().vertex_count());
+  pliant::PointCache cache(std::move(bytes), {0, pliant::PointCache::Scalar::float32, count}, std::move(times));
+  SessionAnimation made{pliant::animate(file.stem().string(), bodies, std::move(cache)), std::move(*end)};
+  made.animation.colliders = colliders->take();
+  return made;
 }
 
 }  // namespace pliant_cli

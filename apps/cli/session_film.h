@@ -15,6 +15,24 @@ pliant_render::Clip clip_from_session(const std::filesystem::path& file,
                                       const std::function<std::int64_t(pliant::Scene&)>& prepare,
                                       const std::function<bool(std::int64_t, std::int64_t)>& go_on);
 
+/// Does a recorded session again. `prepare` sees the scene first; `visit` each state from the last restart on with how
+/// many steps there are since then, at least one; `go_on` gets the step and how many there are, and ends it by
+/// returning false. Says on stderr where the replay differs. @throws pliant::Error (input), as clip_from_session
+struct SessionVisitor {
+  std::function<void(pliant::Scene&)> prepare;
+  std::function<bool(std::int64_t step, std::int64_t steps)> go_on;
+  std::function<void(pliant_viewer::Session& session, std::int64_t since, bool is_last)> visit;
+};
+void visit_session(const std::filesystem::path& file, const SessionVisitor& visitor);
+
+/// What a recorded session shows from its last restart on, every step a frame, with its colliders where they were.
+/// @throws pliant::Error (input), as clip_from_session
+struct SessionAnimation {
+  pliant::Animation animation;
+  pliant::Scene end;  ///< how the session left it, which has what its bodies look like
+};
+SessionAnimation animation_of_session(const std::filesystem::path& file);
+
 /// Takes a step of a replay. @throws as Session::step does, naming the file
 pliant::StepReport replay_step(pliant_viewer::Session& session, const std::filesystem::path& file);
 

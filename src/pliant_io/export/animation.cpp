@@ -11,6 +11,7 @@
 #include "pliant/core/printable.h"
 #include "pliant_io/export/detail/split_mesh.h"
 #include "pliant_io/mesh/mesh_file.h"
+#include "pliant_io/recorder/detail/one_mesh.h"
 #include "pliant_io/recorder/detail/run_json.h"
 #include "pliant_io/recorder/run_files.h"
 #include "pliant_io/recorder/run_info.h"
@@ -131,6 +132,26 @@ Animation animate(Mesh mesh, std::string name, PointCache cache) {
   std::vector<Real> times = all_times(cache);
   std::vector<Body> bodies = {{name, std::move(mesh), 0}};
   return {std::move(name), std::move(bodies), std::move(cache), std::move(times)};
+}
+
+Animation animate(std::string name, std::span<const Body> bodies, PointCache cache) {
+  std::vector<BodyRange> ranges;
+  Index vertices = 0;
+  for (const Body& body : bodies) {
+    ranges.push_back({body.name, body.first_vertex, body.mesh.vertex_count()});
+    vertices += body.mesh.vertex_count();
+  }
+  if (cache.vertex_count() != vertices) {
+    fail_input(fmt::format("{}: the bodies have {} vertices, but the cache {}", name, vertices, cache.vertex_count()));
+  }
+  Mesh mesh = one_mesh_of_run(bodies);
+  cache.frame(0, mesh.vertices);
+  mesh.faces = visible_faces(mesh);
+  if (mesh.triangles.empty()) mesh.triangles = cut_into_triangles(mesh.faces);
+  mesh.tetrahedra.clear();
+  std::vector<Real> times = all_times(cache);
+  std::vector<Body> parts = split_mesh(mesh, ranges, name);
+  return {std::move(name), std::move(parts), std::move(cache), std::move(times)};
 }
 
 Animation animate(std::string name, PointCache cache) {

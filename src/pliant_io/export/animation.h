@@ -2,6 +2,7 @@
 // A moving mesh, to be exported: from the folder of a run, or a mesh and a point cache.
 #include <filesystem>
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,10 @@ Animation read_run(const std::filesystem::path& folder);
 
 /// A mesh, as one body of that name, that a cache moves. @throws Error (input): another count of vertices.
 Animation animate(Mesh mesh, std::string name, PointCache cache);
+
+/// Bodies of a simulation that a cache moves, with the surfaces of what is solid, as the folder of a run has them; they
+/// are where the first frame has them. @throws Error (input): another count of vertices.
+Animation animate(std::string name, std::span<const Body> bodies, PointCache cache);
 
 /// Points without a mesh.
 Animation animate(std::string name, PointCache cache);

@@ -20,18 +20,6 @@ void append_faces(PolygonFaces& all, const PolygonFaces& faces, Index first_vert
 }
 
 /// Polygons as fans from their first corner.
-std::vector<Triangle> cut_into_triangles(const PolygonFaces& faces) {
-  std::vector<Triangle> triangles;
-  for (std::size_t face = 1; face < faces.offsets.size(); ++face) {
-    const auto first = static_cast<std::size_t>(faces.offsets[face - 1]);
-    const auto last = static_cast<std::size_t>(faces.offsets[face]);
-    for (std::size_t corner = first + 2; corner < last; ++corner) {
-      triangles.push_back({faces.vertices[first], faces.vertices[corner - 1], faces.vertices[corner]});
-    }
-  }
-  return triangles;
-}
-
 Mesh objects_of_one_mesh(std::span<const Body> bodies) {
   Mesh all;
   all.faces.offsets.push_back(0);
@@ -67,6 +55,18 @@ Mesh objects_of_one_mesh(std::span<const Body> bodies) {
 }
 
 }  // namespace
+
+std::vector<Triangle> cut_into_triangles(const PolygonFaces& faces) {
+  std::vector<Triangle> triangles;
+  for (std::size_t face = 1; face < faces.offsets.size(); ++face) {
+    const auto first = static_cast<std::size_t>(faces.offsets[face - 1]);
+    const auto last = static_cast<std::size_t>(faces.offsets[face]);
+    for (std::size_t corner = first + 2; corner < last; ++corner) {
+      triangles.push_back({faces.vertices[first], faces.vertices[corner - 1], faces.vertices[corner]});
+    }
+  }
+  return triangles;
+}
 
 PolygonFaces visible_faces(const Mesh& mesh) {
   if (mesh.faces.face_count() > 0) return mesh.faces;

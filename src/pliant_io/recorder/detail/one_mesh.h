@@ -9,6 +9,9 @@ namespace pliant {
 /// The faces that a mesh shows: its polygons, else its triangles, else the surface of its tetrahedra.
 PolygonFaces visible_faces(const Mesh& mesh);
 
+/// Each polygon as a fan from its first corner.
+std::vector<Triangle> cut_into_triangles(const PolygonFaces& faces);
+
 /// A single body as it is; several as objects of one mesh, by their names, their vertices in the simulation's order,
 /// without maps.
 Mesh one_mesh(std::span<const Body> bodies);
