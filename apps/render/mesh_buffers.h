@@ -58,6 +58,7 @@ class MeshBuffers {
   void set_layout() const;
   void upload_lists();
   void upload_looks();
+  std::vector<VertexLook> fine_looks(const std::vector<VertexLook>& coarse) const;
   void read_textures();
   const RenderMesh& drawn() const { return levels_ > 0 ? fine_mesh_ : render_mesh_; }
 
