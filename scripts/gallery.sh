@@ -26,13 +26,13 @@ draw() { # SCENE STILL FIRST LAST OPTION...: the still after so many steps, the 
 
 draw storm 87 0 240
 draw silk_on_figure 250 0 270
-draw walkers 200 80 350
+draw walkers 200 80 335
 draw trampoline_crowd 66 0 210
 draw dress 300 48 330
 draw parachute 90 0 270
-draw towel 240 0 150
-draw layers 200 0 150
-draw chain_mail 200 0 450
-draw reef_knot 240 0 240
-draw tablecloth 105 30 165
+draw towel 240 0 210 --set view.camera.turn_rate=20
+draw layers 200 0 210 --set view.camera.turn_rate=20
+draw chain_mail 200 0 420
+draw reef_knot 240 0 240 --set view.camera.turn_rate=-6
+draw tablecloth 204 60 330
 draw soft_rings 45 0 150

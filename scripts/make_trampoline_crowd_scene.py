@@ -117,14 +117,24 @@ def scene():
         "view": {"camera": {"position": [2.9, -5.7, 2.5], "target": [0.05, 0, 1.28], "field_of_view": 38}, "light": [-0.7, -0.5, 0.9]}}
 
 
+def wrapped(item):
+    """The text of an entry of a list, broken between values."""
+    lines = [""]
+    for piece in json.dumps(item).split(", "):
+        if lines[-1] and len(lines[-1]) + len(piece) > 140:
+            lines.append("")
+        lines[-1] += piece + ", "
+    return "\n      ".join(line.rstrip() for line in lines)[:-1]
+
+
 def text_of(value):
-    """JSON with a line for each body."""
+    """JSON with a paragraph for each body and move."""
     lines = ["{"]
     for key, entry in value.items():
         comma = "" if key == list(value)[-1] else ","
         if isinstance(entry, list):
             lines.append(f'  "{key}": [')
-            lines += ["    " + json.dumps(item) + ("," if i + 1 < len(entry) else "") for i, item in enumerate(entry)]
+            lines += ["    " + wrapped(item) + ("," if i + 1 < len(entry) else "") for i, item in enumerate(entry)]
             lines.append("  ]" + comma)
         else:
             lines.append(f'  "{key}": {json.dumps(entry)}{comma}')

@@ -259,13 +259,15 @@ def rock(low, high, cells, edge_x):
         if cell not in index:
             point = [a + (b - a) * c / n for a, b, c, n in zip(low, high, cell, cells)]
             depth = 1 - cell[2] / cells[2]
-            rough = (0.03 if depth == 0 else 0.17)
+            rough = 0.04 if depth in (0, 1) else 0.15
             out = [2 * c / n - 1 for c, n in zip(cell, cells)]
             for i in range(3):
-                spread = rough if i < 2 else rough * (0.12 if depth == 0 else 1)
+                spread = rough if i < 2 else rough * (0.2 if depth == 0 else 1)
                 point[i] += spread * noise(cell[0] + low[0], cell[1] + 3 * i, cell[2]) + (0.35 * depth * out[i] if i < 2 else 0)
-            if cell[0] == edge_x:  # nothing of it is under the bridge
-                point[0] = max(point[0], low[0]) if edge_x == 0 else min(point[0], high[0])
+            if cell[0] == edge_x:  # ropes and the first board hang clear of it
+                sign = 1 if edge_x == 0 else -1
+                edge = low[0] if edge_x == 0 else high[0]
+                point[0] = edge + sign * (0 if depth == 0 else 0.03 + abs(point[0] - edge) * (1 - 0.7 * depth))
             index[cell] = len(vertices)
             vertices.append(rounded(point, 3))
         return index[cell]
@@ -293,8 +295,8 @@ def rock(low, high, cells, edge_x):
 def scene():
     ropes = bridge_ropes()
     ends = [[x, side * y, z] for x in (0, SPAN) for side in (-1, 1) for y, z in ((ROPE_Y, 0), (RAIL_Y, RAIL_HEIGHT))]
-    posts = [limb([x, side * RAIL_Y, -0.3], [x, side * RAIL_Y, 1.06], 0.055, 0.045, 8)
-             for x in (-0.075, SPAN + 0.075) for side in (-1, 1)]
+    posts = [limb([x, side * RAIL_Y, 0.03], [x, side * RAIL_Y, 1.06], 0.055, 0.045, 8)
+             for x in (-0.07, SPAN + 0.07) for side in (-1, 1)]
     walkers = [
         Walker("one", 1.0, -0.4, 1.15, 0.2,
                {"coat": "#b23a2e", "skin": "#c99572", "hat": "#d8b76a", "legs": "#39424f", "boots": "#3b2c22"}),
@@ -309,10 +311,10 @@ def scene():
          "constraints": [{"type": "tetrahedron_strain", "name": "wood", "stiffness": 1e8}]},
         {"name": "posts", "appearance": {"front": "#6e4c2f"}, "mesh": {"parts": posts}, "animation": {},
          "contact": {"self": False, "ignores": ["near rock", "far rock"]}},
-        {"name": "near rock", "appearance": {"front": "#8d8a84"}, "animation": {},
-         "mesh": rock([-2.7, -1.1, -2.4], [-0.03, 1.1, 0.055], (6, 6, 6), 6)},
-        {"name": "far rock", "appearance": {"front": "#8d8a84"}, "animation": {},
-         "mesh": rock([SPAN + 0.03, -1.1, -2.4], [SPAN + 2.7, 1.1, 0.055], (6, 6, 6), 0)}]
+        {"name": "near rock", "appearance": {"front": "#94897a"}, "animation": {}, "contact": {"self": False},
+         "mesh": rock([-2.7, -1.1, -2.4], [-0.03, 1.1, 0.055], (8, 7, 7), 8)},
+        {"name": "far rock", "appearance": {"front": "#94897a"}, "animation": {}, "contact": {"self": False},
+         "mesh": rock([SPAN + 0.03, -1.1, -2.4], [SPAN + 2.7, 1.1, 0.055], (8, 7, 7), 0)}]
     moves = []
     for walker in walkers:
         bodies += walker.bodies()
@@ -330,19 +332,28 @@ def scene():
                          "from": {"body": "boards", "on": sides}, "to": {"body": "ropes"}}],
         "contact": {"distance": 0.008, "friction": 0.6},
         "view": {"camera": {"position": [0.9, -6.2, 1.75], "target": [2.55, 0, 0.3], "field_of_view": 36},
-                 "background": "#dbe6ee", "ground_height": -2.4, "light": [0.3, -1, 1.05]},
+                 "background": "#dbe6ee", "ground": False, "light": [-0.3, -1, 1.05]},
         "moves": moves}
 
 
+def wrapped(item):
+    """The text of an entry of a list, broken between values."""
+    lines = [""]
+    for piece in json.dumps(item).split(", "):
+        if lines[-1] and len(lines[-1]) + len(piece) > 140:
+            lines.append("")
+        lines[-1] += piece + ", "
+    return "\n      ".join(line.rstrip() for line in lines)[:-1]
+
+
 def text_of(value):
-    """JSON with a line for each body and move; long lists are wrapped."""
+    """JSON with a paragraph for each body and move."""
     lines = ["{"]
     for key, entry in value.items():
         comma = "" if key == list(value)[-1] else ","
         if isinstance(entry, list):
             lines.append(f'  "{key}": [')
-            for i, item in enumerate(entry):
-                lines.append("    " + json.dumps(item) + ("," if i + 1 < len(entry) else ""))
+            lines += ["    " + wrapped(item) + ("," if i + 1 < len(entry) else "") for i, item in enumerate(entry)]
             lines.append("  ]" + comma)
         else:
             lines.append(f'  "{key}": {json.dumps(entry)}{comma}')

@@ -68,10 +68,11 @@ Arguments encoding_arguments(FilmFormat format, int fps) {
       arguments = {"-vf", yuv, "-c:v", "libvpx-vp9", "-crf", "30", "-b:v", "0", "-row-mt", "1"};
       break;
     case FilmFormat::webp:
-      // The encoder takes RGB and makes of it the one kind of YUV that the format has.
+      // Each frame whole: libwebp_anim keeps what has changed little, which leaves traces, and is hardly smaller. The
+      // encoder makes of RGB the one kind of YUV that the format has.
       tags = {"-pix_fmt", "bgra"};
       arguments = {"-vf",      fps > max_picture_fps ? fmt::format("fps={}", max_picture_fps) : "null",
-                   "-c:v",     "libwebp_anim",
+                   "-c:v",     "libwebp",
                    "-quality", "75",
                    "-loop",    "0"};
       break;

@@ -218,12 +218,12 @@ TEST_CASE("a WebP runs for ever, as fast as its frames, at most at 50 a second")
 TEST_CASE("an ffmpeg without the encoder is told, and what else can be done") {
   const TemporaryFolder programs;
   const TemporaryFolder folder;
-  write_fake_ffmpeg(programs, "echo \"Unknown encoder 'libwebp_anim'\" >&2; exit 1");
+  write_fake_ffmpeg(programs, "echo \"Unknown encoder 'libwebp'\" >&2; exit 1");
   const OnlyPath only(programs.path());
   const std::string message =
       error_of([&] { write_film(film(folder.path() / "a.webp", 256, 256)); }, pliant::ErrorKind::output);
   CHECK(contains(message, "a.webp: cannot be written: ffmpeg failed, "));
-  CHECK(contains(message, "Unknown encoder 'libwebp_anim'; fix that, or write .png pictures"));
+  CHECK(contains(message, "Unknown encoder 'libwebp'; fix that, or write .png pictures"));
   CHECK(folder.file_count() == 0);
 }
 
