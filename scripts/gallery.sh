@@ -20,19 +20,19 @@ draw() { # SCENE STILL FIRST LAST OPTION...: the still after so many steps, the 
     start="$work/$name/checkpoint.pliant"
     options=()
   fi
-  "$pliant" render "$start" --out "$folder/$name.webp" --steps "$last" --fps 20 --size 480x270 --quiet "${options[@]}"
+  "$pliant" render "$start" --out "$folder/$name.webp" --steps "$last" --fps "${fps:-20}" --size 480x270 --quiet "${options[@]}"
   printf '%s: %d kB\n' "$name.webp" "$(($(stat -c %s "$folder/$name.webp") / 1000))"
 }
 
-draw storm 87 0 240
+draw storm 87 30 270
 draw silk_on_figure 250 0 270
-draw walkers 200 80 335
+fps=15 draw walkers 200 100 316
 draw trampoline_crowd 66 0 210
 draw dress 300 48 330
 draw parachute 90 0 270
 draw towel 240 0 210 --set view.camera.turn_rate=20
 draw layers 200 0 210 --set view.camera.turn_rate=20
-draw chain_mail 200 0 420
+fps=15 draw chain_mail 200 30 450
 draw reef_knot 240 0 240 --set view.camera.turn_rate=-6
 draw tablecloth 204 60 330
 draw soft_rings 45 0 150
