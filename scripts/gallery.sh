@@ -33,6 +33,6 @@ draw parachute 90 0 270
 draw towel 240 0 210 --set view.camera.turn_rate=20
 draw layers 200 0 210 --set view.camera.turn_rate=20
 fps=15 draw chain_mail 200 30 450
-draw reef_knot 240 0 240 --set view.camera.turn_rate=-6
+draw reef_knot 240 0 240
 draw tablecloth 204 60 330
 draw soft_rings 45 0 150
