@@ -28,8 +28,6 @@ pliant="${1:-build/release/bin/pliant}"
 picture() { # NAME SCENE OPTION...
   "$pliant" render "$2" --out "$out/$1.png" --size 640x360 --quiet "${@:3}"
 }
-"$pliant" render "$out/silk.json" --out "$out/silk.png" --size 1280x560 --quiet
-"$pliant" render "$out/silk.json" --out "$out/silk.webp" --size 800x350 --steps 240 --fps 20 --quiet
 "$pliant" render "$out/finishes.json" --out "$out/finishes.png" --size 960x480 --quiet
 picture towel towel
 "$pliant" render dress_from_panels --out "$out/sewn_dress.png" --size 960x1000 --frames 8 --sheet --quiet

@@ -20,13 +20,13 @@ draw() { # SCENE STILL FIRST LAST OPTION...: the still after so many steps, the 
     start="$work/$name/checkpoint.pliant"
     options=()
   fi
-  "$pliant" render "$start" --out "$folder/$name.webp" --steps "$last" --fps "${fps:-20}" --size 480x270 --quiet "${options[@]}"
+  "$pliant" render "$start" --out "$folder/$name.webp" --steps "$last" --fps "${fps:-20}" --size "${size:-480x270}" --quiet "${options[@]}"
   printf '%s: %d kB\n' "$name.webp" "$(($(stat -c %s "$folder/$name.webp") / 1000))"
 }
 
 draw storm 87 30 270
 draw silk_on_figure 250 0 270
-fps=15 draw walkers 200 100 316
+fps=15 size=640x360 draw walkers 200 100 316
 draw trampoline_crowd 66 0 210
 draw dress 300 48 330
 draw parachute 90 0 270
@@ -35,4 +35,4 @@ draw layers 200 0 210 --set view.camera.turn_rate=20
 fps=15 draw chain_mail 200 30 450
 draw reef_knot 240 0 240
 draw tablecloth 204 60 330
-draw soft_rings 45 0 150
+draw soft_rings 45 0 138
