@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Draws the pictures of the README and the documents anew, from the built-in scenes, into docs/pictures/.
+# Draws the pictures of the documents anew, from the built-in scenes, into docs/pictures/; those of the gallery, which
+# the README shows too, are scripts/gallery.sh's.
 #   scripts/figures.sh [PROGRAM]   default: build/release/bin/pliant
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -27,14 +28,8 @@ pliant="${1:-build/release/bin/pliant}"
 picture() { # NAME SCENE OPTION...
   "$pliant" render "$2" --out "$out/$1.png" --size 640x360 --quiet "${@:3}"
 }
-"$pliant" render "$out/silk.json" --out "$out/silk.png" --size 1280x560 --quiet
 "$pliant" render "$out/finishes.json" --out "$out/finishes.png" --size 960x480 --quiet
-picture curtain curtain_wind --steps 100
-picture bridge rope_bridge --steps 170
-picture pillow pillow --steps 150 --color energy
-picture net net --steps 200
 picture towel towel
-picture dancer dancer --steps 240
 "$pliant" render dress_from_panels --out "$out/sewn_dress.png" --size 960x1000 --frames 8 --sheet --quiet
 "$pliant" render torus --out "$out/torus.png" --size 960x540 --steps 140 --frames 6 --sheet --wireframe --quiet
 

@@ -1,33 +1,38 @@
 #!/usr/bin/env bash
-# Draws the pictures of docs/gallery.md anew, or films of the same scenes.
-#   scripts/gallery.sh [PROGRAM]                  into docs/gallery/; default: build/release/bin/pliant
-#   scripts/gallery.sh --films FOLDER [PROGRAM]   640 x 360, whole, as .mp4
+# Draws the stills (.png) and the films (.webp) of docs/gallery.md anew, into docs/gallery/. Films need ffmpeg.
+#   scripts/gallery.sh [PROGRAM [SCENE...]]   default: build/release/bin/pliant, all scenes
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-films=""
-if [[ "${1-}" == --films ]]; then
-  films="${2:?gallery.sh: give the folder of the films}"
-  mkdir -p "$films"
-  shift 2
-fi
 pliant="${1:-build/release/bin/pliant}"
+folder=docs/gallery
+if (($# > 1)); then only=" ${*:2} "; else only=""; fi
+work="$(mktemp -d)"
+trap 'rm -rf "$work"' EXIT
+mkdir -p "$folder"
 
-draw() { # NAME SCENE STEPS OPTION...
-  if [[ -n "$films" ]]; then
-    "$pliant" render "$2" --out "$films/$1.mp4" --size 640x360 --quiet
-  else
-    "$pliant" render "$2" --out "docs/gallery/$1.png" --steps "$3" --size 640x360 --quiet "${@:4}"
+draw() { # SCENE STILL FIRST LAST OPTION...: the still after so many steps, the film from step to step
+  local name="$1" still="$2" first="$3" last="$4" options=("${@:5}")
+  [[ -z "$only" || "$only" == *" $name "* ]] || return 0
+  "$pliant" render "$name" --out "$folder/$name.png" --steps "$still" --size 960x540 --quiet
+  local start="$name"
+  if ((first > 0)); then
+    "$pliant" run "$name" --steps "$first" --out "$work/$name" --format none --quiet "${options[@]}"
+    start="$work/$name/checkpoint.pliant"
+    options=()
   fi
+  "$pliant" render "$start" --out "$folder/$name.webp" --steps "$last" --fps "${fps:-20}" --size "${size:-480x270}" --quiet "${options[@]}"
+  printf '%s: %d kB\n' "$name.webp" "$(($(stat -c %s "$folder/$name.webp") / 1000))"
 }
-draw storm docs/gallery/storm.json 87
-draw silk_on_figure docs/gallery/silk_on_figure.json 250
-draw trampoline_crowd docs/gallery/trampoline_crowd.json 92
-draw dress dress 282
-draw parachute parachute 70 --set 'view.camera.position=[0.8, -7, 2.3]' --set 'view.camera.target=[0.2, 0, 2.5]'
-draw plank_bridge plank_bridge 130
-draw towel towel 240
-draw layers layers 200 --set 'view.camera={"elevation": 28}'
-draw chain_mail chain_mail 200
-draw reef_knot reef_knot 360 --set 'view.camera={"elevation": 35}'
-draw tablecloth tablecloth 188
-draw soft_rings soft_rings 70
+
+draw storm 87 30 270
+draw silk_on_figure 250 0 270
+fps=15 size=640x360 draw walkers 200 100 316
+draw trampoline_crowd 66 0 210
+draw dress 300 48 330
+draw parachute 90 0 270
+draw towel 240 0 210 --set view.camera.turn_rate=20
+draw layers 200 0 210 --set view.camera.turn_rate=20
+fps=15 draw chain_mail 200 30 450
+draw reef_knot 240 0 240
+draw tablecloth 204 60 330
+draw soft_rings 45 0 138

@@ -7,21 +7,19 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 pliant="${1:-build/release/bin/pliant}"
 folder=web/page/public/thumbnails
 # The moment of each that shows most [steps]; the others after 120.
-declare -A steps=([storm]=87 [silk_on_figure]=250 [trampoline_crowd]=92 [dress]=282 [parachute]=70 [plank_bridge]=130
+declare -A steps=([storm]=87 [silk_on_figure]=250 [walkers]=200 [trampoline_crowd]=66 [dress]=282 [parachute]=70 [plank_bridge]=130
   [towel]=240 [layers]=200 [chain_mail]=200 [reef_knot]=360 [tablecloth]=188 [soft_rings]=70 [ball]=90 [pile]=150)
 
 if (($# > 1)); then
   scenes=("${@:2}")
 else
-  mapfile -t scenes < <("$pliant" scenes --json | jq -r ".[].name"; for file in docs/gallery/*.json; do basename "$file" .json; done)
+  mapfile -t scenes < <("$pliant" scenes --json | jq -r ".[].name")
 fi
 work="$(mktemp -d)"
 trap 'rm -rf "$work"' EXIT
 mkdir -p "$folder"
 for name in "${scenes[@]}"; do
-  scene="$name"
-  [[ ! -e "docs/gallery/$name.json" ]] || scene="docs/gallery/$name.json"
-  "$pliant" render "$scene" --out "$work/$name.png" --steps "${steps[$name]:-120}" --size 256x160 \
+  "$pliant" render "$name" --out "$work/$name.png" --steps "${steps[$name]:-120}" --size 256x160 \
     --set view.wind_arrow=false --quiet >/dev/null
   ffmpeg -loglevel error -y -i "$work/$name.png" -c:v libwebp -quality 60 -compression_level 6 "$folder/$name.webp"
 done

@@ -261,7 +261,7 @@ void check(const RenderArguments& arguments) {
   check_session(arguments);
   const auto format = pliant_render::film_format_of(arguments.out);
   if (!format) {
-    pliant::fail_input(fmt::format("--out: '{}' has no known ending; give .mp4, .webm, .gif or .png",
+    pliant::fail_input(fmt::format("--out: '{}' has no known ending; give .mp4, .webm, .webp, .gif or .png",
                                    pliant::printable_place(arguments.out.string())));
   }
   if (arguments.sheet && *format != pliant_render::FilmFormat::png) {
@@ -315,7 +315,7 @@ void add_render_command(CLI::App& program, int& exit_code) {
   const auto arguments = std::make_shared<RenderArguments>();
   add_scene_arguments(*command, *arguments,
                       std::string(scene_or_run_help) + ", a checkpoint (.pliant) or a recorded session (.session)");
-  command->add_option("--out", arguments->out, "Film (.mp4, .webm, .gif) or picture (.png)")
+  command->add_option("--out", arguments->out, "Film (.mp4, .webm, .webp, .gif) or picture (.png)")
       ->type_name("FILE")
       ->required();
   add_appearance_options(*command, *arguments);

@@ -26,8 +26,9 @@ namespace {
 
 using Arguments = std::vector<std::string>;
 
-/// GIF counts in hundredths of a second, and browsers show what is shorter than two of them ten times too long.
-constexpr int max_gif_fps = 50;
+/// Browsers show pictures of a GIF or WebP that are to last a hundredth of a second or less ten times as long; GIF
+/// counts in whole hundredths.
+constexpr int max_picture_fps = 50;
 
 [[noreturn]] void fail_output(const fs::path& path, const std::string& why) {
   throw pliant::Error(pliant::ErrorKind::output,
@@ -66,8 +67,17 @@ Arguments encoding_arguments(FilmFormat format, int fps) {
     case FilmFormat::webm:
       arguments = {"-vf", yuv, "-c:v", "libvpx-vp9", "-crf", "30", "-b:v", "0", "-row-mt", "1"};
       break;
+    case FilmFormat::webp:
+      // Each frame whole: libwebp_anim keeps what has changed little, which leaves traces, and is hardly smaller. The
+      // encoder makes of RGB the one kind of YUV that the format has.
+      tags = {"-pix_fmt", "bgra"};
+      arguments = {"-vf",      fps > max_picture_fps ? fmt::format("fps={}", max_picture_fps) : "null",
+                   "-c:v",     "libwebp",
+                   "-quality", "75",
+                   "-loop",    "0"};
+      break;
     case FilmFormat::gif: {
-      const std::string slower = fps > max_gif_fps ? fmt::format("fps={},", max_gif_fps) : "";
+      const std::string slower = fps > max_picture_fps ? fmt::format("fps={},", max_picture_fps) : "";
       tags.clear();
       arguments = {"-filter_complex", "[0:v]" + slower + "split[a][b];[a]palettegen[p];[b][p]paletteuse", "-loop", "0"};
       break;
@@ -78,7 +88,19 @@ Arguments encoding_arguments(FilmFormat format, int fps) {
 }
 
 const char* muxer_name(FilmFormat format) {
-  return format == FilmFormat::mp4 ? "mp4" : format == FilmFormat::webm ? "webm" : "gif";
+  switch (format) {
+    case FilmFormat::png:
+      break;
+    case FilmFormat::mp4:
+      return "mp4";
+    case FilmFormat::webm:
+      return "webm";
+    case FilmFormat::webp:
+      return "webp";
+    case FilmFormat::gif:
+      return "gif";
+  }
+  throw std::logic_error("ffmpeg is not used for pictures");
 }
 
 /// Without the program's own name.
@@ -245,6 +267,7 @@ std::optional<FilmFormat> film_format_of(const fs::path& path) {
   if (ending == ".png") return FilmFormat::png;
   if (ending == ".mp4") return FilmFormat::mp4;
   if (ending == ".webm") return FilmFormat::webm;
+  if (ending == ".webp") return FilmFormat::webp;
   if (ending == ".gif") return FilmFormat::gif;
   return std::nullopt;
 }
@@ -264,7 +287,8 @@ void remove_leftovers_of(const FilmOptions& options) {
 FilmFormat checked_format(const FilmOptions& options) {
   const std::string name = pliant::printable_place(options.out.string());
   const std::optional<FilmFormat> format = film_format_of(options.out);
-  if (!format) pliant::fail_input(name + ": not the name of a picture or film; end it with .png, .mp4, .webm or .gif");
+  if (!format)
+    pliant::fail_input(name + ": not the name of a picture or film; end it with .png, .mp4, .webm, .webp or .gif");
   if (options.width < 1 || options.height < 1) {
     pliant::fail_input(
         fmt::format("{}: a size of {} x {} pixels; give at least 1 x 1", name, options.width, options.height));

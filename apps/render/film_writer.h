@@ -9,7 +9,7 @@
 
 namespace pliant_render {
 
-enum class FilmFormat { png, mp4, webm, gif };
+enum class FilmFormat { png, mp4, webm, webp, gif };
 
 /// The format for the extension of a name, in upper or lower case; none if it is unknown.
 std::optional<FilmFormat> film_format_of(const std::filesystem::path& path);
@@ -18,7 +18,7 @@ struct FilmOptions {
   std::filesystem::path out;  ///< its extension chooses the format
   int width = 0;              ///< of every frame [pixels]
   int height = 0;             ///< of every frame [pixels]
-  int fps = 30;               ///< frames per second, at least 1; a GIF shows at most 50
+  int fps = 30;               ///< frames per second, at least 1; a WebP or GIF shows at most 50
   int frame_count = 1;        ///< PNG: 1 writes one file of that name, more are numbered; only a hint for films
 };
 

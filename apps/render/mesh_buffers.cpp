@@ -153,18 +153,24 @@ void MeshBuffers::upload_looks() {
     if (looks[i].by_uv > 0) looks[i].place.head<2>() = looks[i].by_uv * render_mesh_.texture_coordinates[i];
   }
   find_traits(looks);
-  if (levels_ > 0) {
-    std::vector<Vec3f> places, fine_places;
-    for (const VertexLook& look : looks) places.push_back(look.place);
-    apply_stencils(fine_.places, places, fine_places);
-    std::vector<VertexLook> fine_looks(fine_places.size());
-    for (std::size_t i = 0; i < fine_looks.size(); ++i) {
-      fine_looks[i] = looks[fine_.places.sources[fine_.places.offsets[i]]];
-      fine_looks[i].place = fine_places[i];
-    }
-    looks = std::move(fine_looks);
-  }
+  if (levels_ > 0) looks = fine_looks(looks);
   upload(looks_, GL_ARRAY_BUFFER, looks, GL_STATIC_DRAW);
+}
+
+/// What lies by the body at rest moves with the smooth surface, or straight stripes would be jagged: the scheme shifts
+/// vertices within a flat mesh too. Texture coordinates are linear, since they differ at seams.
+std::vector<VertexLook> MeshBuffers::fine_looks(const std::vector<VertexLook>& coarse) const {
+  std::vector<Vec3f> places, linear_places, smooth_places;
+  for (const VertexLook& look : coarse) places.push_back(look.place);
+  apply_stencils(fine_.places, places, linear_places);
+  apply_stencils(fine_.points, places, smooth_places);
+  std::vector<VertexLook> fine(linear_places.size());
+  for (std::size_t i = 0; i < fine.size(); ++i) {
+    const std::size_t vertex = i < fine_.vertex_count ? i : fine_.copies[i - fine_.vertex_count];
+    fine[i] = coarse[fine_.places.sources[fine_.places.offsets[i]]];
+    fine[i].place = fine[i].by_uv > 0 ? linear_places[i] : smooth_places[vertex];
+  }
+  return fine;
 }
 
 bool MeshBuffers::set_subdivision(int levels) {

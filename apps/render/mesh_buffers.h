@@ -68,6 +68,7 @@ class MeshBuffers {
   void upload_lists();
   void upload_looks();
   void find_traits(const std::vector<VertexLook>& looks);
+  std::vector<VertexLook> fine_looks(const std::vector<VertexLook>& coarse) const;
   void read_textures();
   GLuint texture_of(std::size_t body) const;
   const RenderMesh& drawn() const { return levels_ > 0 ? fine_mesh_ : render_mesh_; }

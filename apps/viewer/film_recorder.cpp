@@ -26,6 +26,8 @@ const char* ending_of(pliant_render::FilmFormat format) {
       return ".mp4";
     case pliant_render::FilmFormat::webm:
       return ".webm";
+    case pliant_render::FilmFormat::webp:
+      return ".webp";
     case pliant_render::FilmFormat::gif:
       return ".gif";
     case pliant_render::FilmFormat::png:

@@ -146,6 +146,16 @@ class Render(unittest.TestCase):
                 self.assertEqual(said.strip(), "64,48,11")  # 20 steps of 1/60 s, and the start
         self.assertEqual(self.files(), ["film.gif", "film.mp4", "film.webm"])
 
+    def test_a_webp_moves_where_pictures_are_shown(self):
+        if shutil.which("ffmpeg") is None:
+            self.skipTest("ffmpeg is not installed")
+        self.render("chain", "--steps", 18, "--out", "film.webp", "--size", "64x48", "--fps", 20)
+        film = (self.folder / "film.webp").read_bytes()
+        self.assertEqual((film[:4], film[8:16]), (b"RIFF", b"WEBPVP8X"))
+        self.assertEqual([1 + int.from_bytes(film[at:at + 3], "little") for at in (24, 27)], [64, 48])
+        self.assertEqual(film.count(b"ANMF"), 7)  # 18 steps of 1/60 s, and the start
+        self.assertEqual(self.files(), ["film.webp"])
+
     def test_a_run_is_rendered_as_its_scene(self):
         self.pliant("run", "chain", "--steps", 10, "--out", "run", "--quiet")
         self.render("run", "--out", "run.png", "--size", "96x64")

@@ -32,8 +32,8 @@ def snippet(source, name):
 
 class Pages(unittest.TestCase):
     def test_scenes_beside_pages_run(self):
-        scenes = sorted([*SOURCE.glob("docs/gallery/*.json"), *SOURCE.glob("docs/pictures/*.json")])
-        self.assertGreaterEqual(len(scenes), 4)
+        scenes = sorted(SOURCE.glob("docs/pictures/*.json"))
+        self.assertGreaterEqual(len(scenes), 1)
         for scene in scenes:
             with self.subTest(scene.name), tempfile.TemporaryDirectory() as folder:
                 words = [PLIANT, "run", scene, "--steps", "1", "--out", f"{folder}/out", "--quiet"]

@@ -71,8 +71,42 @@ bool has_ffmpeg() {
   return has;
 }
 
+/// What the chunks of a moving WebP say, which ffprobe cannot read.
+struct MovingPicture {
+  int width = 0, height = 0;   ///< [pixels]
+  int repeats = -1;            ///< 0: for ever
+  std::vector<int> durations;  ///< of each frame [ms]
+};
+
+MovingPicture read_webp(const fs::path& path) {
+  const std::string bytes = TemporaryFolder::read(path);
+  const auto number = [&](std::size_t at, std::size_t size) {
+    int value = 0;
+    for (std::size_t i = size; i-- > 0;) value = 256 * value + static_cast<unsigned char>(bytes.at(at + i));
+    return value;
+  };
+  REQUIRE(bytes.starts_with("RIFF"));
+  REQUIRE(bytes.substr(8, 4) == "WEBP");
+  CHECK(number(4, 4) + 8 == static_cast<int>(bytes.size()));
+  MovingPicture picture;
+  for (std::size_t at = 12; at < bytes.size();) {
+    const std::string name = bytes.substr(at, 4);
+    const std::size_t content = at + 8;
+    if (name == "VP8X") picture.width = number(content + 4, 3) + 1;
+    if (name == "VP8X") picture.height = number(content + 7, 3) + 1;
+    if (name == "ANIM") picture.repeats = number(content + 4, 2);
+    if (name == "ANMF") picture.durations.push_back(number(content + 12, 3));
+    at = content + static_cast<std::size_t>((number(at + 4, 4) + 1) / 2 * 2);
+  }
+  return picture;
+}
+
 /// "width,height,frames" of the film, counted frame by frame.
 std::string shape_of(const fs::path& film) {
+  if (film_format_of(film) == FilmFormat::webp) {
+    const MovingPicture picture = read_webp(film);
+    return fmt::format("{},{},{}", picture.width, picture.height, picture.durations.size());
+  }
   const Output probe = output_of(
       "ffprobe -v error -select_streams v:0 -count_frames -show_entries stream=width,height,nb_read_frames -of csv=p=0 "
       "'" +
@@ -120,13 +154,14 @@ TEST_CASE("the format is in the ending of the name") {
   CHECK(film_format_of("a.png") == FilmFormat::png);
   CHECK(film_format_of("folder.gif/A.MP4") == FilmFormat::mp4);
   CHECK(film_format_of("a.b.WebM") == FilmFormat::webm);
+  CHECK(film_format_of("a.WEBP") == FilmFormat::webp);
   CHECK(film_format_of("a.gif") == FilmFormat::gif);
   for (const char* name : {"a", "a.avi", "png", ".png", "a.mp4.tmp", ""}) CHECK(!film_format_of(name));
 }
 
 TEST_CASE("each film has the size and the frames that were added, and its name only at the end") {
   if (!has_ffmpeg()) return;
-  for (const char* name : {"a.mp4", "a.webm", "a.gif", "A.MP4"}) {
+  for (const char* name : {"a.mp4", "a.webm", "a.webp", "a.gif", "A.MP4"}) {
     CAPTURE(name);
     const TemporaryFolder folder;
     const fs::path path = folder.write(name, "old");
@@ -147,8 +182,8 @@ TEST_CASE("each film has the size and the frames that were added, and its name o
 TEST_CASE("odd sizes become even ones in MP4 only") {
   if (!has_ffmpeg()) return;
   const TemporaryFolder folder;
-  for (const auto& film_and_shape :
-       {std::pair("a.mp4", "34,22,3"), std::pair("a.webm", "33,21,3"), std::pair("a.gif", "33,21,3")}) {
+  for (const auto& film_and_shape : {std::pair("a.mp4", "34,22,3"), std::pair("a.webm", "33,21,3"),
+                                     std::pair("a.webp", "33,21,3"), std::pair("a.gif", "33,21,3")}) {
     const fs::path path = folder.path() / film_and_shape.first;
     write_film(film(path, 33, 21, 3));
     CHECK(shape_of(path) == film_and_shape.second);
@@ -169,18 +204,43 @@ TEST_CASE("a film lasts as long as its frames, and GIF is shown at most at 50 a 
   CHECK(shape_of(folder.path() / "a.gif") == "32,32,50");
 }
 
+TEST_CASE("a WebP runs for ever, as fast as its frames, at most at 50 a second") {
+  if (!has_ffmpeg()) return;
+  const TemporaryFolder folder;
+  const fs::path path = folder.path() / "a.webp";
+  write_film(film(path, 32, 32, 50, 25));
+  CHECK(read_webp(path).repeats == 0);
+  CHECK(read_webp(path).durations == std::vector<int>(50, 40));
+  write_film(film(path, 32, 32, 100, 100));
+  CHECK(read_webp(path).durations == std::vector<int>(50, 20));
+}
+
+TEST_CASE("an ffmpeg without the encoder is told, and what else can be done") {
+  const TemporaryFolder programs;
+  const TemporaryFolder folder;
+  write_fake_ffmpeg(programs, "echo \"Unknown encoder 'libwebp'\" >&2; exit 1");
+  const OnlyPath only(programs.path());
+  const std::string message =
+      error_of([&] { write_film(film(folder.path() / "a.webp", 256, 256)); }, pliant::ErrorKind::output);
+  CHECK(contains(message, "a.webp: cannot be written: ffmpeg failed, "));
+  CHECK(contains(message, "Unknown encoder 'libwebp'; fix that, or write .png pictures"));
+  CHECK(folder.file_count() == 0);
+}
+
 TEST_CASE("colors come back from films as they went in") {
   if (!has_ffmpeg()) return;
   const TemporaryFolder folder;
   // Orange differs by 15 between the matrices of standard and high definition.
   const std::vector<std::uint8_t> color = {230, 110, 40};
-  for (const char* name : {"a.mp4", "a.webm", "a.gif"}) {
+  for (const char* name : {"a.mp4", "a.webm", "a.webp", "a.gif"}) {
     CAPTURE(name);
     const fs::path path = folder.path() / name;
-    FilmWriter writer(film(path, 64, 64, 2));
-    for (int i = 0; i < 2; ++i) writer.add(plain(64, 64, color));
+    const bool is_webp = film_format_of(path) == FilmFormat::webp;
+    // One frame of a WebP is a picture, which ffmpeg can read.
+    FilmWriter writer(film(path, 64, 64, is_webp ? 1 : 2));
+    for (int i = 0; i < (is_webp ? 1 : 2); ++i) writer.add(plain(64, 64, color));
     writer.close();
-    const bool has_matrix = film_format_of(path) != FilmFormat::gif;
+    const bool has_matrix = !is_webp && film_format_of(path) != FilmFormat::gif;
     const Output pixels =
         output_of(fmt::format("ffmpeg -v error -i {} -frames:v 1 -vf {}format=rgb24 -f rawvideo -", path.string(),
                               has_matrix ? "scale=in_color_matrix=bt709:in_range=tv," : ""));
@@ -350,7 +410,7 @@ TEST_CASE("a place where no film can be is told before the first frame") {
   const fs::path taken = folder.path() / "b.gif";
   fs::create_directory(taken);
   CHECK(contains(message_for(taken, pliant::ErrorKind::output), "Is a directory"));
-  CHECK(contains(message_for("a.avi", pliant::ErrorKind::input), "end it with .png, .mp4, .webm or .gif"));
+  CHECK(contains(message_for("a.avi", pliant::ErrorKind::input), "end it with .png, .mp4, .webm, .webp or .gif"));
   const auto message_of = [](const FilmOptions& options) { return error_of([&] { FilmWriter{options}; }); };
   CHECK(contains(message_of(film("a.gif", 0, 8)), "a size of 0 x 8 pixels"));
   CHECK(contains(message_of(film("a.gif", 8, 8, 1, 0)), "1 frames, 0 a second"));
@@ -380,7 +440,7 @@ TEST_CASE("a link is followed, and the film has the permissions of any file") {
 TEST_CASE("a full disk is an error, and leaves the old film and nothing else") {
   if (!has_ffmpeg()) return;
   const TemporaryFolder folder;
-  for (const char* name : {"a.mp4", "a.webm", "a.gif"}) {
+  for (const char* name : {"a.mp4", "a.webm", "a.webp", "a.gif"}) {
     const fs::path path = folder.write(name, "old");
     rlimit old{};
     REQUIRE(getrlimit(RLIMIT_FSIZE, &old) == 0);
@@ -393,7 +453,7 @@ TEST_CASE("a full disk is an error, and leaves the old film and nothing else") {
     CHECK(contains(message, "File too large"));
     CHECK(TemporaryFolder::read(path) == "old");
   }
-  CHECK(folder.file_count() == 3);
+  CHECK(folder.file_count() == 4);
 }
 
 TEST_CASE("frames of another size, and no frames, are the program's mistakes") {

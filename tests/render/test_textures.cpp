@@ -309,4 +309,16 @@ TEST_CASE("a surface that is drawn smoother is rounder, keeps its texture, and h
   CHECK(difference(*lines, *fine) < 0.5);  // not four times as many
 }
 
+TEST_CASE("stripes are as straight on a surface that is drawn smoother, wherever its diagonals lie") {
+  TexturedStudio studio;
+  studio.bodies[0].mesh.triangles =
+      pliant::grid({.columns = 9, .rows = 9, .diagonals = pliant::Diagonals::alternating}).triangles;
+  const BodyAppearance appearance{.front = gray, .pattern = pliant::Pattern::stripes, .pattern_size = 0.23};
+  const std::optional<Image> coarse = studio.draw_with(appearance);
+  if (!coarse) return;
+  CHECK(difference(*coarse, *studio.draw_with({.front = gray})) > 0.05);
+  studio.options.appearance.subdivision = 2;
+  CHECK(difference(*coarse, *studio.draw_with(appearance)) < 1e-3);
+}
+
 }  // namespace test_textures

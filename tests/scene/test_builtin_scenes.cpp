@@ -82,13 +82,24 @@ void check_sound(const Scene& scene) {
   CHECK(scene.simulation.warnings().empty());
 }
 
-/// These run to their end in test cases of their own, below, in test_contact_scenes.cpp, test_surface_scenes.cpp and
-/// test_sewn_scenes.cpp.
-constexpr std::array own_cases = {
-    "block",      "chain_mail",        "funnel",    "reef_knot",   "tablecloth",  "turning_ball", "fold",   "layers",
-    "pile",       "rope_coil",         "twist",     "ball",        "conveyor",    "dancer",       "drapes", "flagpole",
-    "hand",       "materials",         "net",       "pillow",      "rope_bridge", "slope",        "torus",  "towel",
-    "trampoline", "dress_from_panels", "parachute", "plank_bridge"};
+/// These run to their end in test cases of their own, below, in test_contact_scenes.cpp, test_surface_scenes.cpp,
+/// test_sewn_scenes.cpp and test_gallery_scenes.cpp.
+constexpr std::array own_cases = {"block",         "chain_mail",
+                                  "funnel",        "reef_knot",
+                                  "tablecloth",    "turning_ball",
+                                  "fold",          "layers",
+                                  "pile",          "rope_coil",
+                                  "twist",         "ball",
+                                  "conveyor",      "dancer",
+                                  "drapes",        "flagpole",
+                                  "hand",          "materials",
+                                  "net",           "pillow",
+                                  "rope_bridge",   "slope",
+                                  "torus",         "towel",
+                                  "trampoline",    "dress_from_panels",
+                                  "parachute",     "plank_bridge",
+                                  "walkers",       "trampoline_crowd",
+                                  "silk_on_figure"};
 
 TEST_CASE("every built-in scene runs") {
   CHECK(builtin_scenes().size() >= 20);

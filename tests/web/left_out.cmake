@@ -11,6 +11,7 @@ set(PLIANT_LEFT_OUT_IN_NODE
   solver/test_global_step       # starts threads in all cases but one
   scene/test_builtin_scenes     # minutes; scene_bits runs these scenes
   scene/test_contact_scenes     # minutes
+  scene/test_gallery_scenes     # minutes
   # Minutes; and the crate of plank_bridge, thrown up, lands where rounding takes it, 0.33 m off where 0.3 are allowed.
   scene/test_sewn_scenes
 )

@@ -2,7 +2,7 @@
 import type { Client, Listeners } from './client';
 import { byId } from './dom';
 import { download, readFiles, sourceOf } from './files';
-import { firstScene, isOfGallery, sourceOfName } from './gallery';
+import { firstScene, sourceOfName } from './gallery';
 import { Hands } from './hands';
 import { Loading } from './loading';
 import { Messages } from './messages';
@@ -205,7 +205,7 @@ export class App {
     }
     // Asked for first: what was changed just before is known then.
     const text = await this.client.text();
-    const isNamed = this.state.panel?.hasChanges === false && isOfGallery(this.source);
+    const isNamed = this.state.panel?.hasChanges === false && this.source.kind === 'builtin';
     const hash = await hashOf(isNamed ? { kind: 'builtin', name: this.source.name }
                                       : { kind: 'text', name: this.state.name, text });
     if (hash.length > longestLink) {

@@ -11,8 +11,10 @@ namespace {
 
 using pliant_render::FilmFormat;
 
-constexpr std::array<const char*, 4> format_names = {"film, MP4", "film, WebM", "film, GIF", "pictures, PNG"};
-constexpr std::array<FilmFormat, 4> formats = {FilmFormat::mp4, FilmFormat::webm, FilmFormat::gif, FilmFormat::png};
+constexpr std::array<const char*, 5> format_names = {"film, MP4", "film, WebM", "film, WebP", "film, GIF",
+                                                     "pictures, PNG"};
+constexpr std::array<FilmFormat, 5> formats = {FilmFormat::mp4, FilmFormat::webm, FilmFormat::webp, FilmFormat::gif,
+                                               FilmFormat::png};
 
 struct NamedSize {
   const char* name;
