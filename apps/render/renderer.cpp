@@ -130,7 +130,7 @@ void Renderer::draw(const pliant::ViewSettings& appearance, const DrawOptions& o
   glEnable(GL_BLEND);
   light_.shade_floors();
   glEnable(GL_DEPTH_TEST);
-  colliders_.draw_solids(projection(options), light_, options.lit_collider);
+  colliders_.draw_solids(projection(options), light_, {options.lit_collider, options.selected_collider});
   draw_surface(appearance, options, camera);
   draw_lines(appearance, options, camera, picture);
   draw_markers(options, camera, picture);

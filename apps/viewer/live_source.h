@@ -35,7 +35,7 @@ class LiveSource final : public ViewSource {
   const pliant_plot::MeasuredRun* measured() const override { return &history_.run(); }
   std::uint64_t measured_version() const override { return history_.version(); }
   void measure(const Measuring& measuring) override;
-  void draw_panel() override;
+  void draw_panel(const std::string& selected_collider) override;
   LiveScene* live() override { return &scene_; }
 
   const Snapshot& snapshot() const { return *snapshot_; }
