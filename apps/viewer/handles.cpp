@@ -8,7 +8,7 @@ bool Handles::handle(const MouseEvent& event, const View& view) {
   // What is busy comes first: another handle may lie on the way of the mouse.
   if (pins.is_busy()) return pins.handle(event, view);
   if (collider.is_busy()) return collider.handle(event, view);
-  return wind.handle(event, view) || pins.handle(event, view) || collider.handle(event, view);
+  return forces.handle(event, view) || pins.handle(event, view) || collider.handle(event, view);
 }
 
 void Handles::flush(const View& view) {
@@ -29,16 +29,17 @@ void Handles::take_click(const MouseInteraction::Click& click, const Snapshot& s
   collider.select(name == collider.selected() ? "" : name);
 }
 
-bool Handles::draw(const View& view, const std::optional<Vec2f>& mouse, ImDrawList& list) const {
-  const bool is_at_wind = mouse && wind.is_at(*mouse, view);
-  wind.draw(view, is_at_wind, list);
+bool Handles::draw(const View& view, const std::optional<Vec2f>& mouse,
+                   const pliant_render::AnnotationCanvas& canvas) const {
+  const auto arrow = mouse ? ForceArrows::at(*mouse, view) : std::nullopt;
+  forces.draw(view, arrow, canvas);
   using Part = TransformGizmo::Part;
-  const Part of_pins = mouse && !is_at_wind ? pins.part_at(*mouse, view) : Part::none;
-  const bool is_free = mouse && !is_at_wind && of_pins == Part::none;
+  const Part of_pins = mouse && !arrow ? pins.part_at(*mouse, view) : Part::none;
+  const bool is_free = mouse && !arrow && of_pins == Part::none;
   const Part of_collider = is_free ? collider.part_at(*mouse, view) : Part::none;
-  collider.draw(view, of_collider, list);
-  pins.draw(view, of_pins, list);
-  return is_at_wind || of_pins != Part::none || of_collider != Part::none;
+  collider.draw(view, of_collider, canvas.list);
+  pins.draw(view, of_pins, canvas.list);
+  return arrow || of_pins != Part::none || of_collider != Part::none;
 }
 
 }  // namespace pliant_viewer

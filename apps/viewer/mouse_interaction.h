@@ -22,6 +22,7 @@ class MouseInteraction {
     std::optional<float> floor{};  ///< height that the camera stays above [m]
     bool shows_colliders = true;   ///< what is hidden cannot be grabbed
     bool shows_wind = true;        ///< by its arrow
+    bool shows_forces = false;     ///< others, by theirs
   };
   /// What a press of the left button would grab: a pin, else a point of a body or a collider, else nothing.
   struct PickTarget {

@@ -38,7 +38,8 @@ MouseInteraction::View Viewer::mouse_view() {
           ui_.style().unit,
           floor,
           appearance_.colliders,
-          appearance_.wind_arrow};
+          appearance_.wind_arrow,
+          is_panel_open_ && source_.shows_forces()};
 }
 
 void Viewer::take_input() {

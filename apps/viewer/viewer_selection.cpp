@@ -181,7 +181,7 @@ void Viewer::draw_hand(const pliant_render::AnnotationCanvas& canvas) {
     brush_.draw(*point, view, canvas.list);
   }
   const bool is_free = is_in_picture && !is_busy;
-  const bool is_at_handle = handles_.draw(view, is_free ? std::optional(mouse) : std::nullopt, canvas.list);
+  const bool is_at_handle = handles_.draw(view, is_free ? std::optional(mouse) : std::nullopt, canvas);
   if (is_at_handle) return Ui::show_hand();
   if (!is_free || brush_.point_at(mouse, view)) return;
   const MouseInteraction::PickTarget under = MouseInteraction::pick(mouse, view);

@@ -193,7 +193,7 @@ TEST_CASE("wind and a ball are added from the panel, and the arrow of the wind i
     }
     return Vec2f(place()[0] + 20, (place()[1] + place()[3]) / 2);
   };
-  const Vec2f arrow = WindHandle::place(desk.viewer.mouse_view());
+  const Vec2f arrow = pliant_render::wind_arrow_place(desk.viewer.screen().size.y());
   CHECK_FALSE(desk.source.frame().wind.has_value());
   const Vec2f forces = menu("forces");
   desk.click(forces);

@@ -99,7 +99,8 @@ void ParameterPanel::draw(const Snapshot& snapshot, LiveScene& live, const std::
     return std::span<const Slider>(begin, std::find_if_not(begin, all.end(), is_meant));
   };
   if (section_header("Solver")) draw_options(those_of(0), live);
-  if (section_header("Forces")) draw_forces(those_of(2), snapshot, live);
+  shows_forces_ = section_header("Forces");
+  if (shows_forces_) draw_forces(those_of(2), snapshot, live);
   if (section_header("Contact")) {
     draw_options(those_of(4), live);
     draw_body_contacts(those_of(5), live);

@@ -21,6 +21,7 @@ class ParameterPanel {
   /// Draws all parameters of a snapshot but those of groups, and posts what is changed. `selected`: the name of a
   /// collider that has rows for where it is as well.
   void draw(const Snapshot& snapshot, LiveScene& live, const std::string& selected = {});
+  bool shows_forces() const { return shows_forces_; }  ///< as of the last drawing
   /// Where the widget of a parameter, "switch:NAME", or "add forces" and "add colliders", stands in the window, as of
   /// the last drawing: left, top, right, bottom.
   std::optional<std::array<float, 4>> place_of(const std::string& key) const;
@@ -54,6 +55,7 @@ class ParameterPanel {
   std::map<std::string, Switched> switched_;
   std::optional<std::pair<std::string, pliant::Vec3>> withheld_;  // what is being typed and may become a value
   std::optional<std::pair<std::string, pliant::Vec3>> moved_;     // row of a collider that is dragged, and its value
+  bool shows_forces_ = false;
   std::string held_;  // key of what is being dragged and has changed: one change for undo
   std::map<std::string, std::array<double, 2>> ranges_;  // of sliders, by the values that were seen first
   std::map<std::string, std::array<float, 4>> places_;
