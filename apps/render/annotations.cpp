@@ -131,16 +131,20 @@ float wind_arrow_radius(float height) {
   return 38 * unit_of(height);
 }
 
-/// Draws an arrow at the lower left in the direction of the wind, and its speed.
+/// At the lower left.
 void draw_wind(const WindAnnotation& wind, const Viewpoint& viewpoint, const AnnotationCanvas& canvas) {
-  const float unit = unit_of(canvas.height);
-  const float size = 17 * unit;
-  const float speed = wind.velocity.norm();
-  const Vec2f place = wind_arrow_place(canvas.height);
-  const ImVec2 middle(place.x(), place.y());
+  draw_arrow({wind.velocity, wind.text}, {wind_arrow_place(canvas.height), wind_arrow_radius(canvas.height)}, viewpoint,
+             canvas);
+}
+
+void draw_arrow(const ArrowAnnotation& arrow, const ArrowPlace& place, const Viewpoint& viewpoint,
+                const AnnotationCanvas& canvas) {
+  const float unit = place.radius / 38;
+  const float size = 17 * std::max(unit, 0.8F * unit_of(canvas.height));  // smaller letters are hard to read
+  const ImVec2 middle(place.middle.x(), place.middle.y());
   canvas.list.AddText(&canvas.font, size, {middle.x + 44 * unit, middle.y - size * 0.5F}, canvas.ink,
-                      wind.text.c_str());
-  const Vec3f along = wind.velocity / speed;
+                      arrow.text.c_str());
+  const Vec3f along = arrow.vector.normalized();
   const Vec3f right = viewpoint.forward().cross(viewpoint.up);
   const Vec2f flat(along.dot(right), -along.dot(viewpoint.up));
   // An arrow straight into the picture would be a point: it keeps a visible length.

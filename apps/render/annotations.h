@@ -58,4 +58,17 @@ Vec2f wind_arrow_place(float height);
 float wind_arrow_radius(float height);
 void draw_wind(const WindAnnotation& wind, const Viewpoint& viewpoint, const AnnotationCanvas& canvas);
 
+/// A direction and what is written beside it.
+struct ArrowAnnotation {
+  Vec3f vector = {0, 0, 0};  ///< of any length but zero
+  std::string text;
+};
+/// Where it is drawn.
+struct ArrowPlace {
+  Vec2f middle;
+  float radius;  ///< the tip may be almost as far from there
+};
+void draw_arrow(const ArrowAnnotation& arrow, const ArrowPlace& place, const Viewpoint& viewpoint,
+                const AnnotationCanvas& canvas);
+
 }  // namespace pliant_render

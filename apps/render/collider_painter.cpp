@@ -9,7 +9,7 @@
 namespace pliant_render {
 namespace {
 
-const Vec3f lit_tone(0.76F, 0.81F, 0.88F);  // of a collider that the mouse is over
+const Vec3f lit_tone(0.76F, 0.81F, 0.88F);  // of a collider that is selected, or under the mouse
 
 constexpr float floor_tone = 0.86F;  // of the background, as of the ground
 constexpr int plane_rings = 24;
@@ -109,7 +109,7 @@ void ColliderPainter::draw_triangles_of(const DrawnCollider& each, const Program
 }
 
 void ColliderPainter::draw_solids(const Projection& projection, const SceneLight& light,
-                                  std::optional<pliant::Index> lit) {
+                                  const std::array<std::optional<pliant::Index>, 2>& lit) {
   if (solids_.empty()) return;
   SurfaceTraits traits{.is_solid = true};
   traits.has_shadows = light.has_shadows();
@@ -120,7 +120,7 @@ void ColliderPainter::draw_solids(const Projection& projection, const SceneLight
   solid.set("setback", projection.setback);
   light.set(solid);
   for (const DrawnCollider& each : colliders_) {
-    solid.set("held", each.number == lit ? lit_tone : solid_tone);
+    solid.set("held", std::ranges::count(lit, each.number) > 0 ? lit_tone : solid_tone);
     draw_triangles_of(each, solid, Mat4f::Identity());
   }
 }

@@ -1,5 +1,6 @@
 #pragma once
 // Draws the colliders of a frame: solid surfaces, and planes with a shadow on them.
+#include <array>
 #include <functional>
 #include <map>
 #include <memory>
@@ -41,8 +42,9 @@ class ColliderPainter {
 
   /// Draws the triangles of all solids with a program that takes the place of each as its uniform `place`.
   void draw_triangles(const Program& program, const Mat4f& frame) const;
-  /// `lit`: the number of one that is drawn brighter.
-  void draw_solids(const Projection& projection, const SceneLight& light, std::optional<pliant::Index> lit);
+  /// `lit`: the numbers of those that are drawn brighter.
+  void draw_solids(const Projection& projection, const SceneLight& light,
+                   const std::array<std::optional<pliant::Index>, 2>& lit);
   /// A plane that fades from the middle of the scene outward; the texture bound last is the mask of its shadow.
   struct PlaneLook {
     Vec3f middle;  ///< of the scene [m]

@@ -144,7 +144,7 @@ void Renderer::draw(const pliant::ViewSettings& appearance, const DrawOptions& o
   glEnable(GL_DEPTH_TEST);
   draw_surface(appearance, options, camera);  // first, since they lie in front of what they lie on
   end("bodies");
-  colliders_.draw_solids(projection(options), light_, options.lit_collider);
+  colliders_.draw_solids(projection(options), light_, {options.lit_collider, options.selected_collider});
   end("colliders");
   draw_ropes(appearance, options, camera);
   if (appearance.wireframe) draw_wireframe(options, camera);

@@ -18,9 +18,10 @@ struct DrawOptions {
   float pixel = 1;                      ///< pixels drawn for a pixel of the picture, along a side
   bool markers = true;                  ///< on pinned vertices and those under a test force
   bool selection = false;               ///< marks on selected vertices
-  std::optional<pliant::Index> lit_collider{};      ///< the number of one that is drawn brighter
-  pliant::Quality quality = pliant::Quality::high;  ///< `automatic` is `high` here
-  PassClock* clock = nullptr;                       ///< for who wants to know what takes how long
+  std::optional<pliant::Index> lit_collider{};       ///< the number of one that is drawn brighter
+  std::optional<pliant::Index> selected_collider{};  ///< of another one
+  pliant::Quality quality = pliant::Quality::high;   ///< `automatic` is `high` here
+  PassClock* clock = nullptr;                        ///< for who wants to know what takes how long
 };
 
 class Renderer {

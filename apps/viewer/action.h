@@ -72,6 +72,10 @@ struct MoveCollider {
   Index collider = 0;
   Vec3f target = {0, 0, 0};  ///< [m]
 };
+struct TurnCollider {
+  Index collider = 0;
+  pliant::Vec3 rotation = pliant::Vec3::Zero();  ///< axis times angle [rad]
+};
 struct DropCollider {
   Index collider = 0;
 };
@@ -129,7 +133,7 @@ using Action =
                  action::MovePin, action::DropPin, action::MoveCollider, action::DropCollider, action::Set,
                  action::SetMaterial, action::Undo, action::Redo, action::Restart, action::Save, action::PinVertices,
                  action::UnpinVertices, action::HoldPins, action::MoveHeld, action::DropHeld, action::SetAppearance,
-                 action::SwitchOn, action::Add, action::Push, action::Paint>;
+                 action::SwitchOn, action::Add, action::Push, action::Paint, action::TurnCollider>;
 
 /// An action, and how many steps the session had taken before it.
 struct TimedAction {

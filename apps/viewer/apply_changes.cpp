@@ -33,12 +33,8 @@ void move_pins(const SceneChanges& changes, pliant::Simulation& simulation) {
 }
 
 void move_colliders(const SceneChanges& changes, pliant::Simulation& simulation) {
-  for (const auto& [name, position] : changes.collider_positions) {
-    const auto collider = simulation.find_collider(name);
-    if (!collider) continue;
-    pliant::Pose pose = simulation.pose(*collider);
-    pose.position = position;
-    simulation.set_target(*collider, pose);
+  for (const auto& [name, pose] : changes.collider_poses) {
+    if (const auto collider = simulation.find_collider(name)) simulation.set_target(*collider, pose);
   }
 }
 

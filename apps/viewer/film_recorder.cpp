@@ -57,6 +57,7 @@ void FilmRecorder::add(pliant_render::Renderer& renderer, const FilmedView& view
   options.markers = view.appearance.markers.value_or(false);
   options.selection = false;
   options.lit_collider.reset();
+  options.selected_collider.reset();
   if (is_fine_) options.quality = pliant::Quality::high;
   target_.begin();
   renderer.draw(view.appearance, options, factor * width, factor * height);

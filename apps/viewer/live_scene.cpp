@@ -386,6 +386,7 @@ void LiveScene::publish() {
   back_.switched_off = switched_off_;
   back_.wrenches.clear();
   for (const auto& [id, collider] : simulation.colliders()) back_.wrenches[id] = simulation.wrench(id);
+  back_.movable = session_.movable_colliders();
   back_.measured = std::exchange(measured_, {});
   back_.statistics = statistics_.means(Clock::now());
   back_.step = simulation.state().step;

@@ -34,6 +34,7 @@ struct Snapshot {
   std::shared_ptr<const std::map<std::string, bool>> switches;             ///< by name, see Session::switches
   std::shared_ptr<const std::map<std::string, SwitchedOff>> switched_off;  ///< by name
   std::map<pliant::ColliderId, pliant::Wrench> wrenches;                   ///< what colliders felt in the last step
+  std::map<pliant::ColliderId, MovableCollider> movable;                   ///< colliders that a hand can move
   std::vector<MeasuredStep> measured;  ///< since the snapshot that newest() returned before
   FrameStatistics::Means statistics;
   std::int64_t step = 0;

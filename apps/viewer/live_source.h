@@ -35,7 +35,8 @@ class LiveSource final : public ViewSource {
   const pliant_plot::MeasuredRun* measured() const override { return &history_.run(); }
   std::uint64_t measured_version() const override { return history_.version(); }
   void measure(const Measuring& measuring) override;
-  void draw_panel() override;
+  void draw_panel(const std::string& selected_collider) override;
+  bool shows_forces() const override { return parameters_.shows_forces(); }
   LiveScene* live() override { return &scene_; }
 
   const Snapshot& snapshot() const { return *snapshot_; }

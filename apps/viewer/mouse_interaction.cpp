@@ -154,6 +154,7 @@ void MouseInteraction::begin_pull(const View& view) {
 
 void MouseInteraction::release(const MouseEvent& event, const View& view) {
   const Action action = std::exchange(action_, Action::none);
+  const bool is_click = (event.place - pressed_).norm() <= click_slack * view.unit;
   if (action == Action::pull) {
     pull_.reset();
     post(view, LiveScene::Kind::changes, [](Session& session) { session.let_go(); });
@@ -169,8 +170,18 @@ void MouseInteraction::release(const MouseEvent& event, const View& view) {
          });
   } else if (action == Action::touch_pin) {
     toggle_pin(vertex_, true, view);
-  } else if (action == Action::touch_body && (event.place - pressed_).norm() <= click_slack * view.unit) {
+  } else if (!is_click) {
+    return;
+  } else if (action == Action::touch_body) {
     toggle_pin(point_.nearest_vertex(view.snapshot->frame.content.positions), false, view);
+  } else if (action == Action::touch_collider) {
+    click_ = Click{collider_};
+  } else if (action == Action::orbit && button_ == MouseButton::left && view.snapshot != nullptr) {
+    const auto plane =
+        view.shows_colliders && view.live != nullptr
+            ? pick_collider(view.snapshot->frame.content.colliders, view.screen, event.place, Planes::too)
+            : std::nullopt;
+    click_ = Click{plane ? std::optional(plane->number) : std::nullopt};
   }
 }
 

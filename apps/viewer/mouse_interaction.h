@@ -1,6 +1,7 @@
 #pragma once
 // What the mouse does in the picture: moves the camera, pulls at bodies, sets pins and moves them, moves colliders.
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "viewer/live_scene.h"
@@ -21,6 +22,7 @@ class MouseInteraction {
     std::optional<float> floor{};  ///< height that the camera stays above [m]
     bool shows_colliders = true;   ///< what is hidden cannot be grabbed
     bool shows_wind = true;        ///< by its arrow
+    bool shows_forces = false;     ///< others, by theirs
   };
   /// What a press of the left button would grab: a pin, else a point of a body or a collider, else nothing.
   struct PickTarget {
@@ -30,6 +32,12 @@ class MouseInteraction {
   };
   static PickTarget pick(const Vec2f& at, const View& view);
   void handle(const MouseEvent& event, const View& view);
+  /// What the left button was clicked on that is no body: a collider, planes too, or nothing.
+  struct Click {
+    std::optional<Index> collider{};  ///< its number
+  };
+  /// The last click, once.
+  std::optional<Click> take_click() { return std::exchange(click_, std::nullopt); }
   /// Sends the latest target of the pull or pin if the mouse has moved since the last call.
   void flush(const View& view);
   /// Releases everything, as when the scene restarts.
@@ -86,6 +94,7 @@ class MouseInteraction {
   Index collider_ = 0;
   std::optional<Pull> pull_;
   bool has_moved_ = false;  // since the last flush
+  std::optional<Click> click_;
   std::vector<Pending> pending_;
 };
 

@@ -144,13 +144,14 @@ std::optional<SurfacePoint> pick_surface(const pliant_render::RenderMesh& render
 }
 
 std::optional<ColliderPoint> pick_collider(std::span<const pliant_render::DrawnCollider> colliders,
-                                           const Screen& screen, const Vec2f& place) {
+                                           const Screen& screen, const Vec2f& place, Planes planes) {
   std::optional<ColliderPoint> picked;
   const Ray ray = screen.ray(place);
   const pliant::Vec3 eye = ray.origin.cast<double>(), along = ray.direction.cast<double>().normalized();
   double foremost = screen.viewpoint.far;
   for (const pliant_render::DrawnCollider& each : colliders) {
-    if (!each.surface->shape->is_bounded()) continue;
+    const bool is_wanted_plane = planes == Planes::too && each.surface->is_plane;
+    if (!each.surface->shape->is_bounded() && !is_wanted_plane) continue;
     const auto way =
         reach(*each.surface->shape, each.pose.to_frame(eye), each.pose.rotation.conjugate() * along, foremost);
     if (!way) continue;

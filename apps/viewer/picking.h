@@ -66,9 +66,10 @@ struct ColliderPoint {
   Vec3f position = {0, 0, 0};
 };
 
-/// The frontmost point of a collider at a place, of those that have an end.
+enum class Planes { left_out, too };
+/// The frontmost point of a collider at a place, of those that have an end, and of planes where they are wanted.
 std::optional<ColliderPoint> pick_collider(std::span<const pliant_render::DrawnCollider> colliders,
-                                           const Screen& screen, const Vec2f& place);
+                                           const Screen& screen, const Vec2f& place, Planes planes = Planes::left_out);
 
 /// Whether a collider, planes too, stands between the eye and a point.
 bool is_behind_collider(std::span<const pliant_render::DrawnCollider> colliders, const Screen& screen,

@@ -31,7 +31,7 @@ class Playback final : public ViewSource {
   void hold_at(std::optional<double> time) override;
   std::uint64_t cuts() const override { return cuts_; }
   const pliant_plot::MeasuredRun* measured() const override { return measured_ ? &*measured_ : nullptr; }
-  void draw_panel() override;
+  void draw_panel(const std::string& selected_collider) override;
 
   /// What the run has measured, for plots.
   void set_measured(pliant_plot::MeasuredRun measured) { measured_ = std::move(measured); }

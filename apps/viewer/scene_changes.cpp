@@ -6,12 +6,12 @@
 
 #include <fmt/format.h>
 
-#include "pliant/collision/colliders/builtin.h"
 #include "pliant/constraints/attachment.h"
 #include "pliant/constraints/position.h"
 #include "pliant/materials/change_material.h"
 #include "viewer/body_materials.h"
 #include "viewer/carry_over.h"
+#include "viewer/collider_entry.h"
 #include "viewer/json_of.h"
 
 namespace pliant_viewer {
@@ -61,22 +61,6 @@ void set(SceneDocument& document, const std::string& path, const Json& value) {
   document.set(path, value.dump());
 }
 
-Vec3 point_of(const Json& numbers) {
-  return {numbers.at(0).get<Real>(), numbers.at(1).get<Real>(), numbers.at(2).get<Real>()};
-}
-
-/// An entry of a collider that says where it is.
-void move_to(const Vec3& position, Json& entry) {
-  if (!entry.contains("from")) {
-    entry["center"] = json_of(position);
-    return;
-  }
-  const Vec3 from = point_of(entry["from"]), to = point_of(entry["to"]);
-  const Vec3 way = position - (from + to) / 2;
-  entry["from"] = json_of(Vec3(from + way));
-  entry["to"] = json_of(Vec3(to + way));
-}
-
 /// An event that acts before the first step.
 void append_event(SceneDocument& document, const std::string& action, const std::string& group, const Json& more) {
   Json event = {{"step", 0}, {action, group}};
@@ -107,7 +91,6 @@ UnchangedScene::UnchangedScene(const pliant::Scene& scene) {
   for (const auto& [id, group] : simulation.groups()) {
     if (!group.factors.empty()) factors_[group.name] = {simulation.body(group.body).name, group.factors};
   }
-  for (const auto& [id, collider] : simulation.colliders()) collider_starts_[collider.name] = collider.pose.position;
   has_surfaces_ = simulation.contact().surfaces;
   appearances_ = scene.appearances;
   const auto is_read = [&](const std::string& name) {
@@ -405,8 +388,8 @@ void UnchangedScene::write_added(const SceneChanges& changes, SceneDocument& doc
     const bool has_body = !entry.contains("body") || find_body(entry["body"].get<std::string>()).has_value();
     const bool is_taken = as_read_.places.contains(name) || as_read_.later_places.contains(name);
     if (changes.switched_off.contains(name) || !has_body || is_taken) continue;
-    const auto moved = changes.collider_positions.find(name);
-    if (moved != changes.collider_positions.end()) move_to(moved->second, entry);
+    const auto moved = changes.collider_poses.find(name);
+    if (moved != changes.collider_poses.end()) entry.update(pose_keys(entry, moved->second));
     for (const auto& [key, changed] : changes.values) {
       const pliant::ParameterOwner& owner = changed.parameter.handle.owner;
       const bool is_part =
@@ -420,22 +403,14 @@ void UnchangedScene::write_added(const SceneChanges& changes, SceneDocument& doc
 }
 
 void UnchangedScene::write_colliders(const SceneChanges& changes, SceneDocument& document) const {
-  for (const auto& [name, position] : changes.collider_positions) {
+  for (const auto& [name, pose] : changes.collider_poses) {
     const auto place = as_read_.places.find(name);
-    const auto start = collider_starts_.find(name);
-    if (place == as_read_.places.end() || start == collider_starts_.end()) continue;
-    const std::string type = document.get(place->second + ".type");
-    if (type != R"("capsule")") {
-      set(document, place->second + ".center", json_of(position));
-      continue;
-    }
-    const pliant::CapsuleCollider usual;
-    const Vec3 way = position - start->second;
-    for (const auto& [key, end] : {std::pair{".from", usual.from}, {".to", usual.to}}) {
-      const std::string given = document.get(place->second + key);
-      const auto point =
-          given.empty() ? std::array{end.x(), end.y(), end.z()} : Json::parse(given).get<std::array<Real, 3>>();
-      set(document, place->second + key, json_of(Vec3(Vec3(point[0], point[1], point[2]) + way)));
+    if (place == as_read_.places.end()) continue;
+    const std::string entry = document.get(place->second);
+    if (entry.empty()) continue;
+    const Json keys = pose_keys(Json::parse(entry), pose);
+    for (const auto& [key, value] : keys.items()) {
+      set(document, place->second + "." + key, value);
     }
   }
 }

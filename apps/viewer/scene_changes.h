@@ -76,7 +76,7 @@ struct SceneChanges {
   std::map<Index, std::optional<pliant::Vec3>> pins;          ///< set by hand, with the target where it was moved [m]
   std::map<Index, ReleasedPin> released;                      ///< of the scene's
   std::map<Index, MovedPin> moved;                            ///< of the scene's, before the first step
-  std::map<std::string, pliant::Vec3> collider_positions;     ///< where they begin [m]
+  std::map<std::string, pliant::Pose> collider_poses;         ///< where they begin
   std::map<std::string, pliant::BodyAppearance> appearances;  ///< by body
   std::map<std::string, PaintedStiffness> painted;            ///< by group
   std::map<std::string, AddedPart> added;                     ///< by name
@@ -157,11 +157,10 @@ class UnchangedScene {
   pliant::Scene as_read_;  // its texts alone
   mutable std::optional<pliant::SceneDocument> document_;
   std::vector<BodyPart> bodies_;
-  std::set<std::string> groups_;                         // there at the start
-  std::map<std::string, std::set<Index>> pin_numbers_;   // of them, by group: what a move can name
-  std::set<std::string> ties_;                           // of them, those of carried surfaces
-  std::map<std::string, pliant::Vec3> collider_starts_;  // [m]
-  std::map<std::string, PaintedStiffness> factors_;      // that groups have from the start
+  std::set<std::string> groups_;                        // there at the start
+  std::map<std::string, std::set<Index>> pin_numbers_;  // of them, by group: what a move can name
+  std::set<std::string> ties_;                          // of them, those of carried surfaces
+  std::map<std::string, PaintedStiffness> factors_;     // that groups have from the start
   std::map<pliant::BodyId, pliant::BodyAppearance> appearances_;
   bool has_text_ = false;
   bool has_surfaces_ = false;

@@ -34,14 +34,6 @@ pliant::Drag drag_of(const Pull& pull, Index first_vertex) {
   return drag;
 }
 
-/// Ends what a collider does by itself.
-void stop_collider(pliant::Simulation& simulation, pliant::ColliderId id) {
-  for (const pliant::Parameter& each : list_parameters(simulation, id)) {
-    const bool moves_it = each.handle.option == "velocity" || each.handle.option == "angular_velocity";
-    if (moves_it && !each.value.isZero(0)) set_parameter(simulation, each.handle, pliant::Vec3::Zero());
-  }
-}
-
 /// Whatever it throws is told in the window.
 void call_one(const std::function<void(pliant::Simulation&)>& hook, const char* name, pliant::Simulation& simulation) {
   if (!hook) return;
@@ -68,7 +60,7 @@ Session::Session(MakeScene make)
       unchanged_(scene_.simulation.state().step == 0 || scene_.source.texts.empty()
                      ? UnchangedScene(scene_)
                      : UnchangedScene(parse_scene(scene_.source))),
-      collider_speed_(suggest_collider_speed(scene_.simulation)) {
+      goals_(scene_.simulation) {
   begin_record(scene_);
 }
 
@@ -92,7 +84,7 @@ void Session::set_threads(Index threads) {
 pliant::StepReport Session::step() {
   do_what_is_due();
   hooks_.call(restarts_, rebuilds_, scene_.simulation);
-  steer_colliders();
+  goals_.steer(scene_.simulation);
   pliant::StepReport report;
   try {
     report = scene_.step();
@@ -138,34 +130,6 @@ void Session::let_go() {
   const auto group = std::exchange(pull_group_, {});
   pull_.reset();
   if (group && scene_.simulation.groups().contains(*group)) scene_.simulation.remove(*group);  // an event may have
-}
-
-void Session::move_collider(pliant::ColliderId collider, const Vec3f& position) {
-  pliant::Simulation& simulation = scene_.simulation;
-  const auto found = simulation.colliders().find(collider);
-  if (found == simulation.colliders().end() || !found->second.shape->is_bounded() || !position.allFinite()) return;
-  const auto noted = note(action::MoveCollider{static_cast<Index>(collider), position});
-  scene_.timeline.leave_alone(simulation, collider);
-  left_alone_.insert(collider);
-  stop_collider(simulation, collider);
-  collider_goals_[collider] = position.cast<Real>();
-}
-
-/// Sets where the next step takes the colliders that are on their way.
-void Session::steer_colliders() {
-  pliant::Simulation& simulation = scene_.simulation;
-  const Real most = collider_speed_ * simulation.settings().time_step;
-  std::erase_if(collider_goals_, [&](const auto& entry) {
-    const auto& [id, goal] = entry;
-    if (!simulation.colliders().contains(id)) return true;
-    pliant::Pose pose = simulation.pose(id);
-    const pliant::Vec3 way = goal - pose.position;
-    const Real length = way.norm();
-    if (length == 0) return true;
-    pose.position = length > most ? pliant::Vec3(pose.position + way * (most / length)) : goal;
-    simulation.set_target(id, pose);
-    return false;
-  });
 }
 
 bool Session::is_hidden(pliant::GroupId group) const {

@@ -11,6 +11,7 @@
 
 #include "pliant_io/scene/scene.h"
 #include "viewer/body_materials.h"
+#include "viewer/collider_goals.h"
 #include "viewer/edit.h"
 #include "viewer/history.h"
 #include "viewer/program_hooks.h"
@@ -18,7 +19,6 @@
 #include "viewer/session_log.h"
 #include "viewer/session_record.h"
 #include "viewer/sliders.h"
-#include "viewer/suggestions.h"
 
 namespace pliant_viewer {
 
@@ -71,10 +71,13 @@ class Session {
   void hold_pins(const std::vector<Index>& vertices);
   /// Moves them from where they were then; the last motion counts. Does nothing without such pins.
   void move_held(const RigidMotion& motion);
-  /// Takes a collider there in the steps to come, no faster than three times the size of the bodies in a second, and
-  /// leaves it at rest. It is the user's until the scene starts over: velocities of its own end, and motions of the
-  /// scene no longer move it. Does nothing with a collider that has no end.
+  /// Takes a collider there [m] in the steps to come, no faster than three times the size of the bodies in a second, a
+  /// plane along its normal, and leaves it at rest. It is the user's until the scene starts over: its velocities end,
+  /// and motions of the scene no longer move it. Does nothing with others without an end.
   void move_collider(pliant::ColliderId collider, const Vec3f& position);
+  /// The same with its rotation, axis times angle [rad], about its position; by half a turn in a second at most.
+  void turn_collider(pliant::ColliderId collider, const pliant::Vec3& rotation);
+  std::map<pliant::ColliderId, MovableCollider> movable_colliders() const;
   /// What is moved has been let go. Before the first step the scene begins with it there from now on; later that is
   /// one of the things that happened, which a restart forgets.
   void drop_pin(Index vertex);
@@ -116,7 +119,6 @@ class Session {
   /// the bits that both have. @throws pliant::Error where a file cannot be written, or the changes do not fit the
   /// events of the scene; nothing has changed then but for the files.
   std::vector<std::filesystem::path> save(const std::filesystem::path& file, const pliant::ViewSettings& view);
-
   /// The text of the scene that save() writes to `file`, from where paths in it start; writes nothing.
   std::string text(const std::filesystem::path& file, const pliant::ViewSettings& view) const;
   bool has_unsaved_changes() const { return !(changes_ == saved_changes_); }  ///< since it was saved, or read
@@ -129,7 +131,6 @@ class Session {
   /// `file`: where it will be. @throws pliant::Error (input): the scene was made by a program, or its files were
   /// changed while it was open.
   SessionRecord record(const std::filesystem::path& file, const pliant::ViewSettings& view) const;
-
   /// From now on does with every step what was done then; of a session that was just made by scene_maker_of(). Whatever
   /// else is done ends it, as does an action that fails: its error comes from here, or from step().
   void replay(SessionRecord record);
@@ -152,7 +153,7 @@ class Session {
   pliant::Vec3 target_of(const Pin& pin) const { return scene_.simulation.target(pin.group, pin.target); }
   pliant::BodyId body_of(Index vertex) const;
   pliant::BodyId find_body(const std::string& name) const;
-  void steer_colliders();
+  void take_collider(pliant::ColliderId collider);
   void note_release(Index vertex, const pliant::Group& group, const Pin& pin);
   bool is_hidden(pliant::GroupId group) const;
   bool was_of_hand(const pliant::Group& group) const;
@@ -191,8 +192,7 @@ class Session {
   std::optional<Pull> pull_;
   std::optional<pliant::GroupId> pull_group_;
   std::map<Index, pliant::Vec3> held_pins_;  // that are moved together, and where they were when they were taken [m]
-  std::map<pliant::ColliderId, pliant::Vec3> collider_goals_;  // of those that are on their way [m]
-  Real collider_speed_ = 1;                                    // the most by which they go there [m/s]
+  ColliderGoals goals_;
   std::string note_;
 };
 

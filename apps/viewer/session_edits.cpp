@@ -131,23 +131,6 @@ void Session::set_material(const std::string& body, const std::string& material)
   note_ = coarseness(scene_.materials.at(id), simulation().body(id).mesh);
 }
 
-void Session::drop_collider(pliant::ColliderId collider) {
-  const auto noted = note(action::DropCollider{static_cast<Index>(collider)});
-  const auto goal = collider_goals_.find(collider);
-  if (goal == collider_goals_.end() || simulation().state().step > 0) return;
-  Edit edit{.what = "move a collider", .before = changes_};
-  SceneChanges changes = changes_;
-  const std::string& name = simulation().colliders().at(collider).name;
-  changes.collider_positions[name] = goal->second;
-  for (const char* option : {".center", ".from", ".to"}) changes.values.erase("collider:" + name + option);
-  pliant::Scene next = make_with(changes, unchanged_);
-  collider_goals_.erase(goal);
-  left_alone_.erase(collider);
-  changes_ = std::move(changes);
-  take(std::move(next));
-  remember(std::move(edit));
-}
-
 /// What the text says, at its start, shown as this one is.
 pliant::Scene Session::read_changed(pliant::SceneText text) const {
   pliant::SceneSource source;
@@ -187,24 +170,6 @@ void Session::carry_into(pliant::Scene& next, const SceneChanges& to, const std:
   rules.removed = unchanged_.removed_by_events(to);
   rules.is_hidden = [this](pliant::GroupId id) { return is_hidden(id); };
   carry_over(scene_, next, rules);
-}
-
-/// Of another scene, by their names.
-void Session::renumber_colliders(const pliant::Simulation& next) {
-  const auto number_of = [&](pliant::ColliderId id) {
-    const auto before = simulation().colliders().find(id);
-    return before == simulation().colliders().end() ? std::nullopt : next.find_collider(before->second.name);
-  };
-  std::set<pliant::ColliderId> left_alone;
-  for (const pliant::ColliderId id : left_alone_) {
-    if (const auto now = number_of(id)) left_alone.insert(*now);
-  }
-  std::map<pliant::ColliderId, pliant::Vec3> goals;
-  for (const auto& [id, goal] : collider_goals_) {
-    if (const auto now = number_of(id)) goals[*now] = goal;
-  }
-  left_alone_ = std::move(left_alone);
-  collider_goals_ = std::move(goals);
 }
 
 /// Goes on with another scene, from wherever that is.
@@ -256,15 +221,15 @@ void Session::go(const Edit& edit, const SceneChanges& from, const SceneChanges&
     return;
   }
   pliant::Scene next = make_with(to, unchanged_);
-  std::map<pliant::ColliderId, pliant::Vec3> starts;
-  for (const std::string& name : difference(from.collider_positions, to.collider_positions)) {
-    if (const auto id = next.simulation.find_collider(name)) starts[*id] = next.simulation.pose(*id).position;
+  std::map<pliant::ColliderId, pliant::Pose> starts;
+  for (const std::string& name : difference(from.collider_poses, to.collider_poses)) {
+    if (const auto id = next.simulation.find_collider(name)) starts[*id] = next.simulation.pose(*id);
   }
   carry_into(next, to);
   take(std::move(next));
   changes_ = to;
   if (simulation().state().step == 0) return;
-  for (const auto& [id, start] : starts) collider_goals_[id] = start;
+  for (const auto& [id, start] : starts) goals_.goals[id] = start;
   std::vector<Index> held;
   for (const auto& [vertex, target] : edit.held) held.push_back(vertex);
   for (const auto& [vertex, pins] : find_pins(held)) {
@@ -328,9 +293,8 @@ void Session::restart(bool keep_changes) {
   unchanged_ = std::move(unchanged);
   pull_.reset();
   held_pins_.clear();
-  collider_goals_.clear();
+  goals_ = ColliderGoals(scene.simulation);
   left_alone_.clear();
-  collider_speed_ = suggest_collider_speed(scene.simulation);
   note_.clear();
   settle(std::move(scene));
   ++restarts_;

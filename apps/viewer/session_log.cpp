@@ -17,6 +17,10 @@ bool replaces(const Action& first, const Action& second) {
     const auto* before = std::get_if<action::MoveCollider>(&first);
     return before != nullptr && before->collider == collider->collider;
   }
+  if (const auto* collider = std::get_if<action::TurnCollider>(&second)) {
+    const auto* before = std::get_if<action::TurnCollider>(&first);
+    return before != nullptr && before->collider == collider->collider;
+  }
   return false;
 }
 

@@ -25,7 +25,7 @@ constexpr std::array<std::string_view, std::variant_size_v<Action>> action_names
     "move_pin",  "drop_pin",  "move_collider",  "drop_collider",  "set",          "set_material",
     "undo",      "redo",      "restart",        "save",           "pin_vertices", "unpin_vertices",
     "hold_pins", "move_held", "drop_held",      "set_appearance", "switch_on",    "add",
-    "push",      "paint"};
+    "push",      "paint",     "turn_collider"};
 
 /// Calls field(name, value) with what an action has.
 template <class Action, class Field>
@@ -51,6 +51,7 @@ void visit_fields(Action& action, const Field& field) {
   if constexpr (requires { action.vertex; }) field("vertex", action.vertex);
   if constexpr (requires { action.collider; }) field("collider", action.collider);
   if constexpr (requires { action.target; }) field("target", action.target);
+  if constexpr (requires { action.rotation; }) field("rotation", action.rotation);
   if constexpr (requires { action.stiffness; }) field("stiffness", action.stiffness);
   if constexpr (requires { action.key; }) field("key", action.key);
   if constexpr (requires { action.value; }) field("value", action.value);

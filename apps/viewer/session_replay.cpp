@@ -120,6 +120,7 @@ void Session::do_again(const Action& action) {
                  [&](const action::MoveHeld& moved) { move_held(moved.motion); },
                  [&](const action::DropHeld&) { drop_held(); },
                  [&](const action::MoveCollider& moved) { move_collider(collider(moved.collider), moved.target); },
+                 [&](const action::TurnCollider& turned) { turn_collider(collider(turned.collider), turned.rotation); },
                  [&](const action::DropCollider& dropped) { drop_collider(collider(dropped.collider)); },
                  [&](const action::Set& changed) { set(changed.key, changed.value, changed.goes_on); },
                  [&](const action::SetMaterial& dressed) { set_material(dressed.body, dressed.material); },

@@ -60,8 +60,10 @@ class ViewSource {
   /// Asks for what is to be measured after every step from now on.
   virtual void measure(const Measuring&) {}
 
-  /// Draws this source's part of the panel.
-  virtual void draw_panel() = 0;
+  /// Draws this source's part of the panel, with more about the collider of that name.
+  virtual void draw_panel(const std::string& selected_collider) = 0;
+  /// Whether that is open where forces are.
+  virtual bool shows_forces() const { return false; }
   /// The scene that can be pulled and pinned; null for a recorded run.
   virtual LiveScene* live() { return nullptr; }
 };

@@ -109,7 +109,7 @@ bool Viewer::turn(double most_wait) {
   const LiveScene* live = source_.live();
   if (live != nullptr && live->step_age() > Seconds(1) && Clock::now() - last_draw_ > Seconds(0.5)) draws_left_ = 1;
   if (source_.refresh(Clock::now())) is_frame_new_ = true;
-  gizmo_.flush(mouse_view());  // which may have waited for that
+  handles_.flush(mouse_view());  // which may have waited for that
   if (live != nullptr && std::exchange(rebuilds_, live->shown().rebuilds) != live->shown().rebuilds) {
     if (interaction_.collider_goal()) interaction_.cancel();  // colliders may have other numbers now
   }
@@ -120,8 +120,7 @@ bool Viewer::turn(double most_wait) {
   if (source_.restarts() != restarts_) {
     restarts_ = source_.restarts();
     interaction_.cancel();
-    gizmo_.cancel();
-    wind_.cancel();
+    handles_.cancel();
     brush_.cancel();
     select_.restart(source_.frame().content.positions.size());
     has_ground_ = false;
@@ -251,6 +250,7 @@ void Viewer::draw() {
 }
 
 pliant_render::DrawOptions Viewer::draw_options(int height) const {
+  const LiveScene* live = source_.live();
   return {.viewpoint = screen_.viewpoint,
           .range = range_,
           .ground_height = ground_height_,
@@ -258,6 +258,7 @@ pliant_render::DrawOptions Viewer::draw_options(int height) const {
           .markers = appearance_.markers.value_or(true),
           .selection = true,
           .lit_collider = lit_collider_,
+          .selected_collider = live == nullptr ? std::nullopt : handles_.collider.number(live->shown()),
           .quality = quality_.choose(appearance_.quality)};
 }
 
@@ -335,6 +336,7 @@ void Viewer::write_picture(int width, int height) {
   pliant_render::DrawOptions options = draw_options(height);
   options.selection = false;
   options.lit_collider.reset();
+  options.selected_collider.reset();
   draw_picture(options, width, height);
   ui_.end();
   glBindFramebuffer(GL_FRAMEBUFFER, 0);

@@ -14,17 +14,16 @@
 #include "viewer/auto_range.h"
 #include "viewer/brush_tool.h"
 #include "viewer/frame_statistics.h"
+#include "viewer/handles.h"
 #include "viewer/mouse_interaction.h"
 #include "viewer/panels/film_panel.h"
 #include "viewer/panels/plots_panel.h"
 #include "viewer/panels/scene_panel.h"
 #include "viewer/panels/tour.h"
-#include "viewer/pin_gizmo.h"
 #include "viewer/quality_chooser.h"
 #include "viewer/select_tool.h"
 #include "viewer/ui.h"
 #include "viewer/view_source.h"
-#include "viewer/wind_handle.h"
 
 namespace pliant_viewer {
 
@@ -56,7 +55,8 @@ class Viewer {
   const Screen& screen() const { return screen_; }
   const MouseInteraction& interaction() const { return interaction_; }
   const SelectTool& selection() const { return select_; }
-  const PinGizmo& gizmo() const { return gizmo_; }
+  const PinGizmo& gizmo() const { return handles_.pins; }
+  const ColliderGizmo& collider_gizmo() const { return handles_.collider; }
   BrushTool& brush() { return brush_; }
   /// As the mouse sees it now.
   MouseInteraction::View mouse_view();
@@ -152,8 +152,7 @@ class Viewer {
   OrbitCamera first_camera_;
   MouseInteraction interaction_;
   SelectTool select_;
-  PinGizmo gizmo_;
-  WindHandle wind_;
+  Handles handles_;
   BrushTool brush_;
   std::optional<std::uint64_t> drawn_selection_;  // its version
   std::optional<Index> lit_collider_;             // that the mouse would take

@@ -38,24 +38,27 @@ MouseInteraction::View Viewer::mouse_view() {
           ui_.style().unit,
           floor,
           appearance_.colliders,
-          appearance_.wind_arrow};
+          appearance_.wind_arrow,
+          is_panel_open_ && source_.shows_forces()};
 }
 
 void Viewer::take_input() {
   take_keys();
   for (const MouseEvent& event : window_.take_mouse_events()) {
     const bool begins = event.kind == MouseEvent::Kind::press || event.kind == MouseEvent::Kind::wheel;
-    const bool is_busy =
-        interaction_.is_busy() || gizmo_.is_busy() || select_.is_busy() || wind_.is_busy() || brush_.is_busy();
+    const bool is_busy = interaction_.is_busy() || handles_.is_busy() || select_.is_busy() || brush_.is_busy();
     if (begins && !is_busy && (ui_.has_panel_at(event.place) || ui_.holds_mouse())) continue;
     const MouseInteraction::View view = mouse_view();
-    const bool is_taken = !interaction_.is_busy() && (wind_.handle(event, view) || gizmo_.handle(event, view) ||
-                                                      select_.handle(event, view) || brush_.handle(event, view));
+    const bool is_taken = !interaction_.is_busy() &&
+                          (handles_.handle(event, view) || select_.handle(event, view) || brush_.handle(event, view));
     if (!is_taken) interaction_.handle(event, view);
+    if (const auto click = interaction_.take_click(); click && view.snapshot != nullptr) {
+      handles_.take_click(*click, *view.snapshot);
+    }
     screen_.viewpoint = camera_.viewpoint(bounds_, screen_.viewpoint.inset);
   }
   interaction_.flush(mouse_view());
-  gizmo_.flush(mouse_view());
+  handles_.flush(mouse_view());
 }
 
 /// Gives each key to a field that is being typed into, or else to the shortcuts, in order: what follows the Enter that
@@ -136,7 +139,10 @@ void Viewer::take_plain_key(int key, bool has_shift) {
     case GLFW_KEY_ESCAPE:
       if (ui_.close_menus()) return;
       if (brush_.is_on() && !is_help_open_ && !scene_panel_.is_open) return choose_brush({});
-      if (!is_help_open_ && !scene_panel_.is_open) select_.clear();
+      if (!is_help_open_ && !scene_panel_.is_open) {
+        select_.clear();
+        handles_.collider.select("");
+      }
       is_help_open_ = false;
       scene_panel_.is_open = false;
       return;

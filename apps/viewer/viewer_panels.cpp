@@ -39,7 +39,7 @@ void Viewer::draw_tour() {
   const Snapshot& shown = live->shown();
   tour_.watch({.is_busy = interaction_.is_busy(),
                .is_pulling = interaction_.pull().has_value(),
-               .is_handling = gizmo_.is_holding(),
+               .is_handling = handles_.pins.is_holding(),
                .edits = shown.edits,
                .undone_next = shown.undone_next,
                .redone_next = shown.redone_next,
@@ -81,7 +81,7 @@ void Viewer::draw_main_panel() {
   }
   draw_selection_rows(third);
   draw_brush_rows(third);
-  source_.draw_panel();
+  source_.draw_panel(handles_.collider.selected());
   if (section_header("Picture") &&
       draw_appearance_panel(appearance_, samples_, quality_.choose(appearance_.quality), source_))
     change_color();

@@ -100,7 +100,10 @@ void Viewer::update_selection() {
     renderer_->set_selection(select_.selected());
     drawn_selection_ = select_.version();
   }
-  if (const LiveScene* live = source_.live()) gizmo_.follow(select_.selected(), live->shown());
+  const LiveScene* live = source_.live();
+  if (live == nullptr) return;
+  handles_.pins.follow(select_.selected(), live->shown());
+  handles_.collider.follow(live->shown(), appearance_.colliders);
 }
 
 void Viewer::draw_selection_rows(float width) {
@@ -173,17 +176,13 @@ void Viewer::draw_hand(const pliant_render::AnnotationCanvas& canvas) {
   const MouseInteraction::View view = mouse_view();
   const Vec2f mouse = ui_.mouse();
   const bool is_in_picture = (mouse.array() >= 0).all() && mouse.x() <= screen_.size.x() && !ui_.has_panel_at(mouse);
-  const bool is_busy =
-      interaction_.is_busy() || gizmo_.is_busy() || select_.is_busy() || wind_.is_busy() || brush_.is_busy();
-  if (const auto point = is_in_picture ? brush_.point_at(mouse, view) : std::nullopt; point && !gizmo_.is_busy()) {
+  const bool is_busy = interaction_.is_busy() || handles_.is_busy() || select_.is_busy() || brush_.is_busy();
+  if (const auto point = is_in_picture ? brush_.point_at(mouse, view) : std::nullopt; point && !handles_.is_busy()) {
     brush_.draw(*point, view, canvas.list);
   }
   const bool is_free = is_in_picture && !is_busy;
-  const bool is_at_wind = is_free && wind_.is_at(mouse, view);
-  wind_.draw(view, is_at_wind, canvas.list);
-  const PinGizmo::Part part = is_free && !is_at_wind ? gizmo_.part_at(mouse, view) : PinGizmo::Part::none;
-  gizmo_.draw(view, part, canvas.list);
-  if (is_at_wind || part != PinGizmo::Part::none) return Ui::show_hand();
+  const bool is_at_handle = handles_.draw(view, is_free ? std::optional(mouse) : std::nullopt, canvas);
+  if (is_at_handle) return Ui::show_hand();
   if (!is_free || brush_.point_at(mouse, view)) return;
   const MouseInteraction::PickTarget under = MouseInteraction::pick(mouse, view);
   if (under.pin) {

@@ -180,6 +180,25 @@ TEST_CASE("constraints and forces are switched off and on by their boxes") {
   desk.turn_until([&] { return desk.is_on("gravity"); });
 }
 
+TEST_CASE("the arrow of gravity is turned by the mouse, and a folded panel hides it") {
+  Desk desk(read_sheet);
+  desk.turns(5);
+  const auto shown = [&] { return ForceArrows::list(desk.viewer.mouse_view()); };
+  REQUIRE(shown().size() == 1);  // no wind blows
+  const ForceArrows::Arrow gravity = shown()[0];
+  CHECK(gravity.key == "force:gravity.acceleration");
+  const Vec2f tip = gravity.middle + Vec2f(0, 0.9F * gravity.radius);
+  desk.drag(tip, tip + Vec2f(100, -0.9F * gravity.radius));
+  desk.release();
+  desk.turn_until([&] { return desk.shown().undone_next == "gravity: acceleration"; });
+  desk.turn_until([&] { return !shown().empty() && shown()[0].vector.z() > -5; });
+  CHECK(shown()[0].vector.norm() == doctest::Approx(9.81));
+  desk.key("ctrl+z");
+  desk.turn_until([&] { return !shown().empty() && shown()[0].vector.z() < -9.8F; });
+  desk.key("Tab");
+  CHECK(shown().empty());
+}
+
 TEST_CASE("wind and a ball are added from the panel, and the arrow of the wind is turned by the mouse") {
   Desk desk(read_sheet);
   const auto menu = [&](const char* list) {
@@ -193,7 +212,7 @@ TEST_CASE("wind and a ball are added from the panel, and the arrow of the wind i
     }
     return Vec2f(place()[0] + 20, (place()[1] + place()[3]) / 2);
   };
-  const Vec2f arrow = WindHandle::place(desk.viewer.mouse_view());
+  const Vec2f arrow = pliant_render::wind_arrow_place(desk.viewer.screen().size.y());
   CHECK_FALSE(desk.source.frame().wind.has_value());
   const Vec2f forces = menu("forces");
   desk.click(forces);

@@ -244,6 +244,66 @@ TEST_CASE("the panel lets surfaces touch, and has how a body does") {
   desk.turn_until([&] { return desk.parameter("contact.surfaces") == 0; });
 }
 
+TEST_CASE("a collider is clicked, then moved by the arrow of its handle and turned by a ring, while cloth lies on it") {
+  Desk desk([] {
+    return pliant::parse_scene(R"({ "pliant": 1, "bodies": [ { "name": "cloth", "mass": { "total": 0.2 },
+      "mesh": { "shape": "grid", "columns": 9, "rows": 9, "size": [0.5, 0.5], "plane": "xy" },
+      "transform": { "translate": [-0.25, -0.25, 0.12] },
+      "constraints": [ { "type": "triangle_strain", "stiffness": 100 } ] } ],
+      "contact": { "surfaces": false },
+      "colliders": [ { "type": "box", "name": "table", "size": [1, 1, 0.2], "velocity": [0, 0, 0.01] } ],
+      "view": { "camera": { "position": [0.6, -2.4, 1.4], "target": [0, 0, 0.1] } } })",
+                               {}, "table");
+  });
+  using Part = TransformGizmo::Part;
+  const auto pose = [&] { return desk.shown().movable.begin()->second.pose; };
+  const auto place = [&](Part part) {
+    desk.turns(2);
+    return desk.viewer.collider_gizmo().place_of(part, desk.viewer.mouse_view()).value();
+  };
+  const auto drag = [&](Part part, const Vec2f& by) {
+    const Vec2f from = place(part);
+    desk.drag(from, from + by);
+    desk.turns(10);
+    desk.release();
+  };
+  CHECK_FALSE(desk.viewer.collider_gizmo().is_shown());
+  const Vec2f corner = desk.viewer.screen().place_of({0.4F, -0.5F, 0}).value();
+  desk.click(corner);
+  desk.turns(3);
+  REQUIRE(desk.viewer.collider_gizmo().selected() == "table");
+  CHECK(desk.viewer.collider_gizmo().is_shown());
+  CHECK_FALSE(desk.viewer.interaction().is_busy());
+  const std::int64_t start = desk.shown().step;
+  desk.turn_until([&] { return desk.shown().step > start + 60; });
+  const pliant::Pose before = pose();
+  const float cloth = desk.position(40).z();
+  drag(Part::move_z, {0, -40});
+  desk.turn_until([&] { return desk.shown().movable.begin()->second.pose.position.z() > before.position.z() + 0.05; });
+  desk.turn_until([&] { return desk.position(40).z() > cloth + 0.04F; });
+  CHECK((pose().position - before.position).head<2>().norm() < 1e-5);
+  const pliant::Pose moved = pose();
+  drag(Part::turn_z, {50, 0});
+  desk.turn_until([&] { return pose().rotation.angularDistance(moved.rotation) > 0.1; });
+  CHECK((pose().position - moved.position).norm() < 1e-5);
+  const Vec3f edge = desk.position(41) - desk.position(40);
+  desk.turn_until([&] {
+    const auto& drawn = desk.source.frame().content.colliders.at(0);
+    return drawn.pose.rotation.angularDistance(pose().rotation) < 1e-6;
+  });
+  CHECK(std::abs(desk.position(41).y() - desk.position(40).y()) > 0.05F * edge.norm());  // the cloth has gone with it
+  const auto row = desk.source.parameter_panel().place_of("table##turned");
+  CHECK(row.has_value());
+  desk.key("Escape");
+  CHECK(desk.viewer.collider_gizmo().selected().empty());
+  const Vec3f front = pose().to_space({0.4, -0.5, 0}).cast<float>();
+  desk.click(desk.viewer.screen().place_of(front).value());
+  CHECK(desk.viewer.collider_gizmo().selected() == "table");
+  desk.click({20, 20});
+  CHECK(desk.viewer.collider_gizmo().selected().empty());
+  CHECK(desk.shown().note.empty());
+}
+
 int main(int argc, char** argv) {
   return run_on_display(argc, argv);
 }

@@ -14,13 +14,14 @@ struct Key {
   const char* what;
 };
 
-constexpr std::array<Key, 7> body_keys = {Key{"drag a body", "pull at it by a spring; it stays at its depth"},
+constexpr std::array<Key, 8> body_keys = {Key{"drag a body", "pull at it by a spring; it stays at its depth"},
                                           Key{"click a body", "pin the nearest vertex"},
                                           Key{"click a pin", "let it go"},
                                           Key{"drag a pin", "move it"},
                                           Key{"drag a collider", "move it; it stays where you leave it"},
+                                          Key{"click a collider", "a handle moves and turns it; Esc: none"},
                                           Key{"drag with the brush", "paint (in the panel); with Shift: take it off"},
-                                          Key{"drag the wind's arrow", "turn the wind; wheel: stronger or weaker"}};
+                                          Key{"drag an arrow", "turn wind, gravity or a push; wheel: its strength"}};
 constexpr std::array<Key, 7> selection_keys = {
     Key{"Ctrl + drag", "select what is inside a box, or a lasso"},
     Key{"Ctrl + click", "select a vertex; twice: its border, or the rope"},

@@ -43,11 +43,11 @@ std::string steps_text(const Snapshot& snapshot) {
 
 }  // namespace
 
-void LiveSource::draw_panel() {
+void LiveSource::draw_panel(const std::string& selected_collider) {
   draw_pace();
   parameters_.begin(*snapshot_);
   bodies_.draw(*snapshot_, scene_, parameters_, history_.run());
-  parameters_.draw(*snapshot_, scene_);
+  parameters_.draw(*snapshot_, scene_, selected_collider);
 }
 
 void LiveSource::draw_pace() {

@@ -91,7 +91,7 @@ void ParameterPanel::begin(const Snapshot& snapshot) {
   std::erase_if(switched_, [&](const auto& entry) { return entry.second.command <= snapshot.commands; });
 }
 
-void ParameterPanel::draw(const Snapshot& snapshot, LiveScene& live) {
+void ParameterPanel::draw(const Snapshot& snapshot, LiveScene& live, const std::string& selected) {
   const std::span<const Slider> all = *snapshot.sliders;
   const auto those_of = [all](std::size_t kind_of_owner) {
     const auto is_meant = [=](const Slider& slider) { return slider.parameter.handle.owner.index() == kind_of_owner; };
@@ -99,12 +99,13 @@ void ParameterPanel::draw(const Snapshot& snapshot, LiveScene& live) {
     return std::span<const Slider>(begin, std::find_if_not(begin, all.end(), is_meant));
   };
   if (section_header("Solver")) draw_options(those_of(0), live);
-  if (section_header("Forces")) draw_forces(those_of(2), snapshot, live);
+  shows_forces_ = section_header("Forces");
+  if (shows_forces_) draw_forces(those_of(2), snapshot, live);
   if (section_header("Contact")) {
     draw_options(those_of(4), live);
     draw_body_contacts(those_of(5), live);
   }
-  if (section_header("Colliders")) draw_colliders(those_of(3), snapshot, live);
+  if (section_header("Colliders")) draw_colliders(those_of(3), snapshot, live, selected);
 }
 
 void ParameterPanel::draw_forces(std::span<const Slider> sliders, const Snapshot& snapshot, LiveScene& live) {
@@ -179,7 +180,8 @@ void ParameterPanel::draw_switched_off(const std::string& name, const SwitchedOf
 }
 
 /// Of each collider what it feels, and its options, which fold.
-void ParameterPanel::draw_colliders(std::span<const Slider> sliders, const Snapshot& snapshot, LiveScene& live) {
+void ParameterPanel::draw_colliders(std::span<const Slider> sliders, const Snapshot& snapshot, LiveScene& live,
+                                    const std::string& selected) {
   for (const auto& [id, wrench] : snapshot.wrenches) {
     const pliant::ParameterOwner owner = id;
     const auto is_own = [&](const Slider& slider) { return slider.parameter.handle.owner == owner; };
@@ -188,7 +190,11 @@ void ParameterPanel::draw_colliders(std::span<const Slider> sliders, const Snaps
     ImGui::PushID(begin->key.c_str());
     if (draw_switch(begin->parameter.name, snapshot, live)) ImGui::SameLine();
     ImGui::SetNextItemOpen(snapshot.wrenches.size() <= few_colliders, ImGuiCond_Once);
-    if (ImGui::TreeNodeEx("##options", ImGuiTreeNodeFlags_NoTreePushOnOpen, "%s", begin->heading.c_str())) {
+    const auto movable = snapshot.movable.find(id);
+    const bool is_selected = movable != snapshot.movable.end() && movable->second.name == selected;
+    const int mark = is_selected ? ImGuiTreeNodeFlags_Selected : 0;
+    if (ImGui::TreeNodeEx("##options", ImGuiTreeNodeFlags_NoTreePushOnOpen | mark, "%s", begin->heading.c_str())) {
+      if (is_selected) draw_pose(movable->second, live);
       draw_feeling("force", wrench.force, "N", "what bodies pressed and rubbed it with in the last step");
       draw_feeling("torque", wrench.torque, "N·m", "the same about its position");
       for (auto slider = begin; slider != sliders.end() && is_own(*slider); ++slider) {

@@ -18,8 +18,10 @@ class ParameterPanel {
   void draw_group(std::span<const Slider> group, const Snapshot& snapshot, LiveScene& live);
   /// The row of a group or a force that is switched off.
   void draw_switched_off(const std::string& name, const SwitchedOff& off, const Snapshot& snapshot, LiveScene& live);
-  /// Draws all parameters of a snapshot but those of groups, and posts what is changed.
-  void draw(const Snapshot& snapshot, LiveScene& live);
+  /// Draws all parameters of a snapshot but those of groups, and posts what is changed. `selected`: the name of a
+  /// collider that has rows for where it is as well.
+  void draw(const Snapshot& snapshot, LiveScene& live, const std::string& selected = {});
+  bool shows_forces() const { return shows_forces_; }  ///< as of the last drawing
   /// Where the widget of a parameter, "switch:NAME", or "add forces" and "add colliders", stands in the window, as of
   /// the last drawing: left, top, right, bottom.
   std::optional<std::array<float, 4>> place_of(const std::string& key) const;
@@ -34,7 +36,9 @@ class ParameterPanel {
   void draw_options(std::span<const Slider> options, LiveScene& live);
   void draw_adder(std::string_view list, const Snapshot& snapshot, LiveScene& live);
   bool draw_switch(const std::string& name, const Snapshot& snapshot, LiveScene& live);
-  void draw_colliders(std::span<const Slider> sliders, const Snapshot& snapshot, LiveScene& live);
+  void draw_colliders(std::span<const Slider> sliders, const Snapshot& snapshot, LiveScene& live,
+                      const std::string& selected);
+  void draw_pose(const MovableCollider& collider, LiveScene& live);
   void draw_body_contacts(std::span<const Slider> sliders, LiveScene& live);
   void draw_row(const Slider& slider, const std::string& label, const std::string& help, LiveScene& live);
   void post_change(const std::string& key, const pliant::Parameter& parameter, pliant::Vec3 value, bool has_changed,
@@ -50,6 +54,8 @@ class ParameterPanel {
   std::map<std::string, Edited> edited_;
   std::map<std::string, Switched> switched_;
   std::optional<std::pair<std::string, pliant::Vec3>> withheld_;  // what is being typed and may become a value
+  std::optional<std::pair<std::string, pliant::Vec3>> moved_;     // row of a collider that is dragged, and its value
+  bool shows_forces_ = false;
   std::string held_;  // key of what is being dragged and has changed: one change for undo
   std::map<std::string, std::array<double, 2>> ranges_;  // of sliders, by the values that were seen first
   std::map<std::string, std::array<float, 4>> places_;

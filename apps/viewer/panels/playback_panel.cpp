@@ -7,7 +7,7 @@
 
 namespace pliant_viewer {
 
-void Playback::draw_panel() {
+void Playback::draw_panel(const std::string&) {
   row_label("time", "");
   wrapped_text(fmt::format("{:.2f} of {:.2f} s", time(place_), time(count() - 1)));
   row_label("frame", "");

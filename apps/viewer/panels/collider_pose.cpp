@@ -1,0 +1,56 @@
+// Where the collider is that is selected, in the panel.
+#include <numbers>
+
+#include <imgui.h>
+
+#include "viewer/panels/panel_style.h"
+#include "viewer/panels/parameter_panel.h"
+
+namespace pliant_viewer {
+namespace {
+
+constexpr Real degree = std::numbers::pi / 180;
+
+/// Posts a call for the collider of that name.
+void post_to(const std::string& name, LiveScene& live, LiveScene::Kind kind,
+             const std::function<void(Session&, pliant::ColliderId)>& act) {
+  live.post(
+      [name, act](CommandContext& context) {
+        if (const auto id = context.session.simulation().find_collider(name)) act(context.session, *id);
+      },
+      kind);
+}
+
+}  // namespace
+
+/// Where it will come to rest, which can be changed.
+void ParameterPanel::draw_pose(const MovableCollider& collider, LiveScene& live) {
+  const auto draw = [&](const char* label, const char* help, const char* id, pliant::Vec3 value, float speed,
+                        const std::function<void(Session&, pliant::ColliderId, const pliant::Vec3&)>& act) {
+    row_label(label, help);
+    // While the hand is on it the simulation may be some steps behind.
+    if (moved_ && moved_->first == id) value = moved_->second;
+    const bool has_changed =
+        ImGui::DragScalarN(id, ImGuiDataType_Double, value.data(), 3, speed, nullptr, nullptr, "%.3g");
+    const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+    places_[collider.name + id] = {low.x, low.y, high.x, high.y};
+    if (has_changed && value.allFinite()) {
+      moved_ = {id, value};
+      post_to(collider.name, live, LiveScene::Kind::steers,
+              [act, value](Session& session, pliant::ColliderId to) { act(session, to, value); });
+    }
+    if (!ImGui::IsItemDeactivated() || !moved_ || moved_->first != id) return;
+    moved_.reset();
+    post_to(collider.name, live, LiveScene::Kind::changes,
+            [](Session& session, pliant::ColliderId dropped) { session.drop_collider(dropped); });
+  };
+  draw("place", "m, where it will come to rest; a plane goes along its normal", "##place", collider.pose.position,
+       0.01F, [](Session& session, pliant::ColliderId id, const pliant::Vec3& to) {
+         session.move_collider(id, to.cast<float>());
+       });
+  const Eigen::AngleAxis<Real> turn(collider.pose.rotation);
+  draw("turned", "°, axis times angle, about its place", "##turned", turn.angle() / degree * turn.axis(), 1,
+       [](Session& session, pliant::ColliderId id, const pliant::Vec3& to) { session.turn_collider(id, to * degree); });
+}
+
+}  // namespace pliant_viewer
