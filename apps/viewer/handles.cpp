@@ -1,8 +1,12 @@
 #include "viewer/handles.h"
 
 namespace pliant_viewer {
+namespace {
 
+using Part = TransformGizmo::Part;
 using View = MouseInteraction::View;
+
+}  // namespace
 
 bool Handles::handle(const MouseEvent& event, const View& view) {
   // What is busy comes first: another handle may lie on the way of the mouse.
@@ -33,7 +37,6 @@ bool Handles::draw(const View& view, const std::optional<Vec2f>& mouse,
                    const pliant_render::AnnotationCanvas& canvas) const {
   const auto arrow = mouse ? ForceArrows::at(*mouse, view) : std::nullopt;
   forces.draw(view, arrow, canvas);
-  using Part = TransformGizmo::Part;
   const Part of_pins = mouse && !arrow ? pins.part_at(*mouse, view) : Part::none;
   const bool is_free = mouse && !arrow && of_pins == Part::none;
   const Part of_collider = is_free ? collider.part_at(*mouse, view) : Part::none;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -64,11 +65,7 @@ Json json_of(const std::optional<Value>& value) {
 }
 
 template <class Value>
-Json json_of(const std::vector<Value>& values) {
-  Json list = Json::array();
-  for (const Value& value : values) list.push_back(json_of(value));
-  return list;
-}
+Json json_of(const std::vector<Value>& values);
 
 /// Of each option its name and value; null for none.
 template <lists_options Options>
@@ -78,6 +75,25 @@ Json all_options(const Options& options) {
     json[std::string(info.name)] = json_of(value);
   });
   return json;
+}
+
+/// Entries of a list say all, lest they leave out what must be given.
+template <class Value>
+Json json_of(const std::vector<Value>& values) {
+  Json list = Json::array();
+  for (const Value& value : values) {
+    if constexpr (lists_options<Value>) {
+      Json given = Json::object();
+      Value::visit(value, [&given](const pliant::OptionInfo& info, const auto& option) {
+        Json json = json_of(option);
+        if (!json.is_null()) given[std::string(info.name)] = std::move(json);
+      });
+      list.push_back(std::move(given));
+    } else {
+      list.push_back(json_of(value));
+    }
+  }
+  return list;
 }
 
 /// Those that differ from the defaults.

@@ -83,6 +83,25 @@ TEST_CASE("how it is shown is saved with it") {
   CHECK(read.shadow);
 }
 
+TEST_CASE("a camera that moves is saved with all of its moments") {
+  const TemporaryFolder folder;
+  Session session(make_scene);
+  pliant::ViewSettings view = session.scene().view;
+  view.camera = {
+      .keyframes = {{.time = 0, .position = {0, 0, 0}},
+                    {.time = 2, .position = {1, -4, 2}, .target = pliant::Vec3(0, 0, 1), .field_of_view = 30}}};
+  session.save(folder.path() / "seen.json", view);
+  const std::vector<pliant::CameraKeyframe> read =
+      pliant::load_scene(folder.path() / "seen.json").view.camera.keyframes;
+  REQUIRE(read.size() == 2);
+  CHECK(read[0].time == 0);
+  CHECK(read[0].position == pliant::Vec3(0, 0, 0));
+  CHECK_FALSE(read[0].target.has_value());
+  CHECK(read[1].time == 2);
+  CHECK(read[1].target == pliant::Vec3(0, 0, 1));
+  CHECK(read[1].field_of_view == 30);
+}
+
 TEST_CASE("a scene that a program has made keeps its changes, and takes them back; it has no text to save") {
   const auto make = [] {
     pliant::Scene scene = make_scene();
