@@ -3,8 +3,11 @@
 #include <algorithm>
 
 namespace pliant_viewer {
+namespace {
 
 using View = MouseInteraction::View;
+
+}  // namespace
 
 void PinGizmo::follow(const std::vector<std::uint32_t>& selected, const Snapshot& snapshot) {
   if (!is_up_to_date(snapshot)) return;
