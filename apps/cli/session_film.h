@@ -15,13 +15,19 @@ pliant_render::Clip clip_from_session(const std::filesystem::path& file,
                                       const std::function<std::int64_t(pliant::Scene&)>& prepare,
                                       const std::function<bool(std::int64_t, std::int64_t)>& go_on);
 
-/// Does a recorded session again. `prepare` sees the scene first; `visit` each state from the last restart on with how
-/// many steps there are since then, at least one; `go_on` gets the step and how many there are, and ends it by
+/// How far a session is, in steps from its last restart on.
+struct SessionMoment {
+  std::int64_t since = 0, steps = 0;
+  bool is_last() const { return since == steps; }
+};
+
+/// Does a recorded session again. `prepare` sees the scene first; `visit` each state from the last restart on, at
+/// least one; `go_on` gets the step and how many there are, and ends it by
 /// returning false. Says on stderr where the replay differs. @throws pliant::Error (input), as clip_from_session
 struct SessionVisitor {
   std::function<void(pliant::Scene&)> prepare;
   std::function<bool(std::int64_t step, std::int64_t steps)> go_on;
-  std::function<void(pliant_viewer::Session& session, std::int64_t since, bool is_last)> visit;
+  std::function<void(pliant_viewer::Session& session, const SessionMoment& moment)> visit;
 };
 void visit_session(const std::filesystem::path& file, const SessionVisitor& visitor);
 

@@ -82,6 +82,7 @@ void go_to(const Framebuffer& target, const Vec2f& size) {
 /// For a program that goes over the pixels of this part; the others are in full light, and far away.
 void begin_screen(const Framebuffer& target, const Vec2f& size, const Box& area) {
   go_to(target, size);
+  glDisable(GL_SCISSOR_TEST);  // which would limit clearing as well
   glClearColor(1, 6e4F, 1, 1);
   glClear(GL_COLOR_BUFFER_BIT);
   limit_to(area, size);

@@ -158,7 +158,7 @@ void main() {
   ivec2 at = ivec2(gl_FragCoord.xy);
   const int step_size = 2;  // from pixel to pixel of this picture in that of the depths
   if (texelFetch(depths, step_size * at, 0).r == 1.0) {
-    color = vec4(1, 1e6, 0, 1);
+    color = vec4(1, 6e4, 0, 1);
     return;
   }
   vec3 here = point_at(step_size * at);
@@ -246,7 +246,7 @@ float key_share(vec3 point, vec3 n, bool is_wanted) {
 void main() {
   ivec2 at = ivec2(gl_FragCoord.xy);
   if (texelFetch(depths, at, 0).r == 1.0) {
-    color = vec4(1, 1e6, 1, 1);
+    color = vec4(1, 6e4, 1, 1);
     return;
   }
   vec3 here = point_at(at);

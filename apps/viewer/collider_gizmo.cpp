@@ -71,7 +71,8 @@ void ColliderGizmo::go_on_from(const RigidMotion&) {
 }
 
 std::uint64_t ColliderGizmo::move(const View& view) {
-  if (motion().rotation.isZero(0)) {
+  has_turned_ = has_turned_ || !motion().rotation.isZero(0);  // and then back to where it was by a turn, too
+  if (!has_turned_) {
     return post(view, LiveScene::Kind::steers, [name = name_, to = goal().position](Session& session) {
       act_on(session, name, [&](pliant::ColliderId id) { session.move_collider(id, to.cast<float>()); });
     });

@@ -21,14 +21,15 @@ class ColliderGizmo final : public TransformGizmo {
  private:
   void look_again(const MouseInteraction::View& view) override;
   void go_on_from(const RigidMotion& motion) override;
-  void take(const MouseInteraction::View&) override {}
+  void take(const MouseInteraction::View&) override { has_turned_ = false; }
   std::uint64_t move(const MouseInteraction::View& view) override;
   std::uint64_t let_go(const MouseInteraction::View& view) override;
   void draw_targets(const MouseInteraction::View& view, ImDrawList& list) const override;
   pliant::Pose goal() const;
 
   std::string name_;
-  pliant::Pose pose_{};  // before motion()
+  pliant::Pose pose_{};      // before motion()
+  bool has_turned_ = false;  // since it was taken
 };
 
 }  // namespace pliant_viewer

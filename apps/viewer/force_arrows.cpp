@@ -83,7 +83,8 @@ bool ForceArrows::handle(const MouseEvent& event, const View& view) {
   switch (event.kind) {
     case MouseEvent::Kind::press: {
       if (is_busy()) return true;
-      const auto arrow = event.button == MouseButton::left ? at(event.place, view) : std::nullopt;
+      const bool is_plain = event.button == MouseButton::left && !event.shift && !event.control;
+      const auto arrow = is_plain ? at(event.place, view) : std::nullopt;
       if (arrow) take(*arrow, event.place, view);
       return arrow.has_value();
     }

@@ -12,7 +12,8 @@ bool Handles::handle(const MouseEvent& event, const View& view) {
   // What is busy comes first: another handle may lie on the way of the mouse.
   if (pins.is_busy()) return pins.handle(event, view);
   if (collider.is_busy()) return collider.handle(event, view);
-  return forces.handle(event, view) || pins.handle(event, view) || collider.handle(event, view);
+  if (forces.is_busy()) return forces.handle(event, view);
+  return pins.handle(event, view) || collider.handle(event, view) || forces.handle(event, view);
 }
 
 void Handles::flush(const View& view) {
@@ -35,11 +36,11 @@ void Handles::take_click(const MouseInteraction::Click& click, const Snapshot& s
 
 bool Handles::draw(const View& view, const std::optional<Vec2f>& mouse,
                    const pliant_render::AnnotationCanvas& canvas) const {
-  const auto arrow = mouse ? ForceArrows::at(*mouse, view) : std::nullopt;
+  const Part of_pins = mouse ? pins.part_at(*mouse, view) : Part::none;
+  const Part of_collider = mouse && of_pins == Part::none ? collider.part_at(*mouse, view) : Part::none;
+  const bool is_free = mouse && of_pins == Part::none && of_collider == Part::none;
+  const auto arrow = is_free ? ForceArrows::at(*mouse, view) : std::nullopt;
   forces.draw(view, arrow, canvas);
-  const Part of_pins = mouse && !arrow ? pins.part_at(*mouse, view) : Part::none;
-  const bool is_free = mouse && !arrow && of_pins == Part::none;
-  const Part of_collider = is_free ? collider.part_at(*mouse, view) : Part::none;
   collider.draw(view, of_collider, canvas.list);
   pins.draw(view, of_pins, canvas.list);
   return arrow || of_pins != Part::none || of_collider != Part::none;

@@ -34,6 +34,13 @@ class SessionExport(ExportCase):
             self.pliant("convert", "still.session", f"session.{ending}", "--yes")
             self.pliant("convert", "same", f"run.{ending}", "--yes")
         self.assertEqual((self.folder / "session.mdd").read_bytes(), (self.folder / "run.mdd").read_bytes())
+        session, run = (json.loads(read[20:20 + int.from_bytes(read[12:16], "little")]) for read in
+                        ((self.folder / f"{name}.glb").read_bytes() for name in ("session", "run")))
+        for kind in ("materials", "accessors", "meshes"):
+            self.assertEqual(len(session[kind]), len(run[kind]), kind)
+        self.assertEqual(sorted(node["name"] for node in session["nodes"] if "mesh" in node),
+                         sorted(node["name"] for node in run["nodes"] if "mesh" in node))
+        self.assertIn("ball", [node["name"] for node in session["nodes"]])
         session, run = (usd_reader.read(self.folder / f"{name}.usda") for name in ("session", "run"))
 
         def shape(prim):
@@ -69,6 +76,17 @@ class SessionExport(ExportCase):
         corner = numpy.array([points[time][0] for time in sorted(points)])
         self.assertEqual(numpy.ptp(corner[:11], axis=0).max(), 0)  # pinned as long as it was
         self.assertLess(corner[-1][2], corner[0][2] - 0.1)
+
+    def test_what_was_moved_before_the_first_step_begins_there(self):
+        self.session("begun.session", [{"step": 0, "do": "move_collider", "collider": 0, "target": [0, 1, -2]},
+                                       {"step": 0, "do": "drop_collider", "collider": 0}])
+        self.pliant("convert", "begun.session", "begun.usda")
+        text = (self.folder / "begun.usda").read_text()
+        ball = text[text.index('"ball"'):]
+        places = {line.strip() for line in ball[:ball.index("def ", 10) if "def " in ball[10:] else None].splitlines()
+                  if "double3 xformOp:translate" in line}
+        self.assertEqual(len(places), 1, places)
+        self.assertIn("(0, 1, -2)", places.pop())
 
     def test_one_body_a_sequence_and_a_moment(self):
         self.session("still.session", [])

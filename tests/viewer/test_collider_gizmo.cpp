@@ -52,7 +52,11 @@ struct Desk {
             {800, 600}};
   }
   static void wait_until(const std::function<bool()>& is_so) {
-    while (!is_so()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (!is_so()) {
+      REQUIRE(std::chrono::steady_clock::now() < deadline);
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
   }
   MouseInteraction::View view() { return {screen, camera, &live, &live.shown()}; }
   ColliderGizmo& gizmo() { return handles.collider; }
@@ -154,6 +158,28 @@ TEST_CASE("arrows and the dot move a collider, and a ring turns it, each as one 
     CHECK(desk.pose("box").rotation.angularDistance(before[i].rotation) < 1e-6);
   }
   CHECK(desk.live.shown().undone_next.empty());
+}
+
+TEST_CASE("what is turned and turned back is where it was") {
+  Desk desk;
+  desk.select("box");
+  const pliant::Pose start = desk.pose("box");
+  const Vec2f from = desk.gizmo().place_of(Part::turn_z, desk.view()).value();
+  CHECK(desk.send(MouseEvent::Kind::press, from));
+  const auto turn_to = [&](float by) {
+    CHECK(desk.send(MouseEvent::Kind::move, from + Vec2f(by, 0), true));
+    const std::uint64_t command = desk.live.post([](CommandContext&) {});
+    Desk::wait_until([&] { return desk.live.newest().commands >= command; });
+  };
+  for (int i = 1; i <= 9; ++i) turn_to(10 * static_cast<float>(i));
+  const pliant::Pose turned = desk.pose("box");
+  CHECK(turned.rotation.angularDistance(start.rotation) > 0.2);
+  for (int i = 8; i >= 0; --i) turn_to(10 * static_cast<float>(i));
+  CHECK(desk.gizmo().motion().rotation.isZero(0));
+  CHECK(desk.send(MouseEvent::Kind::release, from));
+  const std::uint64_t command = desk.live.post([](CommandContext&) {});
+  Desk::wait_until([&] { return desk.live.newest().commands >= command; });
+  CHECK(desk.pose("box").rotation.angularDistance(start.rotation) < 1e-6);
 }
 
 TEST_CASE("the handle of a plane has an arrow along its normal and two rings in it") {

@@ -39,7 +39,11 @@ struct Desk {
     return {place_camera({.position = Vec3(0.5, -3, 0.5), .target = Vec3(0.5, 0, 0.5)}, bounds, 4.0F / 3), {800, 600}};
   }
   static void wait_until(const std::function<bool()>& is_so) {
-    while (!is_so()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (!is_so()) {
+      REQUIRE(std::chrono::steady_clock::now() < deadline);
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
   }
   MouseInteraction::View view() {
     MouseInteraction::View seen{screen, camera, &live, &live.shown()};

@@ -1,5 +1,8 @@
 // Where the collider is that is selected, in the panel.
 #include <numbers>
+#include <optional>
+#include <string>
+#include <utility>
 
 #include <imgui.h>
 
@@ -21,7 +24,17 @@ void post_to(const std::string& name, LiveScene& live, LiveScene::Kind kind,
       kind);
 }
 
+void drop(const std::string& name, LiveScene& live) {
+  post_to(name, live, LiveScene::Kind::changes,
+          [](Session& session, pliant::ColliderId dropped) { session.drop_collider(dropped); });
+}
+
 }  // namespace
+
+void ParameterPanel::end_lost_drag(LiveScene& live) {
+  if (!moved_ || ImGui::IsMouseDown(ImGuiMouseButton_Left) || ImGui::IsAnyItemActive()) return;
+  drop(std::exchange(moved_, std::nullopt)->collider, live);
+}
 
 /// Where it will come to rest, which can be changed.
 void ParameterPanel::draw_pose(const MovableCollider& collider, LiveScene& live) {
@@ -29,20 +42,20 @@ void ParameterPanel::draw_pose(const MovableCollider& collider, LiveScene& live)
                         const std::function<void(Session&, pliant::ColliderId, const pliant::Vec3&)>& act) {
     row_label(label, help);
     // While the hand is on it the simulation may be some steps behind.
-    if (moved_ && moved_->first == id) value = moved_->second;
+    const auto is_moved = [&] { return moved_ && moved_->collider == collider.name && moved_->id == id; };
+    if (is_moved()) value = moved_->value;
     const bool has_changed =
         ImGui::DragScalarN(id, ImGuiDataType_Double, value.data(), 3, speed, nullptr, nullptr, "%.3g");
     const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
     places_[collider.name + id] = {low.x, low.y, high.x, high.y};
     if (has_changed && value.allFinite()) {
-      moved_ = {id, value};
+      moved_ = {collider.name, id, value};
       post_to(collider.name, live, LiveScene::Kind::steers,
               [act, value](Session& session, pliant::ColliderId to) { act(session, to, value); });
     }
-    if (!ImGui::IsItemDeactivated() || !moved_ || moved_->first != id) return;
+    if (!ImGui::IsItemDeactivated() || !is_moved()) return;
     moved_.reset();
-    post_to(collider.name, live, LiveScene::Kind::changes,
-            [](Session& session, pliant::ColliderId dropped) { session.drop_collider(dropped); });
+    drop(collider.name, live);
   };
   draw("place", "m, where it will come to rest; a plane goes along its normal", "##place", collider.pose.position,
        0.01F, [](Session& session, pliant::ColliderId id, const pliant::Vec3& to) {

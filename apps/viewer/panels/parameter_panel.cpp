@@ -182,6 +182,7 @@ void ParameterPanel::draw_switched_off(const std::string& name, const SwitchedOf
 /// Of each collider what it feels, and its options, which fold.
 void ParameterPanel::draw_colliders(std::span<const Slider> sliders, const Snapshot& snapshot, LiveScene& live,
                                     const std::string& selected) {
+  end_lost_drag(live);
   for (const auto& [id, wrench] : snapshot.wrenches) {
     const pliant::ParameterOwner owner = id;
     const auto is_own = [&](const Slider& slider) { return slider.parameter.handle.owner == owner; };

@@ -39,6 +39,8 @@ class ParameterPanel {
   void draw_colliders(std::span<const Slider> sliders, const Snapshot& snapshot, LiveScene& live,
                       const std::string& selected);
   void draw_pose(const MovableCollider& collider, LiveScene& live);
+  /// Where the row of a collider has gone from under the hand, which then has let go.
+  void end_lost_drag(LiveScene& live);
   void draw_body_contacts(std::span<const Slider> sliders, LiveScene& live);
   void draw_row(const Slider& slider, const std::string& label, const std::string& help, LiveScene& live);
   void post_change(const std::string& key, const pliant::Parameter& parameter, pliant::Vec3 value, bool has_changed,
@@ -54,7 +56,11 @@ class ParameterPanel {
   std::map<std::string, Edited> edited_;
   std::map<std::string, Switched> switched_;
   std::optional<std::pair<std::string, pliant::Vec3>> withheld_;  // what is being typed and may become a value
-  std::optional<std::pair<std::string, pliant::Vec3>> moved_;     // row of a collider that is dragged, and its value
+  struct MovedRow {
+    std::string collider, id;  ///< by name; "##place" or "##turned"
+    pliant::Vec3 value;
+  };
+  std::optional<MovedRow> moved_;  // that is dragged
   bool shows_forces_ = false;
   std::string held_;  // key of what is being dragged and has changed: one change for undo
   std::map<std::string, std::array<double, 2>> ranges_;  // of sliders, by the values that were seen first
