@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "pliant/core/error.h"
+#include "viewer/suggestions.h"
 
 namespace pliant_viewer {
 namespace {
