@@ -26,7 +26,7 @@ function(to_literals file result)
     string(LENGTH "${piece}" length)
     string(SUBSTRING "${text}" ${length} -1 text)
     string(LENGTH "${text}" left)
-    string(APPEND literals "\n        R\"scene(${piece})scene\"")
+    string(APPEND literals "\n        R\"scene(${piece})scene\"sv")
   endwhile()
   set(${result} "${literals}" PARENT_SCOPE)
 endfunction()
@@ -47,9 +47,12 @@ file(WRITE "${output}" "// Made by cmake/embed_scenes.cmake.
 #include \"${header}\"
 
 #include <array>
+#include <string_view>
 
 namespace ${namespace} {
 namespace {
+
+using namespace std::string_view_literals;  // whose lengths compilers need not count
 
 constexpr std::array<pliant::BuiltinScene, ${scene_count}> scenes{
 ${entries}};
