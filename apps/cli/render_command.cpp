@@ -47,13 +47,10 @@ void show(const RenderArguments& arguments, const std::string& what) {
   if (!arguments.quiet && has_error_terminal()) print_to_stderr("\r\x1b[K" + what);
 }
 
-/// A camera that turns goes around what moves, wherever that of the scene stands.
+/// A camera that turns goes around what moves, wherever that of the scene stands or goes.
 void free_camera(const RenderArguments& arguments, pliant::Camera& camera) {
   if (!arguments.turntable) return;
-  if (!camera.keyframes.empty()) {
-    pliant::fail_input(
-        "--turntable: the camera of the scene goes through keyframes; give --set view.camera.keyframes=[]");
-  }
+  camera.keyframes.clear();
   camera.position.reset();
   camera.target.reset();
 }

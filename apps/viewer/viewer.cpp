@@ -194,6 +194,10 @@ Vec2f Viewer::picture_size() const {
 }
 
 void Viewer::place_screen() {
+  if (!appearance_.camera.keyframes.empty() && camera_.is_like(first_camera_)) {  // until someone moves it
+    camera_ = OrbitCamera(first_viewpoint(source_, appearance_, picture_size()), appearance_.camera.up.cast<float>());
+    first_camera_ = camera_;
+  }
   screen_.size = picture_size();
   const bool has_legend = pliant_render::make_legend(appearance_, range_, static_cast<int>(screen_.size.x()),
                                                      static_cast<int>(screen_.size.y()))

@@ -106,7 +106,7 @@ void Viewer::draw_main_panel() {
 void Viewer::draw_file_buttons(float width) {
   if (film_panel_.draw_button(film_under_way(), width)) toggle_film();
   ImGui::SameLine();
-  if (ImGui::Button("Picture", {width, 0})) save_picture();
+  if (ImGui::Button("Picture##button", {width, 0})) save_picture();
   explain("P: saves the picture as a PNG file in the current folder, without this panel");
   ImGui::SameLine();
   ImGui::BeginDisabled(open_ == nullptr);

@@ -56,7 +56,7 @@ void FilmPanel::note_place(const std::string& what) {
 bool FilmPanel::draw_button(const FilmRecorder* film, float width) {
   const bool is_recording = film != nullptr && film->is_recording();
   ImGui::BeginDisabled(film != nullptr && !is_recording);
-  const bool is_pressed = ImGui::Button(is_recording ? "End film" : "Film", {width, 0});
+  const bool is_pressed = ImGui::Button(is_recording ? "End film##button" : "Film##button", {width, 0});
   ImGui::EndDisabled();
   note_place("button");
   explain(

@@ -233,7 +233,10 @@ void ParameterPanel::draw_group(std::span<const Slider> group, const Snapshot& s
   const std::string help = first.heading + ": " + label_of(first.parameter.handle.option) + ", ";
   bool is_open = false;
   if (group.size() > 1) {
+    // The mouse counts as on the arrow so far beside it, where the box of the switch is.
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, ImGui::GetStyle().ItemSpacing.y});
     is_open = ImGui::TreeNodeEx("##more", ImGuiTreeNodeFlags_FramePadding);
+    ImGui::PopStyleVar();
     explain("all options of " + first.heading);
     if (is_open) ImGui::TreePop();  // the row itself is not moved in
     ImGui::SameLine(0, ImGui::GetStyle().FramePadding.x);
