@@ -46,6 +46,18 @@ Real deck_height(const Scene& scene, Real x) {
 
 }  // namespace
 
+TEST_CASE("scenes of the gallery open and take a step") {
+  for (const char* name : {"walkers", "trampoline_crowd", "silk_on_figure"}) {
+    CAPTURE(name);
+    Scene scene = load_builtin_scene(name);
+    const Positions before = scene.simulation.state().positions;
+    scene.step();
+    CHECK(scene.simulation.state().positions.allFinite());
+    CHECK(scene.simulation.state().positions != before);
+    CHECK((scene.simulation.state().positions - before).cwiseAbs().maxCoeff() < 0.2);
+  }
+}
+
 TEST_CASE("scene walkers: they cross, and the deck is lower where they stand" * doctest::skip(!runs_whole_scenes)) {
   Scene scene = load_builtin_scene("walkers");
   const Real span = 5.2;
