@@ -3,9 +3,10 @@
 
   scripts/make_trampoline_crowd_scene.py
 """
-import json
 import math
 from pathlib import Path
+
+from scene_text import text_of
 
 SEGMENTS = 10
 # Radius at each height [m], from the foot to the crown.
@@ -115,30 +116,6 @@ def scene():
         "contact": {"friction": 0.3},
         "colliders": [{"type": "plane", "name": "floor"}],
         "view": {"camera": {"position": [2.9, -5.7, 2.5], "target": [0.05, 0, 1.28], "field_of_view": 38}, "light": [-0.7, -0.5, 0.9]}}
-
-
-def wrapped(item):
-    """The text of an entry of a list, broken between values."""
-    lines = [""]
-    for piece in json.dumps(item).split(", "):
-        if lines[-1] and len(lines[-1]) + len(piece) > 140:
-            lines.append("")
-        lines[-1] += piece + ", "
-    return "\n      ".join(line.rstrip() for line in lines)[:-1]
-
-
-def text_of(value):
-    """JSON with a paragraph for each body and move."""
-    lines = ["{"]
-    for key, entry in value.items():
-        comma = "" if key == list(value)[-1] else ","
-        if isinstance(entry, list):
-            lines.append(f'  "{key}": [')
-            lines += ["    " + wrapped(item) + ("," if i + 1 < len(entry) else "") for i, item in enumerate(entry)]
-            lines.append("  ]" + comma)
-        else:
-            lines.append(f'  "{key}": {json.dumps(entry)}{comma}')
-    return "\n".join(lines) + "\n}\n"
 
 
 if __name__ == "__main__":

@@ -6,9 +6,10 @@
 Of the bridge the script writes where ropes and boards begin, on a parabola; of the walkers, from their footprints, how
 legs bend at hip and knee.
 """
-import json
 import math
 from pathlib import Path
+
+from scene_text import text_of
 
 SPAN = 5.2  # from post to post [m]
 SAG = 0.34  # of the deck in the middle [m]
@@ -334,30 +335,6 @@ def scene():
         "view": {"camera": {"position": [0.9, -6.2, 1.75], "target": [2.55, 0, 0.3], "field_of_view": 36},
                  "background": "#dbe6ee", "ground": False, "light": [-0.3, -1, 1.05]},
         "moves": moves}
-
-
-def wrapped(item):
-    """The text of an entry of a list, broken between values."""
-    lines = [""]
-    for piece in json.dumps(item).split(", "):
-        if lines[-1] and len(lines[-1]) + len(piece) > 140:
-            lines.append("")
-        lines[-1] += piece + ", "
-    return "\n      ".join(line.rstrip() for line in lines)[:-1]
-
-
-def text_of(value):
-    """JSON with a paragraph for each body and move."""
-    lines = ["{"]
-    for key, entry in value.items():
-        comma = "" if key == list(value)[-1] else ","
-        if isinstance(entry, list):
-            lines.append(f'  "{key}": [')
-            lines += ["    " + wrapped(item) + ("," if i + 1 < len(entry) else "") for i, item in enumerate(entry)]
-            lines.append("  ]" + comma)
-        else:
-            lines.append(f'  "{key}": {json.dumps(entry)}{comma}')
-    return "\n".join(lines) + "\n}\n"
 
 
 if __name__ == "__main__":

@@ -22,13 +22,13 @@ struct SessionMoment {
 };
 
 /// Does a recorded session again. `prepare` sees the scene first; `visit` each state from the last restart on, at
-/// least one; `go_on` gets the step and how many there are, and ends it by
-/// returning false. Says on stderr where the replay differs. @throws pliant::Error (input), as clip_from_session
+/// least one; `go_on` gets the step and how many there are, and ends it by returning false.
 struct SessionVisitor {
   std::function<void(pliant::Scene&)> prepare;
   std::function<bool(std::int64_t step, std::int64_t steps)> go_on;
   std::function<void(pliant_viewer::Session& session, const SessionMoment& moment)> visit;
 };
+/// Says on stderr where the replay differs. @throws pliant::Error (input), as clip_from_session
 void visit_session(const std::filesystem::path& file, const SessionVisitor& visitor);
 
 /// What a recorded session shows from its last restart on, every step a frame, with its colliders where they were.

@@ -178,11 +178,11 @@ void Renderer::draw_light_maps(const pliant::ViewSettings& appearance, const Dra
 }
 
 /// The part of the picture in which all bodies and colliders lie, and what is nearer to them than `reach`.
-Box Renderer::area_of(const DrawOptions& options, float reach) const {
+PictureArea Renderer::area_of(const DrawOptions& options, float reach) const {
   if (colliders_.planes(options.viewpoint.eye).size() > 1) return {};  // they keep the sky from each other
   const Mat4f camera = projection(options).camera;
   const float rows = options.viewpoint.projection(size_.x() / size_.y())(1, 1);
-  Box area{Vec2f::Ones(), Vec2f::Zero()};
+  PictureArea area{Vec2f::Ones(), Vec2f::Zero()};
   bool is_all = false;
   const auto add = [&](const Vec3f& point) {
     const Vec4f seen = camera * point.homogeneous();

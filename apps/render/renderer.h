@@ -48,7 +48,7 @@ class Renderer {
   ShadowArea draw_shadow(const Mat4f& to_floor, const Vec3f& light);
   Projection projection(const DrawOptions& options) const;
   void draw_light_maps(const pliant::ViewSettings& appearance, const DrawOptions& options);
-  Box area_of(const DrawOptions& options, float reach) const;
+  PictureArea area_of(const DrawOptions& options, float reach) const;
   void draw_depths(float setback) const;
   void draw_floor_depths(const pliant::ViewSettings& appearance, const DrawOptions& options) const;
   /// width: in the picture that is drawn [pixels]

@@ -66,7 +66,7 @@ void draw_screen(const VertexArray& empty_array) {
 }
 
 /// Nothing outside of this part of a picture is drawn, until GL_SCISSOR_TEST is disabled.
-void limit_to(const Box& area, const Vec2f& picture) {
+void limit_to(const PictureArea& area, const Vec2f& picture) {
   const Vec2f low = area.low.cwiseProduct(picture).array().floor(),
               high = area.high.cwiseProduct(picture).array().ceil();
   glEnable(GL_SCISSOR_TEST);
@@ -80,7 +80,7 @@ void go_to(const Framebuffer& target, const Vec2f& size) {
 }
 
 /// For a program that goes over the pixels of this part; the others are in full light, and far away.
-void begin_screen(const Framebuffer& target, const Vec2f& size, const Box& area) {
+void begin_screen(const Framebuffer& target, const Vec2f& size, const PictureArea& area) {
   go_to(target, size);
   glDisable(GL_SCISSOR_TEST);  // which would limit clearing as well
   glClearColor(1, 6e4F, 1, 1);

@@ -12,7 +12,7 @@ namespace pliant_render {
 using DrawDepths = std::function<void(float setback)>;
 
 /// Part of a picture, from 0 to 1 along its sides.
-struct Box {
+struct PictureArea {
   Vec2f low = {0, 0}, high = {1, 1};
 };
 
@@ -28,10 +28,10 @@ class SceneLight {
   /// Draws the depths of the picture, and from them which share of the sky and of the key light each point sees: call
   /// it after draw_shadow_map().
   struct ScreenLook {
-    Vec2f picture;  ///< size [pixels]
-    float share;    ///< of its width and height that the depths are drawn with
-    float reach;    ///< how far away what stands in the way of the sky is looked for [m]
-    Box area;       ///< where bodies and colliders may be, with what they may keep light from
+    Vec2f picture;     ///< size [pixels]
+    float share;       ///< of its width and height that the depths are drawn with
+    float reach;       ///< how far away what stands in the way of the sky is looked for [m]
+    PictureArea area;  ///< where bodies and colliders may be, with what they may keep light from
   };
   /// Only depth_program() and rope_depth_program() may draw here. draw_thin: what is lit, but too thin to keep light
   /// from others in a picture.
@@ -62,7 +62,7 @@ class SceneLight {
   float texel_ = 1;             // of the shadow map [m]
   int width_ = 0, height_ = 0;  // of the depths [pixels]; what is seen of the sky is found at half of that
   Vec2f screen_scale_ = {1, 1};
-  Box area_;
+  PictureArea area_;
   Program depth_, rope_depth_, screen_depth_, rope_screen_depth_, occlusion_, occlusion_blur_, screen_light_program_,
       floors_;
   const Program* depth_in_use_ = &depth_;

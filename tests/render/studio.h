@@ -2,6 +2,7 @@
 // A square before a camera, and what is asked of the picture of it.
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include <doctest/doctest.h>
 
@@ -12,6 +13,18 @@
 namespace pliant_tests {
 
 using Rgb = std::array<int, 3>;
+
+/// Makes it in place; false, after a message, where the machine has no OpenGL.
+template <class Made, class... Arguments>
+bool make_if_drawable(std::optional<Made>& made, Arguments&&... arguments) {
+  try {
+    made.emplace(std::forward<Arguments>(arguments)...);
+    return true;
+  } catch (const pliant::Error& error) {
+    MESSAGE("skipped: ", std::string(error.what()));
+    return false;
+  }
+}
 
 /// A square of 1 m that stands upright, its normals towards -y, and a camera before it.
 struct Studio {
@@ -50,13 +63,9 @@ struct Studio {
 
   /// None where the machine has no OpenGL.
   std::optional<pliant_render::Image> draw() const {
-    try {
-      pliant_render::PictureMaker maker(pliant_render::make_render_mesh(bodies), options);
-      return maker.draw(frame, wind);
-    } catch (const pliant::Error& error) {
-      MESSAGE("skipped: ", std::string(error.what()));
-      return {};
-    }
+    std::optional<pliant_render::PictureMaker> maker;
+    if (!make_if_drawable(maker, pliant_render::make_render_mesh(bodies), options)) return {};
+    return maker->draw(frame, wind);
   }
 };
 

@@ -236,12 +236,7 @@ TEST_CASE("pictures can be drawn with the camera among the bodies, and with all 
     studio.options.appearance.camera.position = eye;
     studio.options.appearance.camera.target = eye + pliant::Vec3(0, 1, -0.1);
     std::optional<PictureMaker> maker;
-    try {
-      maker.emplace(make_render_mesh(studio.bodies), studio.options);
-    } catch (const pliant::Error& error) {
-      MESSAGE("skipped: ", std::string(error.what()));
-      return;
-    }
+    if (!make_if_drawable(maker, make_render_mesh(studio.bodies), studio.options)) return;
     maker->draw(studio.frame, {});
     CHECK(glGetError() == GL_NO_ERROR);
   }
@@ -255,31 +250,26 @@ TEST_CASE("what a picture has of the light does not depend on the picture before
   studio.options.ground_height = -0.02F;
   studio.options.appearance.camera.position = pliant::Vec3(0, -4, 2);
   std::optional<PictureMaker> maker;
-  try {
-    maker.emplace(make_render_mesh(studio.bodies), studio.options);
-  } catch (const pliant::Error& error) {
-    MESSAGE("skipped: ", std::string(error.what()));
-    return;
-  }
-  FrameContent aside = studio.frame;
-  for (Vec3f& p : aside.positions) p = 0.4F * p + Vec3f(0.3F, 0, 0);
-  const Image alone = maker->draw(aside, {});
-  for (const float x : {0.54F, 0.56F, 0.58F, 0.6F, 0.62F}) {  // walls, whose feet are dark where the area ends
-    FrameContent wall = studio.frame;
-    for (Vec3f& p : wall.positions) p = {x, p.y(), p.x() + 0.48F};
-    maker->draw(wall, {});
-    CHECK(maker->draw(aside, {}).pixels == alone.pixels);
+  if (!make_if_drawable(maker, make_render_mesh(studio.bodies), studio.options)) return;
+  const auto wall = [&studio](float x) {
+    FrameContent frame = studio.frame;
+    for (Vec3f& p : frame.positions) p = {x, p.y(), p.x() + 0.48F};
+    return frame;
+  };
+  // What is looked up ends at another pixel each time, where the foot of a wall was dark before, or not.
+  for (float x = 0.3F; x < 0.32F; x += 0.002F) {
+    FrameContent aside = studio.frame;
+    for (Vec3f& p : aside.positions) p = 0.4F * p + Vec3f(x, 0, 0);
+    maker->draw(wall(x + 0.26F), {});
+    const Image after_wall = maker->draw(aside, {});
+    maker->draw(wall(-2), {});
+    CHECK(maker->draw(aside, {}).pixels == after_wall.pixels);
   }
 }
 
 TEST_CASE("programs of surfaces compile with any two traits") {
   std::optional<OffscreenContext> context;
-  try {
-    context.emplace();
-  } catch (const pliant::Error& error) {
-    MESSAGE("skipped: ", std::string(error.what()));
-    return;
-  }
+  if (!make_if_drawable(context)) return;
   constexpr std::array<bool SurfaceTraits::*, 11> traits = {
       &SurfaceTraits::is_colored,    &SurfaceTraits::has_looks,   &SurfaceTraits::has_fields,
       &SurfaceTraits::has_gradient,  &SurfaceTraits::has_picture, &SurfaceTraits::has_weave,
