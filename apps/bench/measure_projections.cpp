@@ -86,6 +86,10 @@ std::vector<ProjectionsResult> measure_projections(std::optional<int> repeats) {
   kernels.push_back(make_kernel("triangle_area", sheet(), TriangleArea{}));
   kernels.push_back(make_kernel("tetrahedron_strain", block(), TetrahedronStrain{}));
   kernels.push_back(make_kernel("tetrahedron_volume", block(), TetrahedronVolume{}));
+  kernels.push_back(make_kernel("triangle_neo_hookean", sheet(), TriangleNeoHookean{}));
+  kernels.push_back(make_kernel("triangle_stvk", sheet(), TriangleStvk{}));
+  kernels.push_back(make_kernel("tetrahedron_neo_hookean", block(), TetrahedronNeoHookean{}));
+  kernels.push_back(make_kernel("tetrahedron_stvk", block(), TetrahedronStvk{}));
   kernels.push_back(make_kernel("bending, flat at rest", sheet(), Bending{}));
   kernels.push_back(make_kernel("bending, curved at rest", wavy_sheet(), Bending{}));
   kernels.push_back(make_kernel("hinge, flat at rest", sheet(), HingeBending{}));

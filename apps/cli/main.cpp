@@ -124,6 +124,8 @@ std::string refusal_text(const CLI::App& program, const CLI::ParseError& error) 
     what = command == &program ? "no command is given" : name + " is missing";
   } else if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr && what.ends_with(" missing")) {
     what = first + ": its value is missing";
+  } else if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr && what.ends_with("flag override")) {
+    what = "--" + what.substr(0, what.find(' ')) + " takes no value";
   } else if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr && !command->remaining().empty()) {
     what = unknown_word_text(*command, pliant_cli::describe_command(*command));
     if (what.ends_with('?')) return what;
@@ -160,6 +162,7 @@ int run_program(int argc, char** argv) {
   program.set_version_flag("--version", fmt::format("pliant {} ({})", pliant::version, pliant::compiler));
   program.footer(help_footer());
   program.require_subcommand(1);
+  program.option_defaults()->disable_flag_override();
   pliant_cli::Ansi ansi = pliant_cli::Ansi::automatic;  // which choose_colors has seen to
   pliant_cli::add_choice(program, "--ansi", ansi,
                          "Colors of messages: auto (on a terminal, unless NO_COLOR is set), always or never");

@@ -146,7 +146,7 @@ def is_possible(shape, constraint):
         return "triangles" in shape
     if kind in ("hinge", "bending"):
         return len(shape.get("triangles", [])) > 1
-    if kind in ("tetrahedron_strain", "tetrahedron_volume"):
+    if kind.startswith("tetrahedron_"):
         return "tetrahedra" in shape
     if constraint.get("measure") == "cloth":
         return "triangles" in shape

@@ -13,7 +13,8 @@ SIZES = {"edges": 2, "triangles": 3, "tetrahedra": 4}
 # Vertices of a stencil of each type.
 STENCILS = {"position": 1, "line": 1, "edge_spring": 2, "edge_strain": 2, "hinge": 4, "triangle_strain": 3, "fibre_strain": 3,
             "triangle_bending": 3, "tetrahedron_strain": 4, "drag": 2, "bending": 4, "plane": 1, "half_space": 1, "triangle_area": 3,
-            "tetrahedron_volume": 4}
+            "tetrahedron_volume": 4, "triangle_neo_hookean": 3, "triangle_stvk": 3, "tetrahedron_neo_hookean": 4,
+            "tetrahedron_stvk": 4}
 EXTRAS = {"line": {"direction": [0, 0, 1]}, "plane": {"normal": [0, 0, 1]}, "half_space": {"normal": [0, 0, 1]},
           "bending": {"cotangents": [[1, 1, 1]], "areas": 1}}
 

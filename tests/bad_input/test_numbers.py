@@ -18,7 +18,7 @@ LOW = [value for value in WHOLE if value < 10**6 or value > 2**31]  # others are
 NEEDED = {"test_force": {"vertex": 1, "force": [0, 0, 1]}, "line": {"direction": [0, 0, 1]},
           "plane": {"normal": [0, 0, 1]}, "half_space": {"normal": [0, 0, 1]}, "drag": {"stencils": [[0, 1]], "weights": [[0.5, 0.5]]},
           "bending": {}, "mouse_spring": {"vertex": 1, "anchor": [0, 0, 1]}}
-SOLIDS = ("tetrahedron_strain", "tetrahedron_volume", "volume")
+SOLIDS = ("tetrahedron_strain", "tetrahedron_volume", "tetrahedron_neo_hookean", "tetrahedron_stvk", "volume")
 
 GRID = {"shape": "grid", "columns": 4, "rows": 4}
 BALL = {"shape": "sphere", "subdivisions": 0}

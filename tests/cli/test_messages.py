@@ -71,6 +71,7 @@ class Slips(unittest.TestCase):
              "--size: its value is missing; put one behind the '=', or leave --size out"),
             (["render", "--size=", "chain", "--out", "x.png"],
              "--size: its value is missing; put one behind the '=', or leave --size out"),
+            (["render", "chain", "--timing=3"], "--timing takes no value; see pliant render --help"),
             (["scenes", "chain"], "unexpected argument 'chain'; see pliant scenes --help"),
         ]:
             with self.subTest(arguments):

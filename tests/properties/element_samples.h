@@ -70,6 +70,12 @@ struct Samples<pliant::TriangleAreaProjection> : ProductSamples<2> {};
 template <>
 struct Samples<pliant::TetrahedronVolumeProjection> : ProductSamples<3> {};
 
+/// What is no projection has neither set nor members.
+template <class Law, int columns>
+struct Samples<pliant::ElasticPotential<Law, columns>> {
+  static Fields fields(Random& random) { return {random.uniform(0.05, 1.3), random.uniform(0, 1.1)}; }
+};
+
 template <>
 struct Samples<pliant::AttachmentProjection> : ShellSamples {
   static Fields fields(Random& random) {

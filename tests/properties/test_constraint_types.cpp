@@ -83,6 +83,30 @@ template <>
 std::vector<TetrahedronStrain> variants(const Mesh&) {
   return {{}, {.min_stretch = 0.9, .max_stretch = 1.1}};
 }
+template <class Law>
+std::vector<ElasticTriangles<Law>> elastic_triangles() {
+  return {{}, {.poisson_ratio = 0}, {.stiffness = 7, .poisson_ratio = 0.49}};
+}
+template <>
+std::vector<TriangleNeoHookean> variants(const Mesh&) {
+  return elastic_triangles<NeoHookean>();
+}
+template <>
+std::vector<TriangleStvk> variants(const Mesh&) {
+  return elastic_triangles<StVenantKirchhoff>();
+}
+template <class Law>
+std::vector<ElasticTetrahedra<Law>> elastic_tetrahedra() {
+  return {{}, {.poisson_ratio = 0}, {.stiffness = 7, .poisson_ratio = 0.49}};
+}
+template <>
+std::vector<TetrahedronNeoHookean> variants(const Mesh&) {
+  return elastic_tetrahedra<NeoHookean>();
+}
+template <>
+std::vector<TetrahedronStvk> variants(const Mesh&) {
+  return elastic_tetrahedra<StVenantKirchhoff>();
+}
 template <>
 std::vector<Bending> variants(const Mesh&) {
   return {{}, {.orientation = Orientation::signed_}};

@@ -21,10 +21,14 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-/// Without the explicit spring, beside which nothing can be BDF2, and with a gas.
+/// Without the explicit spring, beside which nothing can be BDF2, and with a gas and elastic materials.
 Simulation make() {
   Simulation simulation = everything({.iterations = 3, .threads = 1}, 6);
   simulation.remove(simulation.find_force("mouse_spring").value());
+  simulation.add(BodyId{0}, TriangleNeoHookean{.on = {0, 1, 6, 7}, .stiffness = 20});
+  simulation.add(BodyId{0}, TriangleStvk{.on = {0, 1, 6, 7}, .stiffness = 20});
+  simulation.add(BodyId{1}, TetrahedronNeoHookean{.stiffness = 1e3});
+  simulation.add(BodyId{1}, TetrahedronStvk{.stiffness = 1e3});
   simulation.add(BodyId{2}, Pressure{.model = PressureModel::gas, .pressure = 10});
   return simulation;
 }
@@ -97,6 +101,10 @@ TEST_CASE("every number, choice and vector of every type is a parameter") {
       {"triangle_area", {"stiffness", "min_area", "max_area"}},
       {"tetrahedron_strain", {"stiffness", "min_stretch", "max_stretch"}},
       {"tetrahedron_volume", {"stiffness", "min_volume", "max_volume"}},
+      {"triangle_neo_hookean", {"stiffness", "poisson_ratio"}},
+      {"triangle_stvk", {"stiffness", "poisson_ratio"}},
+      {"tetrahedron_neo_hookean", {"stiffness", "poisson_ratio"}},
+      {"tetrahedron_stvk", {"stiffness", "poisson_ratio"}},
       {"drag", {"stiffness", "targets"}},
       {"wind", {"velocity", "model", "area", "drag", "gust_strength", "gust_period"}},
       {"test_force", {"force"}},

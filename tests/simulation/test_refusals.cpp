@@ -82,7 +82,7 @@ TEST_CASE("settings that are refused") {
 }
 
 TEST_CASE_TEMPLATE("stiffnesses that are refused", Type, Position, EdgeSpring, EdgeStrain, Bending, HingeBending,
-                   TriangleStrain, TetrahedronStrain) {
+                   TriangleStrain, TetrahedronStrain, TriangleNeoHookean, TetrahedronStvk) {
   for (const Real stiffness : {0.0, -1.0, not_a_number, infinite}) {
     Type options;
     options.stiffness = stiffness;
@@ -126,6 +126,11 @@ TEST_CASE("rest data that is refused") {
   CHECK(contains(refusal_of(TriangleStrain{.min_stretch = 1.2, .max_stretch = 1.1}), "min_stretch 1.2 is above"));
   CHECK(contains(refusal_of(EdgeStrain{.min_stretch = 1.2}), "min_stretch 1.2 is above max_stretch 1 "));
   CHECK(contains(refusal_of(TetrahedronStrain{.min_stretch = 0}), "tetrahedron_strain: min_stretch"));
+  for (const Real ratio : {-0.1, 0.5, not_a_number}) {
+    CHECK(
+        contains(refusal_of(TetrahedronNeoHookean{.poisson_ratio = ratio}), "tetrahedron_neo_hookean: poisson_ratio"));
+    CHECK(contains(refusal_of(TriangleStvk{.poisson_ratio = ratio}), "triangle_stvk: poisson_ratio"));
+  }
   CHECK(contains(refusal_of(TriangleStrain{.max_stretch = infinite}), "triangle_strain: max_stretch"));
   CHECK(contains(refusal_of(Line{.direction = Vec3(0, 0, 0)}), "zero vector"));
   CHECK(contains(refusal_of(Line{}), "direction is missing"));

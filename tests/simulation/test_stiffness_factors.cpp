@@ -134,6 +134,10 @@ TEST_CASE("every type of constraint with a stiffness takes them, of one's own as
   const BodyId block = simulation.add_body(bar({.cells = {2, 2, 2}}), Mass::density(500));
   check(block, TetrahedronStrain{});
   check(block, TetrahedronVolume{});
+  check(block, TetrahedronNeoHookean{});
+  check(block, TetrahedronStvk{});
+  check(cloth, TriangleNeoHookean{});
+  check(cloth, TriangleStvk{});
 }
 
 TEST_CASE("targets and released pins stay where they are") {

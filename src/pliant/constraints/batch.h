@@ -4,7 +4,7 @@
 //     static constexpr int vertices;                  // n, or dynamic_vertices: then every batch has an n of its own
 //     static constexpr int rows, fields;              // k; numbers of rest data a constraint
 //     static constexpr bool translation_invariant;    // every row of every A sums to zero
-//     static void project(const Real* fields, const Real* z, Real* p);   // z, p: k × 3
+//     static void project(const Real* fields, const Real* z, Real* p);   // z, p: k × 3; or a potential, see pull.h
 // and, where it needs them,
 //     static constexpr bool has_targets = true;       // the three fields are a point that may be moved
 //     static constexpr bool has_anchors = true;       // the first three are a point that begins at the vertices
@@ -21,6 +21,7 @@
 
 #include "pliant/constraints/batch_checks.h"
 #include "pliant/constraints/kernels/local_kernels.h"
+#include "pliant/constraints/pull.h"
 #include "pliant/constraints/reorder.h"
 #include "pliant/constraints/stencil_sum.h"
 #include "pliant/core/error.h"
@@ -95,6 +96,7 @@ class Batch final : public ConstraintGroup {
   bool freezes_shape() const override { return has_begin_step; }
   bool is_rotation_invariant() const override { return rotates_along; }
   bool is_linear() const override { return has_linear; }
+  bool is_projective() const override { return !has_potential<Type>; }
   bool limits_stretches() const override { return has_stretches; }
   void begin_step(const StateView& state, [[maybe_unused]] Real time_step) override {
     const auto n = static_cast<std::size_t>(vertices());
@@ -133,19 +135,14 @@ class Batch final : public ConstraintGroup {
 
   /// Writes w (p − z) of constraint i; returns its energy.
   Real project_one(const Real* positions, std::size_t i, Real* to) const {
-    std::array<Real, size> z, p;
+    std::array<Real, size> z;
     const auto n = static_cast<std::size_t>(vertices());
     sum_stencil<Type::rows, Type::translation_invariant>(positions, std::span<const Index>(stencil_).subspan(i * n, n),
                                                          reduction_.data() + i * n * Type::rows, z.data());
-    Type::project(field(i), z.data(), p.data());
     const Real weight = stiffness() * rest_measure_[i];
-    Real squared = 0;
-    for (std::size_t a = 0; a < size; ++a) {
-      const Real d = p[a] - z[a];
-      squared += d * d;
-      to[a] = weight * d;
-    }
-    return weight / 2 * squared;
+    const Real energy = weight * find_pull<Type>(field(i), z.data(), to);
+    for (std::size_t a = 0; a < size; ++a) to[a] *= weight;
+    return energy;
   }
   /// What the kernel of the type writes, and for what that leaves the same, one by one.
   Real project_together(const Positions& positions, std::span<Real> out, Index begin, Index end) const {

@@ -11,6 +11,7 @@
 #include "pliant/constraints/edge_strain.h"
 #include "pliant/constraints/fibre_strain.h"
 #include "pliant/constraints/hinge.h"
+#include "pliant/constraints/hyperelastic.h"
 #include "pliant/constraints/line.h"
 #include "pliant/constraints/plane.h"
 #include "pliant/constraints/position.h"
@@ -41,9 +42,13 @@ using BuiltinConstraints = std::tuple<
     TriangleArea,
     TetrahedronStrain,
     TetrahedronVolume,
+    TriangleNeoHookean,
+    TriangleStvk,
+    TetrahedronNeoHookean,
+    TetrahedronStvk,
     Drag>;
 
-/// What projects.
+/// What projects; the others have energies of their own.
 using BuiltinProjections = std::tuple<
     PositionProjection,
     LineProjection,

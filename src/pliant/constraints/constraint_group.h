@@ -44,6 +44,10 @@ class ConstraintGroup {
   /// Whether p = 0 whatever z is, and rows of A sum to zero: its forces are linear in the positions, and never change.
   virtual bool is_linear() const { return false; }
 
+  /// Whether w/2 ‖A S q‖² in the system matrix curves at least as much as its energy does anywhere, as with
+  /// projections: then no plain global step raises the objective. Where a group says no, moves that do are shortened.
+  virtual bool is_projective() const { return true; }
+
   /// Called once at the start of a step, before anything reads the group: the place to freeze normals.
   virtual void begin_step(const StateView& state, Real time_step);
   /// Whether begin_step() only freezes numbers that follow from the positions, as normals do. Then energy projection

@@ -15,8 +15,10 @@ void TetrahedronStrainProjection::project(const Real* field, const Real* z, Real
 
 ConstraintSet build(const BodyView& body, const TetrahedronStrain& options) {
   return build_elements<TetrahedronStrainProjection>(
-      body, {TetrahedronStrain::info.name, options.on, options.stencils, options.stiffness, "stretch",
-             options.min_stretch, options.max_stretch});
+      body, {{TetrahedronStrain::info.name, options.on, options.stencils, options.stiffness},
+             "stretch",
+             options.min_stretch,
+             options.max_stretch});
 }
 
 }  // namespace pliant

@@ -16,8 +16,10 @@ void TetrahedronVolumeProjection::project(const Real* field, const Real* z, Real
 
 ConstraintSet build(const BodyView& body, const TetrahedronVolume& options) {
   return build_elements<TetrahedronVolumeProjection>(
-      body, {TetrahedronVolume::info.name, options.on, options.stencils, options.stiffness, "volume",
-             options.min_volume, options.max_volume});
+      body, {{TetrahedronVolume::info.name, options.on, options.stencils, options.stiffness},
+             "volume",
+             options.min_volume,
+             options.max_volume});
 }
 
 }  // namespace pliant

@@ -16,8 +16,11 @@ void TriangleAreaProjection::project(const Real* field, const Real* z, Real* p) 
 }
 
 ConstraintSet build(const BodyView& body, const TriangleArea& options) {
-  return build_elements<TriangleAreaProjection>(body, {TriangleArea::info.name, options.on, options.stencils,
-                                                       options.stiffness, "area", options.min_area, options.max_area});
+  return build_elements<TriangleAreaProjection>(
+      body, {{TriangleArea::info.name, options.on, options.stencils, options.stiffness},
+             "area",
+             options.min_area,
+             options.max_area});
 }
 
 }  // namespace pliant

@@ -16,7 +16,9 @@ void TriangleStrainProjection::project(const Real* field, const Real* z, Real* p
 
 ConstraintSet build(const BodyView& body, const TriangleStrain& options) {
   return build_elements<TriangleStrainProjection>(
-      body, {TriangleStrain::info.name, options.on, options.stencils, options.stiffness, "stretch", options.min_stretch,
+      body, {{TriangleStrain::info.name, options.on, options.stencils, options.stiffness},
+             "stretch",
+             options.min_stretch,
              options.max_stretch});
 }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "pliant/constraints/attachment.h"
+#include "pliant/constraints/hyperelastic.h"
 #include "pliant/constraints/tetrahedron_strain.h"
 #include "pliant/constraints/tetrahedron_volume.h"
 #include "pliant/core/error.h"
@@ -39,6 +40,7 @@ Real tetrahedron_stiffness(const Simulation& simulation, BodyId id) {
     if (group.body != id) continue;
     const std::optional<Real> factor = simulation.stiffness(group_id);
     sum += largest_stiffness<TetrahedronStrain>(group, factor) + largest_stiffness<TetrahedronVolume>(group, factor);
+    sum += largest_stiffness<TetrahedronNeoHookean>(group, factor) + largest_stiffness<TetrahedronStvk>(group, factor);
   }
   return sum;
 }

@@ -28,6 +28,12 @@ constexpr Real mostly = 0.5;
 constexpr Real longest_of_memory = 5;
 constexpr Real longest_of_step = 0.5;
 
+/// Of the parabola's share of a move: below, it is none.
+constexpr Real least_of_parabola = 0.01;
+constexpr Real smallest_cut = 1e-15;
+/// Of the inertia of the last positions: above it the objective is too high to begin there.
+constexpr Real far_above = 10;
+
 Real scalar_product(const Positions& a, const Positions& b) {
   return a.cwiseProduct(b).sum();
 }
@@ -35,7 +41,9 @@ Real scalar_product(const Positions& a, const Positions& b) {
 }  // namespace
 
 void Descent::begin(const StepContext& context) {
-  checks_plain_moves_ = context.contact.is_active();
+  const auto& groups = context.system.groups();
+  has_potentials_ = !std::ranges::all_of(groups, [](const ConstraintGroup* group) { return group->is_projective(); });
+  checks_plain_moves_ = context.contact.is_active() || has_potentials_;
   const Acceleration chosen = context.settings.acceleration;
   is_accelerated_ = chosen == Acceleration::lbfgs || (chosen == Acceleration::automatic && checks_plain_moves_);
   has_moved_ = false;
@@ -52,16 +60,18 @@ LocalResult Descent::evaluate(const StepContext& context, WorkingState& work) co
   return local;
 }
 
-/// A plain move without contact is known to be good, unless it was cut: what is between a vertex that stops and its
-/// neighbors that go on is stretched.
+/// A plain move of projections without contact is known to be good, unless it was cut: what is between a vertex that
+/// stops and its neighbors that go on is stretched.
 bool Descent::must_go_back(const LocalResult& local) const {
   if (!has_moved_) return false;
-  const bool is_known = !was_cut_ && lbfgs_.is_plain() && !(local.contact > 0) && !(lbfgs_.local_before().contact > 0);
+  const bool is_known = !has_potentials_ && !was_cut_ && lbfgs_.is_plain() && !(local.contact > 0) &&
+                        !(lbfgs_.local_before().contact > 0);
   return !is_known && lbfgs_.has_risen(local);
 }
 
 LocalResult Descent::local_step(const StepContext& context, WorkingState& work, StepReport& report) {
   LocalResult local = evaluate(context, work);
+  if (is_first_ && has_potentials_ && !context.contact.is_active()) local = begin_lower(local, context, work);
   for (Index cuts = 0; cuts <= most_cuts && must_go_back(local); ++cuts) {
     go_back(cuts, local, context, work);
     ++report.backtracks;
@@ -83,10 +93,37 @@ void Descent::go_back(Index cuts, const LocalResult& local, const StepContext& c
     move_plainly(context, work);
     return;
   } else {
-    lbfgs_.shorten(cuts < most_cuts ? cut : 0, work.solution, work.positions);
+    lbfgs_.shorten(cuts < most_cuts ? next_cut(local) : 0, work.solution, work.positions);
   }
   if (cuts == most_cuts) forget();
   hold_back(context, work);
+}
+
+/// What is left of a plain move that has raised the objective. Potentials may stiffen without limit along it: where the
+/// parabola leaves next to nothing, the objective has risen with the length to a higher power, of volumes the sixth.
+Real Descent::next_cut(const LocalResult& local) const {
+  if (!has_potentials_) return cut;
+  const Real share = lbfgs_.best_share(local);
+  return std::clamp(share > least_of_parabola ? share : std::pow(share, 0.2), smallest_cut, cut);
+}
+
+/// A prediction that leads far into what resists it, as after an impact or from a tangle, is no place to begin: then
+/// the substep does so where the one before has ended. Neither is far from there otherwise.
+LocalResult Descent::begin_lower(LocalResult local, const StepContext& context, WorkingState& work) const {
+  const Real step = inertia_step(context.settings.integrator, context.time_step);
+  Real inertia = 0;
+  for (Index i = 0; i < context.system.vertex_count(); ++i) {
+    inertia += work.begin.masses[at(i)] * (work.begin.positions.row(i) - work.prediction.row(i)).squaredNorm();
+  }
+  if (local.objective() <= far_above * inertia / (2 * step * step)) return local;
+  Positions guess = work.positions;
+  for (Index i = 0; i < context.system.vertex_count(); ++i) {
+    if (context.system.is_pinned()[at(i)] == 0) work.positions.row(i) = work.begin.positions.row(i);
+  }
+  const LocalResult lower = evaluate(context, work);
+  if (lower.objective() < local.objective()) return lower;
+  work.positions.swap(guess);
+  return evaluate(context, work);
 }
 
 /// In place of the last move.

@@ -1,7 +1,7 @@
 #pragma once
 // From iterate to iterate where a plain global step does not do: with acceleration, which must be watched, and with
-// contact, to which the factor is no bound. Of each move the objective is seen where it led; one that has raised it is
-// taken back, made plainly, and then shortened.
+// contact and energies that are no projections, to which the factor is no bound. Of each move the objective is seen
+// where it led; one that has raised it is taken back, made plainly, and then shortened.
 #include "pliant/solver/acceleration/lbfgs.h"
 #include "pliant/solver/rigid_balance.h"
 
@@ -29,8 +29,10 @@ class Descent {
   static constexpr Real cut = 0.4;
 
   LocalResult evaluate(const StepContext& context, WorkingState& work) const;
+  LocalResult begin_lower(LocalResult local, const StepContext& context, WorkingState& work) const;
   bool must_go_back(const LocalResult& local) const;
   void go_back(Index cuts, const LocalResult& local, const StepContext& context, WorkingState& work);
+  Real next_cut(const LocalResult& local) const;
   void solve(const LocalResult& local, const StepContext& context, WorkingState& work, StepReport& report);
   Real curvature(const StepContext& context, const WorkingState& work) const;
   bool must_factorize(const StepContext& context, WorkingState& work) const;
@@ -44,7 +46,8 @@ class Descent {
   Lbfgs lbfgs_;
   RigidBalance balance_;
   bool is_accelerated_ = false;
-  bool checks_plain_moves_ = false;  // contact: the factor is no bound
+  bool has_potentials_ = false;      // of elastic materials: the factor is no bound
+  bool checks_plain_moves_ = false;  // for these and contact
   bool has_moved_ = false;           // and the objective is still the one that the move was made for
   bool was_cut_ = false;             // the move, so that no surface passes through another
   bool is_first_ = true;             // of the moves of a substep

@@ -23,7 +23,8 @@ constexpr std::array<std::string_view, 2> choice_names(Start) {
 
 /// How a global solve becomes the next iterate. `none`: the plain algorithm. `lbfgs`: L-BFGS, with the factor as its
 /// first guess of the inverse Hessian. `automatic`: L-BFGS where there are colliders or surfaces that touch, since
-/// friction is wrong after a few iterations without it; else none.
+/// friction is wrong after a few iterations without it, and where there are elastic materials with energies of their
+/// own; else none.
 enum class Acceleration { automatic, none, lbfgs };
 constexpr std::array<std::string_view, 3> choice_names(Acceleration) {
   return {"automatic", "none", "lbfgs"};
@@ -115,7 +116,7 @@ struct SolverSettings {
     field(OptionInfo{"acceleration", "",
                      "`none`: the plain algorithm; `lbfgs`: L-BFGS, which is far nearer to convergence after the "
                      "same number of iterations, each of them 1.2 to 1.4 times as slow; `automatic`: `lbfgs` where "
-                     "there are colliders, or surfaces touch"},
+                     "there are colliders, surfaces touch, or materials have energies of their own"},
           self.acceleration);
     field(
         OptionInfo{

@@ -58,6 +58,10 @@ struct LocalKernels {
   Kernel* tetrahedron_strain;  ///< the same
   Kernel* triangle_area;       ///< far from its limits, inverted or nearly flat elements are left
   Kernel* tetrahedron_volume;  ///< the same
+  Kernel* triangle_neo_hookean;
+  Kernel* tetrahedron_neo_hookean;
+  Kernel* triangle_stvk;
+  Kernel* tetrahedron_stvk;
   Kernel* flat_curvature;
   Kernel* absolute_curvature;
   Kernel* signed_curvature;
