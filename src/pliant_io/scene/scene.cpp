@@ -189,6 +189,8 @@ void read_simulation(const Node& root, bool leaves_out_events, Scene& scene) {
   scene.appearances = std::move(reader.appearance_of);
   scene.places = std::move(reader.places);
   scene.implied_bodies = std::move(reader.implied_bodies);
+  scene.disabled = std::move(reader.disabled);
+  scene.idle_events = std::move(reader.idle_events);
   scene.has_surfaces = scene.simulation.contact().surfaces || reader.has_later_surfaces;
   std::ranges::move(reader.warnings, std::back_inserter(scene.warnings));
   if (!scene.has_surfaces && !reader.warning_without_surfaces.empty()) {
