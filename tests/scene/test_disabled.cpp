@@ -117,9 +117,9 @@ TEST_CASE("events that act on what is switched off do nothing, and are counted")
 
 TEST_CASE("what is switched off is checked as everything else") {
   for (const auto& [text, message] : std::vector<std::pair<std::string, std::string>>{
-           {R"(, "enabled": "no")", "s.json: gravity.enabled: found a string; give true or false"},
-           {R"(, "enabled": 0)", "s.json: gravity.enabled: found a number; give true or false"},
-           {R"(, "enabeld": false)", "s.json: gravity.enabeld: unknown key"}}) {
+           {R"(, "enabled": "no")", "s.json: bodies[0].constraints[1].enabled: found a string; give true or false"},
+           {R"(, "enabled": 0)", "s.json: bodies[0].constraints[1].enabled: found a number; give true or false"},
+           {R"(, "enabeld": false)", "s.json: bodies[0].constraints[1].enabeld: unknown key"}}) {
     CHECK(message_of(scene_text(text)).starts_with(message));
   }
   const auto with = [](const std::string& list) {
