@@ -11,6 +11,7 @@
 
 #include "pliant/simulation/parameters.h"
 #include "pliant_io/scene/view_settings.h"
+#include "viewer/rounding.h"
 
 namespace pliant_viewer {
 
@@ -26,7 +27,8 @@ inline Json json_of(const pliant::Vec3& vector) {
 }
 
 inline Json json_of(const pliant::Color& color) {
-  return {color.red, color.green, color.blue};
+  return {without_single_precision(color.red), without_single_precision(color.green),
+          without_single_precision(color.blue)};
 }
 
 inline Json json_of(const std::string& text) {

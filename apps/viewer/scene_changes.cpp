@@ -278,7 +278,7 @@ void UnchangedScene::write_pins(const SceneChanges& changes, SceneDocument& docu
       const bool is_of_scene = released != changes.released.end() && !is_off(released->second.groups.front());
       if (is_of_scene) continue;  // by its group
       (target ? moved : held).push_back(vertex - body.first_vertex);
-      if (target) targets.push_back(json_of(*target));
+      if (target) targets.push_back(json_of(without_single_precision(*target)));
     }
     const std::string list = fmt::format("bodies[{}].constraints", i);
     if (!held.empty()) {
@@ -297,7 +297,7 @@ void UnchangedScene::write_pins(const SceneChanges& changes, SceneDocument& docu
   const auto move = [&](const std::string& group, Index number, const Vec3& target) {
     if (!has_number(group, number)) return;  // an event that names it would be left out as a whole
     moves[group].numbers.push_back(number);
-    moves[group].targets.push_back(json_of(target));
+    moves[group].targets.push_back(json_of(without_single_precision(target)));
   };
   for (const auto& [vertex, pin] : changes.released) {
     const auto body = std::ranges::find_if(bodies_, [v = vertex](const BodyPart& each) {

@@ -6,6 +6,7 @@
 #include "pliant/core/printable.h"
 #include "pliant/materials/material_groups.h"
 #include "pliant_io/files/read_file.h"
+#include "pliant_io/scene/detail/foreign_file.h"
 #include "pliant_io/scene/detail/option_reader.h"
 #include "pliant_io/scene/detail/resolve_scene.h"
 #include "pliant_io/scene/detail/scene_files.h"
@@ -247,6 +248,7 @@ Scene load_scene(const std::filesystem::path& file, const SceneOverrides& overri
   if (!ignored) check_json_size(bytes, file.string());  // before it is read
   SceneSource source;
   source.texts.push_back({file.string(), file.parent_path(), read_file(file), absolute_path(file)});
+  refuse_foreign_file(file, source.texts.back().text);
   source.overrides = overrides;
   return parse_scene(std::move(source));
 }
