@@ -191,8 +191,14 @@ TEST_CASE("what a scene has switched off has its row, and is switched on by its 
   struct SheetDesk : Desk {
     using Desk::Desk;
     Vec2f switch_of(const std::string& name) {
-      turn_until([&] { return source.parameter_panel().place_of("switch:" + name).has_value(); });
-      return middle(*source.parameter_panel().place_of("switch:" + name));
+      const auto place = [&] { return source.parameter_panel().place_of("switch:" + name); };
+      turn_until([&] { return place().has_value(); });
+      move({950, 100});
+      for (int notch = 0; (*place())[3] > 600 && notch < 40; ++notch) {  // down in the panel
+        xdotool("click 5");
+        turns(8);
+      }
+      return middle(*place());
     }
   };
   SheetDesk desk(read);
