@@ -4,7 +4,7 @@ set(PLIANT_WEB_SHARED_SOURCES
   render/choose_direction.cpp render/collider_view.cpp render/hard_edges.cpp render/picture_places.cpp
   render/render_mesh.cpp render/scalar_fields.cpp viewer/added_parts.cpp viewer/apply_changes.cpp
   viewer/body_materials.cpp viewer/carry_over.cpp viewer/collider_entry.cpp viewer/collider_goals.cpp viewer/picking.cpp viewer/scene_changes.cpp
-  viewer/session.cpp viewer/session_bodies.cpp viewer/session_colliders.cpp viewer/session_edits.cpp viewer/session_log.cpp
+  viewer/rounding.cpp viewer/session.cpp viewer/session_bodies.cpp viewer/session_colliders.cpp viewer/session_edits.cpp viewer/session_log.cpp
   viewer/session_paint.cpp viewer/session_pins.cpp viewer/session_record.cpp viewer/session_replay.cpp
-  viewer/sliders.cpp viewer/suggestions.cpp viewer/view_document.cpp)
+  viewer/sliders.cpp viewer/suggestions.cpp viewer/switched_parts.cpp viewer/view_document.cpp)
 list(TRANSFORM PLIANT_WEB_SHARED_SOURCES PREPEND "${PROJECT_SOURCE_DIR}/apps/")

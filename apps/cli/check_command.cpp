@@ -215,6 +215,16 @@ Json describe_contact(const Simulation& simulation) {
   return {{"surfaces", contact.surfaces}, {"friction", contact.friction}, {"bodies", std::move(bodies)}};
 }
 
+/// What the scene has switched off.
+Json describe_disabled(const Scene& scene) {
+  Json parts = Json::array();
+  for (const auto& [name, part] : scene.disabled) {
+    Json& json = parts.emplace_back(Json{{"name", name}, {"type", part.type}});
+    if (part.body) json["body"] = scene.simulation.body(*part.body).name;
+  }
+  return parts;
+}
+
 Json describe(Scene& scene) {
   Simulation& simulation = scene.simulation;
   const SystemInfo info = pliant::at_place(scene.place(), [&] { return simulation.system_info(); });
@@ -244,6 +254,8 @@ Json describe(Scene& scene) {
       {"colliders", describe_colliders(simulation)},
       {"contact", describe_contact(simulation)},
       {"events", scene.timeline.event_count()},
+      {"disabled", describe_disabled(scene)},
+      {"idle_events", scene.idle_events.size()},
       {"files", std::move(files)},
       {"vertices", {{"all", vertices}, {"pinned", info.pinned_vertices}, {"free", vertices - info.pinned_vertices}}},
       {"free_components", info.free_components.size()},
@@ -306,6 +318,17 @@ void print_colliders(const Json& colliders) {
   fmt::print("\n");
 }
 
+void print_disabled(const Json& disabled, std::size_t idle_events) {
+  if (disabled.empty()) return;
+  fmt::print("off:");
+  for (const Json& each : disabled) {
+    fmt::print("{} {} ({}", &each == &disabled.front() ? "" : ",", text_of(each["name"]), text_of(each["type"]));
+    fmt::print("{})", each.contains("body") ? " on " + text_of(each["body"]) : "");
+  }
+  if (idle_events > 0) fmt::print("; {} of the events act on these, and do nothing", idle_events);
+  fmt::print("\n");
+}
+
 void print_contact(const Json& contact, bool has_colliders) {
   if (contact.empty()) {
     fmt::print("contact: none; bodies pass through each other and through themselves\n");
@@ -344,6 +367,7 @@ void print_text(const Json& json) {
   fmt::print("forces:");
   for (const Json& force : json["forces"]) fmt::print(" {}", text_of(force));
   fmt::print("{}; events: {}\n", json["forces"].empty() ? " none" : "", json["events"].get<std::size_t>());
+  print_disabled(json["disabled"], json["idle_events"].get<std::size_t>());
   print_colliders(json["colliders"]);
   print_contact(json["contact"], !json["colliders"].empty());
   const Json& vertices = json["vertices"];

@@ -46,10 +46,20 @@ class EventNumbers {
 pliant::TimelineState timeline_for(const pliant::Scene& from, const pliant::Scene& to, const NotCarried& rules) {
   pliant::TimelineState state = from.timeline.state();
   const EventNumbers before(rules.event_count, rules.left_out_of_from), after(rules.event_count, rules.left_out_of_to);
+  const auto is_idle = [](const std::vector<Index>& idle, Index own) { return std::ranges::binary_search(idle, own); };
   // Those that begin outside of events, -1, do so in both.
   const auto number = [&](Index event) {
     const auto own = before.own(event);
     return event < 0 ? std::optional(event) : own ? after.number(*own) : std::nullopt;
+  };
+  // What has acted on nothing, and now acts on something, is still to come.
+  const auto has_acted = [&](Index event) {
+    const auto own = before.own(event);
+    return !own || !is_idle(rules.idle_of_from, *own) || is_idle(rules.idle_of_to, *own);
+  };
+  const auto goes_on = [&](Index event) {
+    const auto own = before.own(event);
+    return !own || !is_idle(rules.idle_of_to, *own);
   };
   pliant::TimelineState renumbered;
   const auto act = [&renumbered](std::size_t first, std::size_t end) {
@@ -60,13 +70,13 @@ pliant::TimelineState timeline_for(const pliant::Scene& from, const pliant::Scen
   const std::size_t first_removal = std::max(after.count(), count - std::min(count, rules.removed.size()));
   act(after.count(), first_removal);
   for (const Index event : state.applied) {
-    if (const auto now = number(event)) renumbered.applied.push_back(*now);
+    if (const auto now = number(event); now && has_acted(event)) renumbered.applied.push_back(*now);
   }
   act(first_removal, count);
   const auto take_over = [&](auto& motions, auto& list) {
     for (auto& motion : motions) {
       const auto now = number(motion.event);
-      if (!now) continue;
+      if (!now || !goes_on(motion.event)) continue;
       motion.event = *now;
       list.push_back(std::move(motion));
     }

@@ -15,6 +15,7 @@ namespace pliant_viewer {
 struct NotCarried {
   std::size_t event_count = 0;  ///< of the scene's own events; those behind them act before all others
   std::vector<Index> left_out_of_from{}, left_out_of_to{};  ///< of the scene's own, ascending
+  std::vector<Index> idle_of_from{}, idle_of_to{};          ///< of the scene's own, that act on nothing, ascending
   std::set<std::string> values;                             ///< keys of sliders
   std::set<std::string> bodies;                             ///< whose material has changed
   std::set<Index> pins;                                     ///< vertices

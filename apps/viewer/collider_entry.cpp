@@ -29,10 +29,11 @@ Json capsule_keys(const Json& entry, const pliant::Pose& pose) {
   const Real length = (to - from).stableNorm();
   if (!(length > 0) || points_along(pose, to - from)) {
     const Vec3 way = pose.position - (from + (to - from) / 2);
-    return {{"from", json_of(Vec3(from + way))}, {"to", json_of(Vec3(to + way))}};
+    return {{"from", json_of(with_digits(Vec3(from + way), 12))}, {"to", json_of(with_digits(Vec3(to + way), 12))}};
   }
   const Vec3 half = length / 2 * (pose.rotation * Vec3::UnitZ());
-  return {{"from", json_of(Vec3(pose.position - half))}, {"to", json_of(Vec3(pose.position + half))}};
+  return {{"from", json_of(with_digits(Vec3(pose.position - half), 12))},
+          {"to", json_of(with_digits(Vec3(pose.position + half), 12))}};
 }
 
 Json box_keys(const Json& entry, const pliant::Pose& pose) {
@@ -42,20 +43,22 @@ Json box_keys(const Json& entry, const pliant::Pose& pose) {
   const pliant::Pose begin = pliant::moved_on({}, Vec3::Zero(), Vec3(rotation * degree), 1);
   if (begin.rotation.angularDistance(pose.rotation) < same_rotation) return keys;
   const Eigen::AngleAxis<Real> turn(pose.rotation);
-  keys["rotation"] = json_of(Vec3(turn.angle() / degree * turn.axis()));
+  keys["rotation"] = json_of(with_digits(Vec3(turn.angle() / degree * turn.axis()), 9));
   return keys;
 }
 
 }  // namespace
 
-Json pose_keys(const Json& entry, const pliant::Pose& pose) {
+Json pose_keys(const Json& entry, const pliant::Pose& exact) {
+  pliant::Pose pose = exact;
+  pose.position = without_single_precision(pose.position);
   const std::string type = entry.value("type", "");
   if (type == pliant::CapsuleCollider::info.name) return capsule_keys(entry, pose);
   if (type == pliant::BoxCollider::info.name) return box_keys(entry, pose);
   if (type != pliant::PlaneCollider::info.name) return {{"center", json_of(pose.position)}};
   Json keys = {{"position", json_of(pose.position)}};
   const Vec3 normal = read_vector(entry, "normal", pliant::PlaneCollider{}.normal);
-  if (!points_along(pose, normal)) keys["normal"] = json_of(Vec3(pose.rotation * Vec3::UnitZ()));
+  if (!points_along(pose, normal)) keys["normal"] = json_of(with_digits(Vec3(pose.rotation * Vec3::UnitZ()), 12));
   return keys;
 }
 

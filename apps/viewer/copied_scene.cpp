@@ -104,6 +104,8 @@ Scene copy_of(const Scene& scene) {
   copy.later_places = scene.later_places;
   copy.implied_bodies = scene.implied_bodies;
   copy.left_out = scene.left_out;
+  copy.disabled = scene.disabled;
+  copy.idle_events = scene.idle_events;
   copy.warnings = scene.warnings;
   return copy;
 }

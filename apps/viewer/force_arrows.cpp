@@ -10,6 +10,7 @@
 #include "pliant/forces/wind.h"
 #include "viewer/drawing.h"
 #include "viewer/panels/panel_style.h"
+#include "viewer/rounding.h"
 
 namespace pliant_viewer {
 namespace {
@@ -105,7 +106,7 @@ bool ForceArrows::handle(const MouseEvent& event, const View& view) {
            [key = arrow->key, factor = std::pow(stronger, event.wheel), goes_on](Session& session) {
              const std::vector<Slider> all = session.sliders();
              const auto force = std::ranges::find(all, key, &Slider::key);
-             if (force != all.end()) session.set(key, factor * force->parameter.value, goes_on);
+             if (force != all.end()) session.set(key, with_digits(factor * force->parameter.value, 5), goes_on);
            });
       return true;
     }
@@ -137,7 +138,7 @@ void ForceArrows::turn_to(const Vec2f& at, const View& view) {
   if (!turned.allFinite()) return;
   post(view, LiveScene::Kind::changes,
        [key = held_->key, turned, goes_on = std::exchange(has_turned_, true)](Session& session) {
-         session.set(key, turned.cast<Real>(), goes_on);
+         session.set(key, with_digits(turned.cast<Real>(), 5), goes_on);
        });
 }
 

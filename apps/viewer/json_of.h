@@ -9,7 +9,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "pliant/simulation/parameters.h"
 #include "pliant_io/scene/view_settings.h"
+#include "viewer/rounding.h"
 
 namespace pliant_viewer {
 
@@ -25,7 +27,8 @@ inline Json json_of(const pliant::Vec3& vector) {
 }
 
 inline Json json_of(const pliant::Color& color) {
-  return {color.red, color.green, color.blue};
+  return {without_single_precision(color.red), without_single_precision(color.green),
+          without_single_precision(color.blue)};
 }
 
 inline Json json_of(const std::string& text) {
@@ -105,6 +108,23 @@ Json json_of(const Options& options) {
     if (json.at(name) == value) json.erase(name);
   }
   return json;
+}
+
+/// The value of a parameter, of which the first number counts unless it is a vector.
+inline Json value_json(const pliant::Parameter& parameter, const pliant::Vec3& value) {
+  switch (parameter.kind) {
+    case pliant::ParameterKind::real:
+      return value[0];
+    case pliant::ParameterKind::integer:
+      return static_cast<std::int64_t>(value[0]);
+    case pliant::ParameterKind::choice:
+      return parameter.choices.at(static_cast<std::size_t>(value[0]));
+    case pliant::ParameterKind::flag:
+      return value[0] != 0;
+    case pliant::ParameterKind::vector:
+      return json_of(value);
+  }
+  return {};
 }
 
 }  // namespace pliant_viewer

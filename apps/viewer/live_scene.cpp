@@ -351,7 +351,7 @@ void LiveScene::update_bodies() {
   std::erase_if(paintable, is_of_figure);
   paintable_ = std::make_shared<const std::vector<PaintableGroup>>(std::move(paintable));
   switches_ = std::make_shared<const std::map<std::string, bool>>(session_.switches());
-  switched_off_ = std::make_shared<const std::map<std::string, SwitchedOff>>(session_.changes().switched_off);
+  switched_off_ = std::make_shared<const std::map<std::string, SwitchedOff>>(session_.switched_off());
 }
 
 /// Lists parameters and materials anew after commands, and a few times a second since the scene's own events change

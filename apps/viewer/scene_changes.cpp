@@ -22,22 +22,6 @@ using pliant::ParameterKind;
 using pliant::SceneDocument;
 using pliant::Vec3;
 
-Json value_json(const Parameter& parameter, const Vec3& value) {
-  switch (parameter.kind) {
-    case ParameterKind::real:
-      return value[0];
-    case ParameterKind::integer:
-      return static_cast<std::int64_t>(value[0]);
-    case ParameterKind::choice:
-      return parameter.choices.at(static_cast<std::size_t>(value[0]));
-    case ParameterKind::flag:
-      return value[0] != 0;
-    case ParameterKind::vector:
-      return json_of(value);
-  }
-  return {};
-}
-
 Json material_json(const ChangedMaterial& material) {
   Json json = {{"name", material.name}};
   json.update(json_of(material.placement));
@@ -110,6 +94,7 @@ UnchangedScene::UnchangedScene(const pliant::Scene& scene) {
     part.pins = free_name(body.name + ".pins");
     part.moved_pins = free_name(body.name + ".moved_pins");
   }
+  if (has_text_) read_disabled(scene);
 }
 
 std::string UnchangedScene::free_name(const std::string& base, const SceneChanges& changes) const {
@@ -141,19 +126,10 @@ std::optional<std::size_t> UnchangedScene::find_body(const std::string& name) co
   return static_cast<std::size_t>(found - bodies_.begin());
 }
 
-bool UnchangedScene::can_switch_off(const std::string& name, const SceneChanges& changes) const {
-  if (!has_text_) return true;
-  if (changes.added.contains(name)) return true;
-  if (as_read_.later_places.contains(name)) return false;  // it would come back
-  const auto place = as_read_.places.find(name);
-  if (place != as_read_.places.end()) return !is_replaced(place->second, changes);
-  return is_of_material(name, changes);
-}
-
 /// Of a group that has no place of its own.
 bool UnchangedScene::is_of_material(const std::string& group, const SceneChanges& changes) const {
   if (ties_.contains(group)) return false;
-  if (groups_.contains(group)) return true;
+  if (groups_.contains(group) || off_.contains(group)) return true;
   if (as_read_.later_places.contains(group)) return false;
   const auto is_of = [&](const auto& entry) { return group.starts_with(entry.first + "."); };
   return std::ranges::any_of(changes.materials, is_of);
@@ -171,6 +147,7 @@ SceneDocument UnchangedScene::with(const SceneChanges& changes, std::vector<std:
   write_factors(changes, document);
   write_materials(changes, document);
   write_added(changes, document);
+  write_switches(changes, document);
   for (const std::string& group : removed_by_events(changes)) append_event(document, "remove", group, Json::object());
   remove_entries(changes, document);
   return document;
@@ -227,12 +204,13 @@ std::optional<std::string> UnchangedScene::path_of(const Parameter& parameter, c
   }
   const auto found = as_read_.places.find(parameter.name);
   if (found == as_read_.places.end() || is_replaced(found->second, changes)) return {};
-  return found->second == "gravity" ? found->second : found->second + "." + option;
+  const bool is_vector = found->second == "gravity" && !(document_ && document_->get("gravity").starts_with('{'));
+  return is_vector ? found->second : found->second + "." + option;
 }
 
-/// Names that follow from the order of a list stay when entries of it go.
+/// Names that follow from the order of a list stay when entries of it go, which those of other materials do.
 void UnchangedScene::write_names(const SceneChanges& changes, SceneDocument& document) const {
-  if (changes.materials.empty() && changes.switched_off.empty()) return;
+  if (changes.materials.empty()) return;
   const auto write = [&](const std::string& name, const std::string& place) {
     if (document.get(place + ".name").empty()) set(document, place + ".name", name);
   };
@@ -289,7 +267,8 @@ void UnchangedScene::write_materials(const SceneChanges& changes, SceneDocument&
 }
 
 void UnchangedScene::write_pins(const SceneChanges& changes, SceneDocument& document) const {
-  const auto is_off = [&](const std::string& group) { return changes.switched_off.contains(group); };
+  const std::map<std::string, SwitchedOff> off = switched_off(changes);
+  const auto is_off = [&](const std::string& group) { return off.contains(group); };
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const BodyPart& body = bodies_[i];
     Json held = Json::array(), moved = Json::array(), targets = Json::array();
@@ -299,7 +278,7 @@ void UnchangedScene::write_pins(const SceneChanges& changes, SceneDocument& docu
       const bool is_of_scene = released != changes.released.end() && !is_off(released->second.groups.front());
       if (is_of_scene) continue;  // by its group
       (target ? moved : held).push_back(vertex - body.first_vertex);
-      if (target) targets.push_back(json_of(*target));
+      if (target) targets.push_back(json_of(without_single_precision(*target)));
     }
     const std::string list = fmt::format("bodies[{}].constraints", i);
     if (!held.empty()) {
@@ -310,7 +289,7 @@ void UnchangedScene::write_pins(const SceneChanges& changes, SceneDocument& docu
     document.append(list, pins.dump());
   }
   std::map<std::string, Json> released;
-  const auto is_there = [&](const std::string& group) { return as_read_.places.contains(group) && !is_off(group); };
+  const auto is_there = [&](const std::string& group) { return as_read_.places.contains(group); };
   struct Moves {
     Json numbers = Json::array(), targets = Json::array();
   };
@@ -318,7 +297,7 @@ void UnchangedScene::write_pins(const SceneChanges& changes, SceneDocument& docu
   const auto move = [&](const std::string& group, Index number, const Vec3& target) {
     if (!has_number(group, number)) return;  // an event that names it would be left out as a whole
     moves[group].numbers.push_back(number);
-    moves[group].targets.push_back(json_of(target));
+    moves[group].targets.push_back(json_of(without_single_precision(target)));
   };
   for (const auto& [vertex, pin] : changes.released) {
     const auto body = std::ranges::find_if(bodies_, [v = vertex](const BodyPart& each) {
@@ -352,16 +331,7 @@ void UnchangedScene::write_appearances(const SceneChanges& changes, SceneDocumen
   }
 }
 
-std::set<std::string> UnchangedScene::removed_by_events(const SceneChanges& changes) const {
-  std::set<std::string> groups;
-  for (const auto& [name, off] : changes.switched_off) {
-    const bool has_place = as_read_.places.contains(name) || changes.added.contains(name);
-    if (has_text_ && !has_place && is_of_material(name, changes)) groups.insert(name);
-  }
-  return groups;
-}
-
-/// Constraints that a material takes the place of, and what is switched off.
+/// Constraints that a material takes the place of.
 void UnchangedScene::remove_entries(const SceneChanges& changes, SceneDocument& document) const {
   std::map<std::string, std::set<int, std::greater<>>> numbers;  // of entries, by list: the last one goes first
   const auto add = [&](const std::string& place) {
@@ -371,34 +341,8 @@ void UnchangedScene::remove_entries(const SceneChanges& changes, SceneDocument& 
   for (const BodyPart& body : bodies_) {
     if (changes.materials.contains(body.name)) std::ranges::for_each(body.replaced, add);
   }
-  for (const auto& [name, off] : changes.switched_off) {
-    const auto place = as_read_.places.find(name);
-    if (place == as_read_.places.end()) continue;
-    if (place->second == "gravity") set(document, "gravity", Json());
-    add(place->second);
-  }
   for (const auto& [list, entries] : numbers) {
     for (const int number : entries) document.remove(fmt::format("{}[{}]", list, number));
-  }
-}
-
-void UnchangedScene::write_added(const SceneChanges& changes, SceneDocument& document) const {
-  for (const auto& [name, part] : changes.added) {
-    Json entry = Json::parse(part.entry);
-    const bool has_body = !entry.contains("body") || find_body(entry["body"].get<std::string>()).has_value();
-    const bool is_taken = as_read_.places.contains(name) || as_read_.later_places.contains(name);
-    if (changes.switched_off.contains(name) || !has_body || is_taken) continue;
-    const auto moved = changes.collider_poses.find(name);
-    if (moved != changes.collider_poses.end()) entry.update(pose_keys(entry, moved->second));
-    for (const auto& [key, changed] : changes.values) {
-      const pliant::ParameterOwner& owner = changed.parameter.handle.owner;
-      const bool is_part =
-          std::holds_alternative<pliant::ForceId>(owner) || std::holds_alternative<pliant::ColliderId>(owner);
-      if (is_part && changed.parameter.name == name) {
-        entry[changed.parameter.handle.option] = value_json(changed.parameter, changed.value);
-      }
-    }
-    document.append(part.list, entry.dump());
   }
 }
 

@@ -81,6 +81,7 @@ struct SceneChanges {
   std::map<std::string, PaintedStiffness> painted;            ///< by group
   std::map<std::string, AddedPart> added;                     ///< by name
   std::map<std::string, SwitchedOff> switched_off;            ///< by the name of what is off
+  std::set<std::string> switched_on;                          ///< of what the scene's text has switched off
 
   bool operator==(const SceneChanges&) const = default;
   bool is_empty() const { return *this == SceneChanges{}; }
@@ -119,9 +120,12 @@ class UnchangedScene {
   std::map<std::string, std::vector<Real>> painted_of(const std::string& body, const SceneChanges& changes) const;
   /// Whether a scene with the changes begins with a group of that name.
   bool begins_with(const std::string& group, const SceneChanges& changes) const {
-    return groups_.contains(group) || (!has_text_ && !changes.materials.empty()) || is_of_material(group, changes);
+    return groups_.contains(group) || off_.contains(group) || (!has_text_ && !changes.materials.empty()) ||
+           is_of_material(group, changes);
   }
-  /// Of what is switched off the groups of materials, which have no place in a text that could go.
+  /// All that is off: what the text has switched off, unless it was switched on, and what was switched off.
+  std::map<std::string, SwitchedOff> switched_off(const SceneChanges& changes) const;
+  /// Of what is switched off the groups that have no place in a text, and are not of a material.
   std::set<std::string> removed_by_events(const SceneChanges& changes) const;
   /// Whether a scene can do without what has that name.
   bool can_switch_off(const std::string& name, const SceneChanges& changes) const;
@@ -152,7 +156,9 @@ class UnchangedScene {
   void write_added(const SceneChanges& changes, pliant::SceneDocument& document) const;
   void write_appearances(const SceneChanges& changes, pliant::SceneDocument& document) const;
   void write_factors(const SceneChanges& changes, pliant::SceneDocument& document) const;
+  void write_switches(const SceneChanges& changes, pliant::SceneDocument& document) const;
   void remove_entries(const SceneChanges& changes, pliant::SceneDocument& document) const;
+  void read_disabled(const pliant::Scene& scene);
 
   pliant::Scene as_read_;  // its texts alone
   mutable std::optional<pliant::SceneDocument> document_;
@@ -161,6 +167,7 @@ class UnchangedScene {
   std::map<std::string, std::set<Index>> pin_numbers_;  // of them, by group: what a move can name
   std::set<std::string> ties_;                          // of them, those of carried surfaces
   std::map<std::string, PaintedStiffness> factors_;     // that groups have from the start
+  std::map<std::string, SwitchedOff> off_;              // that the text has switched off
   std::map<pliant::BodyId, pliant::BodyAppearance> appearances_;
   bool has_text_ = false;
   bool has_surfaces_ = false;

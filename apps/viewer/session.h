@@ -48,8 +48,7 @@ class Session {
 
   /// Attaches a spring, implicit and so stable at any stiffness, to a point, replacing an earlier one.
   void grab(const Pull& pull);
-  /// Moves the end of the spring; does nothing without one, as do the next two.
-  void pull_to(const Vec3f& target);
+  void pull_to(const Vec3f& target);  ///< moves the end of the spring; without one does nothing, as the next two
   void set_pull_stiffness(Real stiffness);
   void let_go();
   const std::optional<Pull>& pull() const { return pull_; }
@@ -98,6 +97,7 @@ class Session {
   /// values were changed. @throws pliant::Error (input): no such name, or the scene cannot do without it.
   void switch_on(const std::string& name, bool on);
   std::map<std::string, bool> switches() const;  ///< of all that can be switched off, whether they are on
+  std::map<std::string, SwitchedOff> switched_off() const { return unchanged_.switched_off(changes_); }
   /// Adds a force or a collider, by the name of its type (added_parts.h), on a body where it needs one.
   /// @throws pliant::Error (input): no such type or body, one that refuses it, or the scene has no text.
   void add(const std::string& type, const std::string& body = {});

@@ -120,13 +120,15 @@ SwitchedOff Session::what_is_switched_off(const std::string& name) const {
 void Session::switch_on(const std::string& name, bool on) {
   const auto noted = note(action::SwitchOn{name, on});
   SceneChanges changes = changes_;
-  const auto off = changes.switched_off.find(name);
-  if (on == (off == changes.switched_off.end())) return;
+  const std::map<std::string, SwitchedOff> all = switched_off();
+  const auto off = all.find(name);
+  if (on == (off == all.end())) return;
   if (on) {
     for (const Index vertex : off->second.pinned) changes.pins.erase(vertex);  // it holds them again
-    changes.switched_off.erase(off);
+    if (changes.switched_off.erase(name) == 0) changes.switched_on.insert(name);
   } else {
-    changes.switched_off[name] = what_is_switched_off(name);
+    SwitchedOff part = what_is_switched_off(name);
+    if (changes.switched_on.erase(name) == 0) changes.switched_off[name] = std::move(part);
   }
   change_parts(std::move(changes), name + (on ? " on" : " off"));
 }
@@ -178,7 +180,7 @@ std::map<std::string, bool> Session::switches() const {
     if (count > 1 || (group && is_hidden(*group))) continue;
     if (unchanged_.can_switch_off(name, changes_)) switches[name] = true;
   }
-  for (const auto& [name, what] : changes_.switched_off) switches[name] = false;
+  for (const auto& [name, what] : switched_off()) switches[name] = false;
   return switches;
 }
 

@@ -111,13 +111,13 @@ void Session::set_material(const std::string& body, const std::string& material)
   for (const std::string& name : names_of_body()) removed.erase(name);
   Edit edit{.what = body + ": " + material, .before = changes_};
   for (const std::string& key : of_body) changes_.values.erase(key);
-  std::erase_if(changes_.switched_off, [&](const auto& off) {
-    if (off.second.body != body || !off.second.goes_with_material) return false;
-    removed.insert(off.first);
+  for (const auto& [name, off] : switched_off()) {
+    if (off.body != body || !off.goes_with_material) continue;
+    removed.insert(name);
     std::erase_if(changes_.values,
-                  [&](const auto& value) { return value.first.starts_with("group:" + off.first + "."); });
-    return true;
-  });
+                  [&, key = "group:" + name + "."](const auto& value) { return value.first.starts_with(key); });
+    if (changes_.switched_off.erase(name) == 0) changes_.switched_on.insert(name);
+  }
   changes_.values.erase("contact:" + body + ".friction");
   changes_.materials[body] = {material, placement->second};
   keep_paint_of(body, removed);
@@ -162,6 +162,8 @@ void Session::carry_into(pliant::Scene& next, const SceneChanges& to, const std:
   rules.event_count = unchanged_.event_count();
   for (const auto& [number, why] : scene_.left_out) rules.left_out_of_from.push_back(number);
   for (const auto& [number, why] : next.left_out) rules.left_out_of_to.push_back(number);
+  rules.idle_of_from = scene_.idle_events;
+  rules.idle_of_to = next.idle_events;
   rules.values = difference(changes_.values, to.values);
   rules.values.insert(but.begin(), but.end());
   rules.bodies = difference(changes_.materials, to.materials);

@@ -137,19 +137,14 @@ std::map<std::string, std::vector<Real>> UnchangedScene::painted_of(const std::s
 }
 
 void UnchangedScene::write_factors(const SceneChanges& changes, pliant::SceneDocument& document) const {
-  const auto is_off = [&](const std::string& group) {
-    return changes.switched_off.contains(group) && as_read_.places.contains(group);
-  };
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const auto painted = painted_of(bodies_[i].name, changes);
-    const auto is_changed = [&](const auto& entry) {
-      return changes.painted.contains(entry.first) || is_off(entry.first);
-    };
+    const auto is_changed = [&](const auto& entry) { return changes.painted.contains(entry.first); };
     if (std::ranges::none_of(painted, is_changed)) continue;
     Json json = Json::object();
     for (const auto& [group, factors] : painted) {
       const bool fits = factors.size() == static_cast<std::size_t>(bodies_[i].vertex_count);
-      if (fits && !is_off(group) && begins_with(group, changes)) json[group] = factors;
+      if (fits && begins_with(group, changes)) json[group] = factors;
     }
     const std::string place = "bodies[" + std::to_string(i) + "].stiffness_factors";
     if (json.empty()) {

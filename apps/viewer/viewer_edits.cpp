@@ -9,6 +9,7 @@
 #include "viewer/free_name.h"
 #include "viewer/picking.h"
 #include "viewer/plot_files.h"
+#include "viewer/view_document.h"
 #include "viewer/viewer.h"
 
 namespace pliant_viewer {
@@ -59,8 +60,12 @@ void Viewer::save_scene(bool as_new) {
   LiveScene* live = source_.live();
   if (live == nullptr) return say("this is a run; its scene is in the file it was made from");
   brush_.finish(mouse_view());
-  live->post([saved = saved_scene_, view = placed_appearance(), as_new, folder = picture_folder_, name = live->name(),
-              tell = saved_](CommandContext& context) {
+  // Where nobody has moved the camera, the file leaves its place open as the scene did, unless another would be chosen.
+  const bool is_open = camera_.is_like(first_camera_) && leaves_place_open(appearance_.camera);
+  live->post([saved = saved_scene_, shown = placed_appearance(), placed = camera_.placed(), is_open, as_new,
+              folder = picture_folder_, name = live->name(), tell = saved_](CommandContext& context) {
+    pliant::ViewSettings view = shown;
+    if (is_open && may_move_camera(context.session.changes())) view.camera = placed;
     const fs::path file = as_new || saved->empty() ? free_name(folder, name, {".json", ".pliant"}) : *saved;
     context.message = "saved " + saved_names(context.session.save(file, view));
     *saved = file;

@@ -118,6 +118,37 @@ class Check(unittest.TestCase):
                        {"name": "pole", "transform": {"translate": [0.4, 0.3, -0.5]}, **pole}]}))
         return scene
 
+    def test_what_is_off_is_listed(self):
+        scene = self.folder / "s.json"
+        scene.write_text(json.dumps({
+            "pliant": 1, "gravity": {"enabled": False},
+            "bodies": [{"name": "cloth", "mesh": {"shape": "grid", "columns": 5, "rows": 5}, "material": "denim",
+                        "disabled_groups": ["cloth.bend"],
+                        "constraints": [{"type": "position", "name": "pins", "on": [20, 24], "enabled": False}]}],
+            "forces": [{"type": "wind"}], "colliders": [{"type": "sphere", "name": "ball", "enabled": False}],
+            "events": [{"step": 1, "remove": "pins"}, {"step": 2, "change": "wind", "drag": 2}]}))
+        text = self.pliant("check", scene, "--still").stdout
+        self.assertIn("off: ball (sphere), cloth.bend (", text)
+        self.assertIn(" on cloth), gravity (gravity), pins (position on cloth); 1 of the events act on these", text)
+        self.assertIn("forces: wind; events: 2\n", text)
+        info = json.loads(self.pliant("check", scene, "--json", "--still").stdout)
+        self.assertEqual(info["disabled"][-1], {"name": "pins", "type": "position", "body": "cloth"})
+        self.assertEqual(info["idle_events"], 1)
+        self.assertEqual(info["colliders"], [])
+        # Switched by a value of the command line.
+        text = self.pliant("check", scene, "--still", "--set", "colliders[ball].enabled=true").stdout
+        self.assertNotIn("off: ball", text)
+        self.assertIn("colliders: ball", text)
+        done = self.pliant("check", scene, "--set", "forces[wind].enabled=no", expect=2)
+        self.assertIn("--set forces[wind].enabled=no: found a string; give true or false", done.stderr)
+
+    def test_what_is_no_scene_is_told(self):
+        picture = self.folder / "a.png"
+        picture.write_bytes(b"\x89PNG\r\n\x1a\n\0\0")
+        for command in ("check", "run"):
+            message = self.pliant(command, picture, expect=2).stderr
+            self.assertIn(f"{picture}: it seems to be a PNG picture, and no scene; give a scene (.json) or a mesh (", message)
+
     def test_who_touches_whom_and_how(self):
         scene = self.contact_scene({"distance": 0.01, "friction": 0.5, "self": False, "ignores": ["pole", "skin"]})
         info = json.loads(self.pliant("check", scene, "--json").stdout)["contact"]

@@ -25,13 +25,15 @@ SOUND = {
     "bodies": [{
         "name": "sheet", "mesh": {"shape": "grid", "columns": 3, "rows": 3}, "mass": {"total": 1},
         "constraints": [{"type": "position", "name": "pins", "on": [0, 2]},
-                        {"type": "edge_spring", "stiffness": 10}],
+                        {"type": "edge_spring", "stiffness": 10}, {"type": "hinge", "enabled": False}],
+        "disabled_groups": [],
     }],
     "forces": [{"type": "wind", "velocity": [1, 2, 3]},
-               {"type": "test_force", "vertex": 1, "force": [0, 0, 1], "frames": [0, 3]}],
+               {"type": "test_force", "vertex": 1, "force": [0, 0, 1], "frames": [0, 3], "enabled": False}],
+    "gravity": {"acceleration": [0, 0, -9.81], "enabled": False},
     "contact": {"friction": 0.2},
     "colliders": [{"type": "sphere", "name": "ball", "center": [0, 0, -3], "radius": 0.5, "friction": 0.1}, {"type": "plane",
-                   "position": [0, 0, -5]}],
+                   "position": [0, 0, -5]}, {"type": "capsule", "enabled": False}],
     "events": [{"step": 1, "move": "ball", "offset": [0, 0, 1]}, {"step": 2, "contact": {"friction": 0.3}},
                {"step": 3, "change": "ball", "radius": 0.4}, {"step": 4, "add": {"type": "box", "rounding": 0.1}},
                {"step": 5, "remove": "ball"}],
@@ -70,6 +72,10 @@ WRONG = [
     (["view", "background"], [0, 0, 2]), (["view", "wireframe"], 1), (["view", "size"], [1280]),
     (["view", "camera", "field_of_view"], 180),
     (["include"], 3), (["include"], {"set": {}}),
+    (["bodies", 0, "constraints", 0, "enabled"], "no"), (["forces", 0, "enabled"], 0), (["colliders", 0, "enabled"], None),
+    (["gravity"], {"enabled": "off"}), (["gravity"], {"acceleration": 9.81}), (["gravity"], {"accel": [0, 0, 1]}),
+    (["bodies", 0, "disabled_groups"], "sheet.bend"), (["bodies", 0, "disabled_groups"], [1]),
+    (["events", 2, "enabled"], False), (["events", 3, "add", "enabled"], False),
 ]
 
 

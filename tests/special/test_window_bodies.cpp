@@ -180,6 +180,40 @@ TEST_CASE("constraints and forces are switched off and on by their boxes") {
   desk.turn_until([&] { return desk.is_on("gravity"); });
 }
 
+TEST_CASE("what a scene has switched off has its row, and is switched on by its box") {
+  const auto read = [] {
+    return pliant::parse_scene(R"({ "pliant": 1, "gravity": { "enabled": false },
+      "bodies": [ { "name": "sheet", "material": "silk", "disabled_groups": ["sheet.bend"],
+        "mesh": { "shape": "grid", "columns": 9, "rows": 9, "size": [1, 1], "plane": "xz" },
+        "constraints": [ { "type": "position", "name": "hooks", "on": [72, 80], "enabled": false } ] } ] })",
+                               {}, "sheet");
+  };
+  struct SheetDesk : Desk {
+    using Desk::Desk;
+    Vec2f switch_of(const std::string& name) {
+      const auto place = [&] { return source.parameter_panel().place_of("switch:" + name); };
+      turn_until([&] { return place().has_value(); });
+      move({950, 100});
+      for (int notch = 0; (*place())[3] > 600 && notch < 40; ++notch) {  // down in the panel
+        xdotool("click 5");
+        turns(8);
+      }
+      return middle(*place());
+    }
+  };
+  SheetDesk desk(read);
+  desk.turn_until([&] { return desk.shown().step > 3; });
+  for (const char* name : {"hooks", "sheet.bend", "gravity"}) {
+    CAPTURE(name);
+    CHECK_FALSE(desk.shown().switches->at(name));
+    desk.click(desk.switch_of(name));
+    desk.turn_until([&] { return desk.shown().switches->at(name); });
+    CHECK(desk.shown().undone_next == std::string(name) + " on");
+  }
+  CHECK(desk.shown().pins.size() == 2);
+  CHECK(desk.shown().note.empty());
+}
+
 TEST_CASE("the arrow of gravity is turned by the mouse, and a folded panel hides it") {
   Desk desk(read_sheet);
   desk.turns(5);

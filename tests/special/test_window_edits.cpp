@@ -187,6 +187,51 @@ TEST_CASE("a scene that is saved by a key has what was changed, and how it is se
   CHECK(text_of(file) == text_of(desk.folder.path() / "sheet-2.json"));
 }
 
+TEST_CASE("a saved scene is seen as it was, though nobody has moved the camera and something was added") {
+  Desk desk(read_sheet);
+  const auto file = desk.folder.path() / "sheet-1.json";
+  const auto save = [&] {
+    desk.key("ctrl+s");
+    desk.turn_until([&] { return std::filesystem::exists(file) && desk.viewer.message().starts_with("saved"); });
+  };
+  const Eigen::Vector3f eye = desk.viewer.screen().viewpoint.eye;
+  save();
+  CHECK_FALSE(pliant::load_scene(file).view.camera.position.has_value());  // it would be chosen again
+  std::filesystem::remove(file);
+  desk.source.live()->post([](CommandContext& context) { context.session.add("box"); });
+  desk.turn_until([&] { return desk.shown().undone_next == "add box"; });
+  CHECK(desk.viewer.screen().viewpoint.eye == eye);
+  save();
+  const Scene read = pliant::load_scene(file);
+  REQUIRE(read.view.camera.position.has_value());
+  CHECK((read.view.camera.position->cast<float>() - eye).norm() < 1e-3F);
+  CHECK(read.view.camera.field_of_view == 40);
+  Desk again([file] { return pliant::load_scene(file); });
+  CHECK((again.viewer.screen().viewpoint.eye - eye).norm() < 1e-3F);
+}
+
+TEST_CASE("a slider that is dragged sets a number of few digits, which the saved scene has") {
+  Desk desk(read_sheet);
+  const std::string key = "group:stretch.stiffness";
+  desk.turn_until([&] { return desk.source.parameter_panel().place_of(key).has_value(); });
+  const auto rect = *desk.source.parameter_panel().place_of(key);
+  const float y = (rect[1] + rect[3]) / 2;
+  desk.drag({rect[0] + 0.31F * (rect[2] - rect[0]), y}, {rect[0] + 0.73F * (rect[2] - rect[0]), y});
+  desk.release();
+  desk.turn_until([&] { return desk.parameter(key) > 600; });
+  desk.turns(5);
+  const double number = desk.parameter(key);
+  CHECK(number == std::stod(fmt::format("{:.4e}", number)));
+  desk.key("ctrl+s");
+  const auto file = desk.folder.path() / "sheet-1.json";
+  desk.turn_until([&] { return std::filesystem::exists(file) && desk.viewer.message().starts_with("saved"); });
+  CHECK(text_of(file).find(fmt::format("\"stiffness\": {}", number)) != std::string::npos);
+  // A number that is typed has all the digits that were.
+  desk.type_into(key);
+  xdotool("key 1 2 3 4 period 5 6 7 8 9 Return");
+  desk.turn_until([&] { return desk.parameter(key) == 1234.56789; });
+}
+
 TEST_CASE("a file that cannot be saved is told in the window, which goes on") {
   Desk desk(make_sheet);  // by a program
   desk.key("ctrl+s");

@@ -9,6 +9,7 @@
 #include <imgui.h>
 
 #include "viewer/added_parts.h"
+#include "viewer/rounding.h"
 
 namespace pliant_viewer {
 
@@ -334,6 +335,11 @@ void ParameterPanel::post_change(const std::string& key, const Parameter& parame
     return;
   }
   if (!value.allFinite()) return;
+  // A drag sets what can be read and a digit more; what is typed is meant as it is.
+  const bool has_digits = parameter.kind == ParameterKind::real || parameter.kind == ParameterKind::vector;
+  if (has_digits && ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
+    if (const pliant::Vec3 shown = with_digits(value, 5); is_allowed(parameter, shown)) value = shown;
+  }
   const std::uint64_t command =
       live.post([key, value, goes_on](CommandContext& context) { context.session.set(key, value, goes_on); },
                 LiveScene::Kind::changes);

@@ -57,10 +57,14 @@ void stiffen_ties(Simulation& simulation, BodyId id, Real before) {
 
 }  // namespace
 
+bool goes_with_material(const Group& group) {
+  return is_elastic(static_cast<Elastic*>(nullptr), group);
+}
+
 std::vector<GroupId> groups_of_material(const Simulation& simulation, BodyId id) {
   std::vector<GroupId> found;
   for (const auto& [group_id, group] : simulation.groups()) {
-    if (group.body == id && is_elastic(static_cast<Elastic*>(nullptr), group)) found.push_back(group_id);
+    if (group.body == id && goes_with_material(group)) found.push_back(group_id);
   }
   return found;
 }

@@ -15,6 +15,9 @@ MaterialPlacement present_placement(const Simulation& simulation, BodyId body);
 /// resists stretch, shear, bending or a change of volume on all of it.
 std::vector<GroupId> groups_of_material(const Simulation& simulation, BodyId body);
 
+/// Whether another material would take the place of a group of its body.
+bool goes_with_material(const Group& group);
+
 /// Makes a body of another material: what there is of constraints on all of it that resist stretch, shear, bending or
 /// a change of volume goes, whoever added them, and the groups of the material take their place, under the ids and
 /// names of those that are called the same. Mass and friction are those of the material; where the body is, how fast,

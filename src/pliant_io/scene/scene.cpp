@@ -6,6 +6,7 @@
 #include "pliant/core/printable.h"
 #include "pliant/materials/material_groups.h"
 #include "pliant_io/files/read_file.h"
+#include "pliant_io/scene/detail/foreign_file.h"
 #include "pliant_io/scene/detail/option_reader.h"
 #include "pliant_io/scene/detail/resolve_scene.h"
 #include "pliant_io/scene/detail/scene_files.h"
@@ -189,6 +190,8 @@ void read_simulation(const Node& root, bool leaves_out_events, Scene& scene) {
   scene.appearances = std::move(reader.appearance_of);
   scene.places = std::move(reader.places);
   scene.implied_bodies = std::move(reader.implied_bodies);
+  scene.disabled = std::move(reader.disabled);
+  scene.idle_events = std::move(reader.idle_events);
   scene.has_surfaces = scene.simulation.contact().surfaces || reader.has_later_surfaces;
   std::ranges::move(reader.warnings, std::back_inserter(scene.warnings));
   if (!scene.has_surfaces && !reader.warning_without_surfaces.empty()) {
@@ -245,6 +248,7 @@ Scene load_scene(const std::filesystem::path& file, const SceneOverrides& overri
   if (!ignored) check_json_size(bytes, file.string());  // before it is read
   SceneSource source;
   source.texts.push_back({file.string(), file.parent_path(), read_file(file), absolute_path(file)});
+  refuse_foreign_file(file, source.texts.back().text);
   source.overrides = overrides;
   return parse_scene(std::move(source));
 }

@@ -5,6 +5,7 @@
 //     for (std::int64_t i = 0; i < scene.steps; ++i) scene.step();
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -31,6 +32,16 @@ struct OutputSettings {
 
 /// More steps than anyone takes; what counts them, and their frames, does not overflow.
 inline constexpr std::int64_t max_steps = std::int64_t{1} << 53;
+
+/// A group of constraints, a force or a collider that the scene has switched off: `"enabled": false`.
+struct DisabledPart {
+  std::string type;                 ///< "position"
+  std::optional<BodyId> body{};     ///< of a group; else none
+  bool is_collider = false;         ///< else a group or a force
+  bool goes_with_material = false;  ///< another material would take its place
+  std::vector<Index> pinned{};      ///< vertices that a group of positions would hold, as the simulation counts them
+  std::vector<Real> factors{};      ///< of its stiffness, by vertex of the body; empty: none
+};
 
 /// A simulation made ready to run, with what the scene says about the run.
 struct Scene {
@@ -60,6 +71,10 @@ struct Scene {
   /// Events that were left out, as their source asked for: their numbers, ascending, among "moves" and then "events",
   /// and why.
   std::vector<std::pair<Index, std::string>> left_out;
+  /// By name, what is switched off: it is read like everything else, and not in the simulation.
+  std::map<std::string, DisabledPart> disabled;
+  /// Events that act on what is switched off, and so on nothing: their numbers, as of left_out, ascending.
+  std::vector<Index> idle_events;
 
   std::vector<std::string> warnings;  ///< with their places: keys whose names are old, loose vertices
 

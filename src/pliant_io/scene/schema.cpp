@@ -106,7 +106,9 @@ SchemaJson body_schema() {
                                      {"animation", schema_reference("animation")},
                                      {"solid", schema_reference("solid")},
                                      {"appearance", object_schema(options_properties<BodyAppearance>())},
-                                     {"stiffness_factors", factors_schema()}},
+                                     {"stiffness_factors", factors_schema()},
+                                     {"disabled_groups", described(list_schema(SchemaJson{{"type", "string"}}),
+                                                                   "of its material, which are switched off")}},
                                     {"mesh"});
   schema["anyOf"] = {{{"required", {"mass"}}}, {{"required", {"material"}}}, {{"required", {"animation"}}}};
   return schema;
@@ -125,27 +127,26 @@ SchemaJson include_schema() {
 
 SchemaJson root_properties() {
   const Scene defaults;
-  return {
-      {"$schema", text_schema("for editors; not read")},
-      {"pliant", {{"const", 1}, {"description", "version of this format"}}},
-      {"name", text_schema("default: the file's name")},
-      {"description", text_schema("one line")},
-      {"include", described(include_schema(), "scenes that this one goes on from")},
-      {"settings", schema_reference("settings")},
-      {"steps", {{"type", "integer"}, {"minimum", 0}, {"default", defaults.steps}}},
-      {"gravity", {{"anyOf", {schema_reference("vector"), {{"type", "null"}}}}, {"description", "[m/s²]; null: none"}}},
-      {"materials", described(materials_schema(), "of one's own, by name")},
-      {"bodies", list_schema(body_schema())},
-      {"attachments",
-       list_schema(described(SchemaJson{{"$ref", "#/$defs/attachment"}, {"unevaluatedProperties", false}},
-                             "what ties bodies to each other"))},
-      {"forces", list_schema(schema_reference("force"))},
-      {"contact", schema_reference("contact")},
-      {"colliders", list_schema(schema_reference("collider"))},
-      {"moves", list_schema(schema_reference("timed_move"))},
-      {"events", list_schema(schema_reference("event"))},
-      {"output", object_schema(options_properties<OutputSettings>())},
-      {"view", object_schema(options_properties<ViewSettings>())}};
+  return {{"$schema", text_schema("for editors; not read")},
+          {"pliant", {{"const", 1}, {"description", "version of this format"}}},
+          {"name", text_schema("default: the file's name")},
+          {"description", text_schema("one line")},
+          {"include", described(include_schema(), "scenes that this one goes on from")},
+          {"settings", schema_reference("settings")},
+          {"steps", {{"type", "integer"}, {"minimum", 0}, {"default", defaults.steps}}},
+          {"gravity", gravity_schema()},
+          {"materials", described(materials_schema(), "of one's own, by name")},
+          {"bodies", list_schema(body_schema())},
+          {"attachments",
+           list_schema(described(SchemaJson{{"$ref", "#/$defs/attachment"}, {"unevaluatedProperties", false}},
+                                 "what ties bodies to each other"))},
+          {"forces", list_schema(schema_reference("force"))},
+          {"contact", schema_reference("contact")},
+          {"colliders", list_schema(schema_reference("collider"))},
+          {"moves", list_schema(schema_reference("timed_move"))},
+          {"events", list_schema(schema_reference("event"))},
+          {"output", object_schema(options_properties<OutputSettings>())},
+          {"view", object_schema(options_properties<ViewSettings>())}};
 }
 
 }  // namespace

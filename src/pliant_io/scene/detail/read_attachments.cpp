@@ -34,7 +34,7 @@ GroupEntry SceneReader::read_attachment(const Node& node, std::vector<std::strin
 }
 
 void SceneReader::add_attachment(const Node& node) {
-  GroupEntry read = read_attachment(node);
+  GroupEntry read = read_attachment(node, {"enabled"});
   add_group(node, read.body, std::move(read.options), entry);
 }
 

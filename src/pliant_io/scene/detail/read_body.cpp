@@ -67,11 +67,35 @@ BodyAppearance read_appearance(const Node& node, std::vector<std::string>& warni
   return appearance;
 }
 
+/// Names of groups of the body's material that are switched off.
+std::vector<std::string> read_disabled_groups(const Node& body) {
+  std::vector<std::string> names;
+  const auto list = body.find("disabled_groups");
+  if (!list) return names;
+  list->require_list();
+  for (std::size_t i = 0; i < list->size(); ++i) read((*list)[i], names.emplace_back());
+  return names;
+}
+
+/// Refuses names that are no groups of the material.
+void check_disabled_groups(const Node& body, const SceneReader& scene) {
+  const std::vector<std::string> names = read_disabled_groups(body);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const Node node = body.require("disabled_groups")[i];
+    if (scene.places.contains(names[i])) {
+      node.fail(fmt::format("'{}' has an entry of its own; write \"enabled\": false there", printable(names[i])));
+    }
+    if (!scene.disabled.contains(names[i])) {
+      node.fail(fmt::format("'{}' is no group of the body's material; leave it out", printable(names[i])));
+    }
+  }
+}
+
 }  // namespace
 
 void SceneReader::read_body(const Node& node) {
   node.check_keys({"name", "mesh", "transform", "mass", "start_positions", "velocity", "velocities", "constraints",
-                   "contact", "animation", "material", "solid", "appearance", "stiffness_factors"});
+                   "contact", "animation", "material", "solid", "appearance", "stiffness_factors", "disabled_groups"});
   BodyOptions options;
   options.name = fmt::format("body {}", bodies.size());
   read_optional(node, "name", options.name);
@@ -118,18 +142,24 @@ void SceneReader::read_body(const Node& node) {
   bodies_of[&node.origin()].push_back(id);
   if (const auto appearance = node.find("appearance")) appearance_of[id] = read_appearance(*appearance, warnings);
   if (animation_node) add_animation(*animation_node, id, std::move(animation.path));
-  if (material) add_material(*material_node, id, *material);
+  if (material) add_material(*material_node, id, *material, node);
   if (const auto constraints = node.find("constraints")) add_groups(*constraints, id);
   if (node.has("solid")) carry_surface(simulation, id, 0, free_name(name + ".surface"));
   if (const auto factors = node.find("stiffness_factors")) {
-    read_stiffness_factors(*factors, id, left_out != nullptr, simulation);
+    read_stiffness_factors(*factors, id, disabled, simulation);
   }
+  check_disabled_groups(node, *this);
 }
 
-void SceneReader::add_material(const Node& node, BodyId id, const BodyMaterial& given) {
+void SceneReader::add_material(const Node& node, BodyId id, const BodyMaterial& given, const Node& of_body) {
+  const std::vector<std::string> without = read_disabled_groups(of_body);
   for (const MaterialGroup& group : material_groups(given.material, given.placement)) {
     const std::string name = free_name(fmt::format("{}.{}", simulation.body(id).name, group.name));
     ConstraintOptions options = std::visit([](const auto& of) { return ConstraintOptions(of); }, group.options);
+    if (std::ranges::find(without, name) != without.end()) {
+      disable_group(node, id, options, name);
+      continue;
+    }
     node.locate([&] { add(simulation, id, options, name); });
     groups.emplace(name, GroupEntry{id, std::move(options)});
   }
@@ -150,7 +180,7 @@ void SceneReader::add_groups(const Node& list, BodyId id) {
   for (std::size_t i = 0; i < list.size(); ++i) {
     const Node constraint = list[i];
     constraint.require_object();
-    add_group(constraint, id, read_constraint_options(constraint, {"name"}, body(id)),
+    add_group(constraint, id, read_constraint_options(constraint, {"name", "enabled"}, body(id)),
               fmt::format("{}.constraints[{}]", entry, i));
   }
 }
@@ -158,17 +188,10 @@ void SceneReader::add_groups(const Node& list, BodyId id) {
 void SceneReader::add_group(const Node& node, BodyId id, ConstraintOptions options, std::string place) {
   const std::string name = group_name(node, id, type_of(options));
   places.emplace(name, std::move(place));
+  if (!is_enabled(node)) return disable_group(node, id, options, name);
   const GroupId group = node.locate([&] { return add(simulation, id, options, name); });
-  check_group(node, group);
+  check_constraints(node, simulation.groups().at(group).set);
   groups.emplace(name, GroupEntry{id, std::move(options)});
-}
-
-void SceneReader::check_group(const Node& node, GroupId group) const {
-  const ConstraintSet& set = simulation.groups().at(group).set;
-  if (set.count == 0 && set.skipped == 0) {
-    node.fail(
-        "makes no constraint, since the mesh has none of its stencils in the selection; select more, or remove it");
-  }
 }
 
 std::string SceneReader::read_new_name(const Node& node) const {
@@ -185,7 +208,9 @@ std::string SceneReader::read_new_name(const Node& node) const {
 const char* SceneReader::owner_of(std::string_view name) const {
   if (groups.contains(name)) return "group";
   if (forces.contains(name)) return "force";
-  return colliders.contains(name) ? "collider" : nullptr;
+  if (colliders.contains(name)) return "collider";
+  const auto found = off.find(name);
+  return found == off.end() ? nullptr : found->second;
 }
 
 std::string SceneReader::free_name(const std::string& base) {

@@ -31,7 +31,8 @@ bool is_collider_type(std::string_view type) {
   return found;
 }
 
-ColliderOptions read_collider_options(const Node& node) {
+ColliderOptions read_collider_options(const Node& node, std::vector<std::string_view> more_keys) {
+  more_keys.insert(more_keys.end(), {"type", "name"});
   const Node type = node.require("type");
   std::string name;
   read(type, name);
@@ -40,7 +41,7 @@ ColliderOptions read_collider_options(const Node& node) {
   for_each_collider([&](auto options) {
     names.push_back(options.info.name);
     if (options.info.name != name) return;
-    read_collider_entry(node, {"type", "name"}, options);
+    read_collider_entry(node, more_keys, options);
     found = std::move(options);
   });
   if (found) return *std::move(found);
@@ -91,10 +92,11 @@ std::vector<BodyId> SceneReader::read_ignored(const Node& names, BodyId id) cons
 }
 
 void SceneReader::read_collider(const Node& node) {
-  ColliderOptions options = read_collider_options(node);
+  ColliderOptions options = read_collider_options(node, {"enabled"});
   const std::string name = own_name(node, type_of(options));
-  node.locate([&] { add(simulation, options, name); });
   places.emplace(name, entry);
+  if (!is_enabled(node)) return disable_collider(type_of(options), name);
+  node.locate([&] { add(simulation, options, name); });
   colliders.emplace(name, std::move(options));
 }
 

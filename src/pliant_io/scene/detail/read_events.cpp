@@ -41,6 +41,8 @@ class EventReader {
 
   Timeline::Edit read();
   Timeline::Edit read_short_move();
+  /// Whether it acts on what is switched off, and so on nothing.
+  bool is_idle() const { return is_idle_; }
   /// To be called once the event has acted.
   void check_added() const;
 
@@ -48,6 +50,7 @@ class EventReader {
   struct Action {
     std::string_view key;
     Timeline::Edit (EventReader::*read)(const Node& value);
+    bool acts_on_one;  // a group, a force or a collider, which the value names
   };
   static const std::array<Action, 10> actions;
 
@@ -81,23 +84,27 @@ class EventReader {
     return text;
   }
   [[noreturn]] void fail_unknown(const Node& name) const;
+  bool names_what_is_off(const Node& name);
 
   SceneReader& scene_;
   Node node_;
   std::string added_group_;
+  bool is_idle_ = false;
 };
 
+void do_nothing(Simulation&, Timeline&) {}
+
 const std::array<EventReader::Action, 10> EventReader::actions = {{
-    {"change", &EventReader::read_change},
-    {"settings", &EventReader::read_settings},
-    {"contact", &EventReader::read_contact},
-    {"gravity", &EventReader::read_gravity},
-    {"add", &EventReader::read_add},
-    {"remove", &EventReader::read_remove},
-    {"release", &EventReader::read_release},
-    {"move", &EventReader::read_move},
-    {"follow", &EventReader::read_follow},
-    {"stop", &EventReader::read_stop},
+    {"change", &EventReader::read_change, true},
+    {"settings", &EventReader::read_settings, false},
+    {"contact", &EventReader::read_contact, false},
+    {"gravity", &EventReader::read_gravity, false},
+    {"add", &EventReader::read_add, false},
+    {"remove", &EventReader::read_remove, true},
+    {"release", &EventReader::read_release, true},
+    {"move", &EventReader::read_move, true},
+    {"follow", &EventReader::read_follow, true},
+    {"stop", &EventReader::read_stop, true},
 }};
 
 Timeline::Edit EventReader::read() {
@@ -105,7 +112,17 @@ Timeline::Edit EventReader::read() {
   for (const Action& action : actions) names.push_back(action.key);
   const std::string_view key = node_.require_one_of(names);
   const auto found = std::ranges::find(actions, key, &Action::key);
-  return (this->*found->read)(node_.require(key));
+  const Node value = node_.require(key);
+  if (found->acts_on_one && names_what_is_off(value)) {
+    if (key == "remove") scene_.off.erase(std::string(value.text()));  // the name is free from then on
+    return do_nothing;
+  }
+  return (this->*found->read)(value);
+}
+
+bool EventReader::names_what_is_off(const Node& name) {
+  is_idle_ = name.is_text() && scene_.off.contains(name.text());
+  return is_idle_;
 }
 
 void EventReader::fail_unknown(const Node& node) const {
@@ -296,7 +313,8 @@ Timeline::Edit EventReader::read_add(const Node& value) {
 
 void EventReader::check_added() const {
   if (added_group_.empty()) return;
-  scene_.check_group(node_.require("add"), scene_.simulation.find_group(added_group_).value());
+  const GroupId group = scene_.simulation.find_group(added_group_).value();
+  check_constraints(node_.require("add"), scene_.simulation.groups().at(group).set);
 }
 
 Timeline::Edit EventReader::read_remove(const Node& node) {
@@ -378,6 +396,7 @@ Timeline::Edit EventReader::read_move(const Node& node) {
 
 Timeline::Edit EventReader::read_short_move() {
   const Node moved = node_.require("group");
+  if (names_what_is_off(moved)) return do_nothing;
   require_moved(moved);
   return start(moved, pliant::read_move(node_, keys("group")));
 }
@@ -439,6 +458,7 @@ void SceneReader::read_events(const Node& root) {
           edits[i] = entries[i].is_short ? reader.read_short_move() : reader.read();
           node.locate([&] { edits[i](simulation, rehearsal); });
           reader.check_added();
+          if (reader.is_idle()) idle_events.push_back(event);
         } catch (const Error& error) {
           if (left_out == nullptr || error.kind() != ErrorKind::input) throw;
           edits[i] = nullptr;
@@ -448,6 +468,7 @@ void SceneReader::read_events(const Node& root) {
     }
   }
   if (left_out != nullptr) std::ranges::sort(*left_out);
+  std::ranges::sort(idle_events);
   for (std::size_t i = 0; i < entries.size(); ++i) {
     if (edits[i] == nullptr) continue;
     timeline.add(order.when(i), std::move(edits[i]), std::move(entries[i].name));

@@ -26,14 +26,19 @@ std::vector<Real> read_factors(const Node& node, const Mesh& mesh) {
 
 }  // namespace
 
-void read_stiffness_factors(const Node& node, BodyId body, bool passes_over, Simulation& simulation) {
+void read_stiffness_factors(const Node& node, BodyId body, std::map<std::string, DisabledPart>& disabled,
+                            Simulation& simulation) {
   node.require_object();
   const std::vector<std::string_view> known = own_groups(simulation, body);
   for (const std::string_view name : node.keys()) {
     const Node value = node.require(name);
+    const auto off = disabled.find(std::string(name));
+    if (off != disabled.end() && off->second.body == body) {
+      off->second.factors = read_factors(value, simulation.body(body).mesh);
+      continue;
+    }
     const std::optional<GroupId> group = simulation.find_group(name);
     if (!group || std::ranges::find(known, name) == known.end()) {
-      if (passes_over) continue;
       value.fail(fmt::format("'{}' is no group of the body '{}' that takes factors; {}", printable(name),
                              printable(simulation.body(body).name), suggestion_text(name, known)));
     }

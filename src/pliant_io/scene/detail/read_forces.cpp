@@ -102,18 +102,25 @@ void replace(Simulation& simulation, ForceId force, const ForceEntry& entry) {
 void SceneReader::read_gravity(const std::optional<Node>& node) {
   Gravity gravity;
   if (node && node->is_null()) return;
-  if (node) read(*node, gravity.acceleration);
+  const bool is_object = node && node->is_object();
+  if (is_object) {
+    read_options(*node, gravity, {"enabled"});
+  } else if (node) {
+    read(*node, gravity.acceleration);
+  }
   const std::string name(Gravity::info.name);
-  simulation.add(gravity, name);
   places.emplace(name, "gravity");
+  if (is_object && !is_enabled(*node)) return disable_force(name, name);
+  simulation.add(gravity, name);
   forces.emplace(name, ForceEntry{std::nullopt, gravity});
 }
 
 void SceneReader::read_force(const Node& node) {
-  ForceEntry force = read_force_options(node, {}, *this);
+  ForceEntry force = read_force_options(node, {"enabled"}, *this);
   const std::string name = own_name(node, type_of(force));
-  node.locate([&] { add(simulation, force, name); });
   places.emplace(name, entry);
+  if (!is_enabled(node)) return disable_force(type_of(force), name);
+  node.locate([&] { add(simulation, force, name); });
   forces.emplace(name, std::move(force));
 }
 

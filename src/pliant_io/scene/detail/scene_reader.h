@@ -9,6 +9,7 @@
 #include "pliant_io/scene/detail/constraint_options.h"
 #include "pliant_io/scene/detail/force_options.h"
 #include "pliant_io/scene/detail/read_material.h"
+#include "pliant_io/scene/scene.h"
 
 namespace pliant {
 
@@ -44,6 +45,10 @@ struct SceneReader {
   std::string entry = {};                          ///< of a list at the top, which is being read: "forces[2]"
   std::map<std::string, std::string> places = {};  ///< see Scene::places
   mutable std::vector<std::pair<std::string, std::string>> implied_bodies = {};  ///< see Scene::implied_bodies
+  std::map<std::string, DisabledPart> disabled = {};                             ///< see Scene::disabled
+  std::vector<Index> idle_events = {};                                           ///< see Scene::idle_events
+  std::map<std::string, const char*, std::less<>> off = {};  ///< of the disabled ones, at the place that is being
+                                                             ///< read: "group", "force" or "collider"
 
   SceneBody body(BodyId id) const {
     const Mesh& mesh = simulation.body(id).mesh;
@@ -84,8 +89,10 @@ struct SceneReader {
   /// Makes a group of what has been read, with the name in the object's key or one of its own. `place` as in places.
   void add_groups(const Node& list, BodyId body);
   void add_group(const Node& node, BodyId body, ConstraintOptions options, std::string place);
-  /// Refuses a group without constraints; `node` is where it was read.
-  void check_group(const Node& node, GroupId group) const;
+  /// Notes a part that is switched off.
+  void disable_group(const Node& node, BodyId body, const ConstraintOptions& options, const std::string& name);
+  void disable_force(std::string_view type, const std::string& name);
+  void disable_collider(std::string_view type, const std::string& name);
   /// The name given, which must be new; else the type, with the body in front, and a number behind where that is taken.
   std::string group_name(const Node& node, BodyId body, std::string_view type);
   /// The same without a body, for a force or a collider.
@@ -93,7 +100,8 @@ struct SceneReader {
 
  private:
   /// The groups of a body's material.
-  void add_material(const Node& node, BodyId body, const BodyMaterial& given);
+  void add_material(const Node& node, BodyId body, const BodyMaterial& given, const Node& of_body);
+  BodyView view(BodyId body) const;
   /// Holds all vertices of a body, and lets them go along the path, if there is one.
   void add_animation(const Node& node, BodyId body, std::shared_ptr<Path> path);
   bool is_taken(std::string_view name) const { return owner_of(name) != nullptr; }
@@ -105,5 +113,10 @@ struct SceneReader {
   mutable std::map<BodyId, std::optional<NearestVertex>> indices_ = {};
   std::map<std::string, int, std::less<>> last_numbers_ = {};  ///< behind a base, of those given so far
 };
+
+/// The value of "enabled" in an entry; without the key it is true.
+bool is_enabled(const Node& entry);
+/// Refuses a group without constraints; `node` is where it was read.
+void check_constraints(const Node& node, const ConstraintSet& set);
 
 }  // namespace pliant

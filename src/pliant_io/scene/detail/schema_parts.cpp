@@ -44,6 +44,10 @@ void add_shapes(SchemaJson& choices, std::tuple<Options...>*) {
   (choices.push_back(shape_schema<Options>()), ...);
 }
 
+SchemaJson enabled_schema() {
+  return {{"type", "boolean"}, {"default", true}, {"description", "false: it is switched off, and keeps its name"}};
+}
+
 /// A mesh of any kind.
 SchemaJson mesh_choices() {
   SchemaJson file = {{"file", text_schema("path of a mesh file, from the folder of the scene")},
@@ -64,7 +68,8 @@ SchemaJson mesh_choices() {
 template <class Constraint>
 SchemaJson constraint_type_schema() {
   const SchemaJson properties = {{"type", {{"const", Constraint::info.name}}},
-                                 {"name", text_schema("what others refer to it by")}};
+                                 {"name", text_schema("what others refer to it by")},
+                                 {"enabled", enabled_schema()}};
   SchemaJson schema = open_object_schema(joined(properties, options_properties<Constraint>()), {"type"});
   schema["description"] = std::string(Constraint::info.energy);
   return schema;
@@ -82,7 +87,8 @@ void add_force(SchemaJson& choices) {
   if constexpr (is_listed_force<Options>) {
     SchemaJson properties = {{"type", {{"const", Options::info.name}}},
                              {"name", text_schema("what events refer to it by")},
-                             {"body", text_schema("name of the body; default: the only one")}};
+                             {"body", text_schema("name of the body; default: the only one")},
+                             {"enabled", enabled_schema()}};
     properties.update(options_properties<Options>());
     std::vector<std::string_view> required = {"type"};
     if (!Options::info.required.empty()) {
@@ -116,7 +122,8 @@ SchemaJson force_choices() {
 template <class Options>
 SchemaJson collider_schema() {
   SchemaJson properties = {{"type", {{"const", Options::info.name}}},
-                           {"name", text_schema("what events refer to it by")}};
+                           {"name", text_schema("what events refer to it by")},
+                           {"enabled", enabled_schema()}};
   properties.update(options_properties<Options>());
   SchemaJson friction = number_schema("number", not_negative);  // one for all of its surface
   friction["description"] = properties["friction"]["description"];
@@ -163,7 +170,7 @@ SchemaJson change_schema() {
   SchemaJson names = {"change", "step", "time"};
   const auto add = [&](const SchemaJson& properties) {
     for (const auto& [name, schema] : properties.items()) {
-      if (name != "type" && name != "name") names.push_back(name);
+      if (name != "type" && name != "name" && name != "enabled") names.push_back(name);
     }
   };
   add(options_properties<RampOptions>());
@@ -207,7 +214,8 @@ SchemaJson add_schema() {
   const SchemaJson attachment = {{"type", {{"const", Attachment::info.name}}}};
   return {{"oneOf",
            {closed_reference("constraint", body), closed_reference("attachment", attachment), schema_reference("force"),
-            schema_reference("collider")}}};
+            schema_reference("collider")}},
+          {"not", {{"required", {"enabled"}}}}};
 }
 
 SchemaJson follow_schema() {
@@ -260,6 +268,7 @@ SchemaJson attachment_schema() {
   const SchemaJson side =
       object_schema({{"body", text_schema("name of the body")}, {"on", schema_reference("selection")}}, {"body"});
   const SchemaJson properties = {{"name", text_schema("what events refer to it by")},
+                                 {"enabled", enabled_schema()},
                                  {"from", described(side, "vertices that are tied")},
                                  {"to", described(side, "what they are tied to, which may be of the same body")}};
   SchemaJson schema = open_object_schema(joined(properties, options_properties<Attachment>()), {"from", "to"});
@@ -277,6 +286,13 @@ SchemaJson material_numbers() {
 }
 
 }  // namespace
+
+SchemaJson gravity_schema() {
+  SchemaJson properties = options_properties<Gravity>();
+  properties["enabled"] = enabled_schema();
+  return {{"anyOf", {schema_reference("vector"), {{"type", "null"}}, object_schema(std::move(properties))}},
+          {"description", "[m/s²]; null: none"}};
+}
 
 SchemaJson body_material_schema() {
   const SchemaJson name = text_schema("of a material: `pliant materials` lists them");

@@ -10,6 +10,7 @@ SchemaJson text_schema(std::string_view description);
 SchemaJson mesh_schema();
 SchemaJson constraint_schema();
 SchemaJson mass_schema();
+SchemaJson gravity_schema();
 SchemaJson body_material_schema();
 SchemaJson materials_schema();
 
