@@ -40,7 +40,7 @@ ColliderOptions read_collider_options(const Node& node) {
   for_each_collider([&](auto options) {
     names.push_back(options.info.name);
     if (options.info.name != name) return;
-    read_collider_entry(node, {"type", "name"}, options);
+    read_collider_entry(node, {"type", "name", "appearance"}, options);
     found = std::move(options);
   });
   if (found) return *std::move(found);
@@ -94,8 +94,17 @@ void SceneReader::read_collider(const Node& node) {
   ColliderOptions options = read_collider_options(node);
   const std::string name = own_name(node, type_of(options));
   node.locate([&] { add(simulation, options, name); });
+  read_collider_appearance(node, name);
   places.emplace(name, entry);
   colliders.emplace(name, std::move(options));
+}
+
+void SceneReader::read_collider_appearance(const Node& collider, const std::string& name) {
+  const auto node = collider.find("appearance");
+  if (!node) return;
+  ColliderAppearance appearance;
+  read_options(*node, appearance);
+  collider_appearances.insert_or_assign(name, appearance);
 }
 
 }  // namespace pliant
