@@ -211,15 +211,16 @@ void SceneLight::find_occlusion(const Mat4f& projection, float reach) const {
   draw_screen(empty_array_);
   occlusion_blur_.use();
   occlusion_blur_.set("occlusion", 0);
-  const auto blur = [&](const Texture& from, const Framebuffer& to, int corner) {
+  const auto blur = [&](const Texture& from, const Framebuffer& to, int side, int corner) {
     begin_screen(to, size, area_);
     bind(GL_TEXTURE0, from);
+    occlusion_blur_.set("side", side);
     occlusion_blur_.set("corner", corner);
     draw_screen(empty_array_);
   };
-  // The mean over squares has steps where what is seen changes; that over the squares of such means has none.
-  blur(raw_, share_target_, -2);
-  blur(shares_, raw_target_, -1);
+  // The mean over squares has steps where what is seen changes; those of four neighbors are smoother.
+  blur(raw_, share_target_, 4, -2);
+  blur(shares_, raw_target_, 2, 0);
   glDisable(GL_SCISSOR_TEST);
 }
 

@@ -194,13 +194,13 @@ void main() {
 // The directions looked at differ in squares of 4 by 4 pixels, over which this takes the mean of one surface.
 const std::string_view occlusion_blur_fragment = R"(#version 330 core
 uniform sampler2D occlusion;
-uniform int corner;  // where the square begins, beside the pixel
+uniform int side, corner;  // of the square [pixels], and where it begins, beside the pixel
 out vec4 color;
 void main() {
   ivec2 at = ivec2(gl_FragCoord.xy), last = textureSize(occlusion, 0) - 1;
   float depth = texelFetch(occlusion, at, 0).g, sum = 0.0, weights = 0.0;
-  for (int y = 0; y < 4; ++y) {
-    for (int x = 0; x < 4; ++x) {
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x) {
       vec2 seen = texelFetch(occlusion, clamp(at + corner + ivec2(x, y), ivec2(0), last), 0).rg;
       float weight = max(1e-3, 1.0 - 12.0 * abs(seen.g / depth - 1.0));
       sum += weight * seen.r;
