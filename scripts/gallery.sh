@@ -10,10 +10,19 @@ work="$(mktemp -d)"
 trap 'rm -rf "$work"' EXIT
 mkdir -p "$folder"
 
+# The same picture in fewer bytes.
+pack() { # FILE
+  if command -v ffmpeg >/dev/null; then
+    ffmpeg -loglevel error -y -i "$1" -c:v png -pred sub -compression_level 9 "$work/packed.png"
+    mv "$work/packed.png" "$1"
+  fi
+}
+
 draw() { # SCENE STILL FIRST LAST OPTION...: the still after so many steps, the film from step to step
   local name="$1" still="$2" first="$3" last="$4" options=("${@:5}")
   [[ -z "$only" || "$only" == *" $name "* ]] || return 0
   "$pliant" render "$name" --out "$folder/$name.png" --steps "$still" --size 960x540 --quiet
+  pack "$folder/$name.png"
   local start="$name"
   if ((first > 0)); then
     "$pliant" run "$name" --steps "$first" --out "$work/$name" --format none --quiet "${options[@]}"

@@ -115,7 +115,8 @@ def scene():
         "bodies": bodies,
         "contact": {"friction": 0.3},
         "colliders": [{"type": "plane", "name": "floor"}],
-        "view": {"camera": {"position": [2.9, -5.7, 2.5], "target": [0.05, 0, 1.28], "field_of_view": 38}, "light": [-0.7, -0.5, 0.9]}}
+        "view": {"camera": {"position": [2.9, -5.7, 2.5], "target": [0.05, 0, 1.28], "field_of_view": 38}, "light": [-0.7, -0.5, 0.9],
+                 "subdivision": 1}}
 
 
 if __name__ == "__main__":

@@ -16,6 +16,7 @@ SAG = 0.34  # of the deck in the middle [m]
 ROPE_Y, RAIL_Y, RAIL_HEIGHT = 0.4, 0.56, 0.95
 BOARDS = 17
 BOARD = [0.23, 1.0, 0.04]
+KNOT = 0.0225  # of ropes that are held, from where they hang to their post [m]
 SOLE = 0.073  # of a foot above the ropes [m]
 DURATION = 6.0  # [s]
 
@@ -54,7 +55,7 @@ class Ropes:
 def bridge_ropes():
     ropes, links, hangers = Ropes(), 3 * BOARDS, BOARDS
     for side in (-1, 1):
-        xs = [SPAN * i / links for i in range(links + 1)]
+        xs = [-KNOT] + [SPAN * i / links for i in range(links + 1)] + [SPAN + KNOT]
         ropes.line([[x, side * ROPE_Y, deck(x)] for x in xs])
         ropes.line([[x, side * RAIL_Y, deck(x) + RAIL_HEIGHT] for x in xs])
         for i in range(1, hangers):  # between the boards
@@ -295,7 +296,7 @@ def rock(low, high, cells, edge_x):
 
 def scene():
     ropes = bridge_ropes()
-    ends = [[x, side * y, z] for x in (0, SPAN) for side in (-1, 1) for y, z in ((ROPE_Y, 0), (RAIL_Y, RAIL_HEIGHT))]
+    ends = [[x, side * y, z] for x in (-KNOT, 0, SPAN, SPAN + KNOT) for side in (-1, 1) for y, z in ((ROPE_Y, 0), (RAIL_Y, RAIL_HEIGHT))]
     posts = [limb([x, side * RAIL_Y, 0.03], [x, side * RAIL_Y, 1.06], 0.055, 0.045, 8)
              for x in (-0.07, SPAN + 0.07) for side in (-1, 1)]
     walkers = [

@@ -270,6 +270,7 @@ pliant::ExportOptions complete_options(const ConvertOptions& options, Animation&
     RunLooks looks = session ? looks_of_scene(*session, animation) : looks_of_run(options.in, animation);
     for (const fs::path& texture : looks.textures) refuse_to_replace(options.out, texture);
     exported.looks = std::move(looks.of_bodies);
+    exported.collider_looks = std::move(looks.of_colliders);
   }
   const auto format = pliant::animation_format(options.out);
   if (!format || format->thins != pliant::AnimationFormat::Thins::always) return exported;

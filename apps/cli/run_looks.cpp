@@ -202,6 +202,11 @@ RunLooks looks_of_scene(const pliant::Scene& scene, pliant::Animation& animation
         maker.look(id, appearance, found->mesh);
   }
   looks.textures = maker.textures();
+  for (const auto& [name, appearance] : scene.collider_appearances) {
+    const pliant_render::ColliderLook seen = pliant_render::collider_look(appearance);
+    const pliant::SurfaceSide side{{seen.tone.x(), seen.tone.y(), seen.tone.z()}};
+    looks.of_colliders.emplace(name, SurfaceLook{side, side, surface_finish(seen.finish)});
+  }
   return looks;
 }
 
@@ -220,7 +225,7 @@ RunLooks looks_of_run(const fs::path& folder, pliant::Animation& animation) {
     looks = looks_of_scene(scene, animation);
   } catch (const pliant::Error& error) {
     if (error.kind() != pliant::ErrorKind::input) throw;
-    print_to_stderr("warning: the colors that the scene gives its bodies are not known: " +
+    print_to_stderr("warning: the colors that the scene gives its bodies and colliders are not known: " +
                     pliant::printable_place(error.what(), message_limit) + "\n");
   }
   return looks;

@@ -124,8 +124,10 @@ const pliant::BodyTones& open_tones(std::size_t body) {
 
 BodyLooks body_looks(const std::vector<pliant::Body>& bodies,
                      const std::map<pliant::BodyId, pliant::BodyAppearance>& appearances,
-                     const std::map<pliant::BodyId, pliant::Material>& materials) {
+                     const std::map<pliant::BodyId, pliant::Material>& materials,
+                     const std::map<std::string, pliant::ColliderAppearance, std::less<>>& colliders) {
   BodyLooks looks;
+  for (const auto& [name, appearance] : colliders) looks.colliders.emplace(name, collider_look(appearance));
   Index count = 0;
   for (const pliant::Body& body : bodies) count = std::max(count, body.first_vertex + body.mesh.vertex_count());
   if (appearances.empty() && materials.empty()) return looks;

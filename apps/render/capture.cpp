@@ -96,7 +96,8 @@ RenderMesh make_render_mesh(const pliant::Simulation& simulation) {
 
 RenderMesh make_render_mesh(const pliant::Scene& scene) {
   RenderMesh render_mesh = make_render_mesh(scene.simulation);
-  render_mesh.looks = body_looks(scene.simulation.bodies(), scene.appearances, scene.materials);
+  render_mesh.looks =
+      body_looks(scene.simulation.bodies(), scene.appearances, scene.materials, scene.collider_appearances);
   return render_mesh;
 }
 

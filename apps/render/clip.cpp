@@ -96,7 +96,7 @@ RunAnnotations annotate_run(pliant::Scene scene, const pliant::Animation& animat
                                    animation.cache.vertex_count()));
   }
   RunAnnotations annotations;
-  annotations.looks = body_looks(simulation.bodies(), scene.appearances, scene.materials);
+  annotations.looks = body_looks(simulation.bodies(), scene.appearances, scene.materials, scene.collider_appearances);
   ColliderSurfaces surfaces;
   replay(scene, animation.cache, [&](std::int64_t step) {
     RunAnnotations::Entry entry{find_markers(simulation, step), find_wind(simulation), surfaces.find(simulation),
@@ -117,6 +117,7 @@ RunFrames::RunFrames(pliant::Animation animation, RunAnnotations annotations)
   const std::vector<std::size_t>& entries = annotations_.entry_of_frame;
   render_mesh_ = make_render_mesh(animation_.bodies, entries.empty() ? std::span<const std::uint32_t>()
                                                                      : annotations_.entries[entries.front()].held);
+  render_mesh_.looks.colliders = annotations_.looks.colliders;
   if (annotations_.looks.vertices.size() == static_cast<std::size_t>(render_mesh_.vertex_count)) {
     render_mesh_.looks = std::move(annotations_.looks);
   }

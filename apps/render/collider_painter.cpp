@@ -3,21 +3,34 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "render/shaders.h"
 
 namespace pliant_render {
 namespace {
 
-const Vec3f lit_tone(0.76F, 0.81F, 0.88F);  // of a collider that is selected, or under the mouse
+/// Of a collider that is selected, or under the mouse.
+Vec3f lit_tone(const Vec3f& tone) {
+  return tone.array() + 0.45F * (1 - tone.array());
+}
 
-constexpr float floor_tone = 0.86F;  // of the background, as of the ground
+constexpr float floor_tone = 0.86F;  // of the background
 constexpr int plane_rings = 24;
 constexpr int plane_sectors = 48;
 
 /// Of a face with this normal, as shaders::lighting lights it without the light from the eye.
 float light_on(const Vec3f& normal, const Vec3f& to_light) {
   return 0.31F + 0.1F * normal.z() + 0.75F * std::max(normal.dot(to_light), 0.0F);
+}
+
+ColliderLook look_of(const DrawnCollider& collider, const ColliderLooks& looks) {
+  const auto found = looks.find(collider.name);
+  return found == looks.end() ? ColliderLook{} : found->second;
+}
+
+std::string plane_program(bool has_occlusion) {
+  return head_of({.has_occlusion = has_occlusion}).append(shaders::dithering).append(shaders::plane_fragment);
 }
 
 Vec3f normal_of(const Mat4f& plane) {
@@ -30,7 +43,9 @@ Vec3f flatten(const Vec3f& point_in_frame, const Vec3f& light_in_frame) {
   return point_in_frame - light_in_frame * (std::max(point_in_frame.z(), 0.0F) / light_in_frame.z());
 }
 
-ColliderPainter::ColliderPainter() : plane_(shaders::plane_vertex, "", shaders::plane_fragment) {}
+ColliderPainter::ColliderPainter()
+    : plane_(shaders::plane_vertex, "", plane_program(false)),
+      dark_plane_(shaders::plane_vertex, "", plane_program(true)) {}
 
 void ColliderPainter::set_frame(const std::vector<DrawnCollider>& colliders) {
   colliders_ = colliders;
@@ -63,15 +78,18 @@ bool ColliderPainter::has_planes() const {
   return std::ranges::any_of(colliders_, [](const DrawnCollider& each) { return each.surface->is_plane; });
 }
 
-std::vector<Mat4f> ColliderPainter::planes(const Vec3f& eye) const {
-  std::vector<Mat4f> planes;
+std::vector<ColliderPainter::SeenPlane> ColliderPainter::planes(const Vec3f& eye, const ColliderLooks& looks) const {
+  std::vector<SeenPlane> planes;
   for (const DrawnCollider& each : colliders_) {
     if (!each.surface->is_plane) continue;
     const Mat4f plane = matrix_of(each.pose);
     const Vec3f middle = plane.topRightCorner<3, 1>();
-    if (normal_of(plane).dot(eye - middle) > 0) planes.push_back(plane);
+    if (!(normal_of(plane).dot(eye - middle) > 0)) continue;
+    const ColliderLook look = look_of(each, looks);
+    planes.push_back({plane, look.is_own ? std::optional(look.tone) : std::nullopt});
   }
-  std::ranges::stable_sort(planes, std::ranges::greater(), [](const Mat4f& plane) { return normal_of(plane).z(); });
+  std::ranges::stable_sort(planes, std::ranges::greater(),
+                           [](const SeenPlane& plane) { return normal_of(plane.place).z(); });
   return planes;
 }
 
@@ -108,44 +126,57 @@ void ColliderPainter::draw_triangles_of(const DrawnCollider& each, const Program
   glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(each.surface->corners.size()));
 }
 
-void ColliderPainter::draw_solids(const Projection& projection, const SceneLight& light,
+void ColliderPainter::draw_solids(const Projection& projection, const SceneLight& light, const ColliderLooks& looks,
                                   const std::array<std::optional<pliant::Index>, 2>& lit) {
   if (solids_.empty()) return;
-  SurfaceTraits traits{.is_solid = true};
-  traits.has_shadows = light.has_shadows();
-  traits.has_occlusion = light.has_occlusion();
-  const Program& solid = programs_.of(traits);
-  solid.use();
-  solid.set("camera", projection.camera);
-  solid.set("setback", projection.setback);
-  light.set(solid);
+  const Program* in_use = nullptr;
   for (const DrawnCollider& each : colliders_) {
-    solid.set("held", std::ranges::count(lit, each.number) > 0 ? lit_tone : solid_tone);
+    const ColliderLook look = look_of(each, looks);
+    SurfaceTraits traits{.is_solid = true};
+    traits.has_cloth = look.finish == pliant::Finish::cloth;
+    traits.has_gloss = look.finish == pliant::Finish::glossy || look.finish == pliant::Finish::metal;
+    traits.has_shadows = light.has_shadows();
+    traits.has_occlusion = light.has_occlusion();
+    const Program& solid = programs_.of(traits);
+    if (&solid != std::exchange(in_use, &solid)) {
+      solid.use();
+      solid.set("camera", projection.camera);
+      solid.set("setback", projection.setback);
+      light.set(solid);
+    }
+    solid.set("held_finish", static_cast<int>(look.finish));
+    solid.set("held", std::ranges::count(lit, each.number) > 0 ? lit_tone(look.tone) : look.tone);
     draw_triangles_of(each, solid, Mat4f::Identity());
   }
 }
 
-void ColliderPainter::draw_plane(const Mat4f& plane, const PlaneLook& look, const ShadowArea& shadow,
-                                 const Projection& projection, const Vec3f& to_light) const {
+void ColliderPainter::draw_plane(const SeenPlane& seen, const PlaneLook& look, const ShadowArea& shadow,
+                                 const Projection& projection, const Vec3f& to_light, const SceneLight& light) const {
+  const Mat4f& plane = seen.place;
+  const Vec3f tone = seen.tone.value_or(floor_tone * look.background);
   const Vec3f normal = normal_of(plane);
   const float share = light_on(normal, to_light) / light_on(Vec3f::UnitZ(), to_light);
   const Vec3f from_plane = look.middle - plane.topRightCorner<3, 1>();
   const Vec3f middle = plane.topLeftCorner<3, 3>().transpose() * (from_plane - normal * normal.dot(from_plane));
-  plane_.use();
-  plane_.set("camera", projection.camera);
-  plane_.set("setback", projection.setback);
-  plane_.set("place", plane);
-  plane_.set("center", middle);
-  plane_.set("extent", look.extent);
-  plane_.set("tone", Vec3f((floor_tone * std::pow(share, 0.4545F) * look.background).cwiseMin(1)));
-  plane_.set("rings", plane_rings);
-  plane_.set("sectors", plane_sectors);
-  plane_.set("middle", shadow.middle);
-  plane_.set("reach", shadow.reach);
-  plane_.set("darkness", look.darkness);
-  plane_.set("mask", 0);
+  const Program& program = light.has_occlusion() ? dark_plane_ : plane_;
+  program.use();
+  program.set("camera", projection.camera);
+  program.set("setback", projection.setback);
+  program.set("place", plane);
+  program.set("center", middle);
+  program.set("extent", look.extent);
+  program.set("tone", Vec3f((std::pow(share, 0.4545F) * tone).cwiseMin(1)));
+  program.set("rings", plane_rings);
+  program.set("sectors", plane_sectors);
+  program.set("middle", shadow.middle);
+  program.set("reach", shadow.reach);
+  program.set("darkness", look.darkness);
+  program.set("mask", 0);
+  program.set("background", look.background);
+  program.set("is_last", look.is_last ? 1 : 0);
+  light.set_floor(program, look.picture);
   glBindVertexArray(empty_array_.id());
-  glEnable(GL_DEPTH_CLAMP);  // as of the ground
+  glEnable(GL_DEPTH_CLAMP);  // it goes on in front of what the camera is made for
   glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 2 * (plane_sectors + 1), plane_rings);
   glDisable(GL_DEPTH_CLAMP);
 }

@@ -9,6 +9,7 @@
 
 #include "pliant_io/scene/view_settings.h"
 #include "render/collider_view.h"
+#include "render/floor_shadow.h"
 #include "render/scene_light.h"
 #include "render/surface_programs.h"
 
@@ -20,12 +21,6 @@ struct Projection {
   float setback;  ///< in the depths of OpenGL: colliders give way to what touches them
 };
 
-/// Where a shadow lies on a floor, in its frame [m].
-struct ShadowArea {
-  Vec2f middle = Vec2f::Zero();
-  Vec2f reach = Vec2f::Ones();
-};
-
 class ColliderPainter {
  public:
   /// Needs a current OpenGL context, as do all members.
@@ -33,7 +28,11 @@ class ColliderPainter {
 
   void set_frame(const std::vector<DrawnCollider>& colliders);
   /// Planes that are seen from their front, floors first.
-  std::vector<Mat4f> planes(const Vec3f& eye) const;
+  struct SeenPlane {
+    Mat4f place;                ///< from its frame to space
+    std::optional<Vec3f> tone;  ///< of its own
+  };
+  std::vector<SeenPlane> planes(const Vec3f& eye, const ColliderLooks& looks = {}) const;
   bool has_planes() const;
   /// Of those that are not planes, in space [m].
   void each_point(const std::function<void(const Vec3f&)>& take) const;
@@ -43,17 +42,19 @@ class ColliderPainter {
   /// Draws the triangles of all solids with a program that takes the place of each as its uniform `place`.
   void draw_triangles(const Program& program, const Mat4f& frame) const;
   /// `lit`: the numbers of those that are drawn brighter.
-  void draw_solids(const Projection& projection, const SceneLight& light,
+  void draw_solids(const Projection& projection, const SceneLight& light, const ColliderLooks& looks,
                    const std::array<std::optional<pliant::Index>, 2>& lit);
-  /// A plane that fades from the middle of the scene outward; the texture bound last is the mask of its shadow.
+  /// A plane that fades from the middle of the scene outward; texture 0 is the mask of its shadow.
   struct PlaneLook {
     Vec3f middle;  ///< of the scene [m]
     float extent;  ///< where it has faded [m]
     Vec3f background;
     float darkness;  ///< of the shadow
+    bool is_last;    ///< only the background is behind it
+    Vec2f picture;   ///< size [pixels]
   };
-  void draw_plane(const Mat4f& plane, const PlaneLook& look, const ShadowArea& shadow, const Projection& projection,
-                  const Vec3f& to_light) const;
+  void draw_plane(const SeenPlane& plane, const PlaneLook& look, const ShadowArea& shadow, const Projection& projection,
+                  const Vec3f& to_light, const SceneLight& light) const;
 
  private:
   void draw_triangles_of(const DrawnCollider& each, const Program& program, const Mat4f& frame) const;
@@ -67,7 +68,7 @@ class ColliderPainter {
   std::vector<DrawnCollider> colliders_;
   std::map<const ColliderSurface*, std::unique_ptr<Solid>> solids_;
   SurfacePrograms programs_;
-  Program plane_;
+  Program plane_, dark_plane_;  // in all of the light of the sky, and where it is seen in part
   VertexArray empty_array_;
 };
 

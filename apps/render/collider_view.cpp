@@ -33,6 +33,15 @@ std::shared_ptr<const ColliderSurface> make_surface(const std::shared_ptr<const 
 
 }  // namespace
 
+ColliderLook collider_look(const pliant::ColliderAppearance& appearance) {
+  ColliderLook look;
+  look.is_own = appearance.front.has_value();
+  if (appearance.front)
+    look.tone = pliant::Vec3(appearance.front->red, appearance.front->green, appearance.front->blue).cast<float>();
+  if (appearance.finish != pliant::Finish::automatic) look.finish = appearance.finish;
+  return look;
+}
+
 Mat4f matrix_of(const pliant::Pose& pose) {
   Mat4f matrix = Mat4f::Identity();
   matrix.topLeftCorner<3, 3>() = pose.rotation.toRotationMatrix().cast<float>();
@@ -49,7 +58,7 @@ std::vector<DrawnCollider> ColliderSurfaces::find(const pliant::Simulation& simu
         known == surfaces_.end() ? make_surface(record.shape) : known->second;
     used.emplace(record.shape.get(), surface);
     if (!surface->is_plane && surface->corners.empty()) continue;
-    drawn.push_back({static_cast<pliant::Index>(id), surface, simulation.pose(id)});
+    drawn.push_back({static_cast<pliant::Index>(id), record.name, surface, simulation.pose(id)});
   }
   surfaces_ = std::move(used);
   return drawn;

@@ -3,15 +3,28 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "pliant/simulation/simulation.h"
+#include "pliant_io/scene/body_appearance.h"
 #include "render/camera.h"
 
 namespace pliant_render {
 
 /// Of what goes where it is told: colliders, and bodies that are held as a whole.
 inline const Vec3f solid_tone(0.60F, 0.65F, 0.71F);
+
+/// What a collider looks like.
+struct ColliderLook {
+  Vec3f tone = solid_tone;                        ///< shares of red, green and blue, 0 to 1 (sRGB)
+  bool is_own = false;                            ///< or that of all
+  pliant::Finish finish = pliant::Finish::matte;  ///< never `automatic`
+
+  bool operator==(const ColliderLook&) const = default;
+};
+using ColliderLooks = std::map<std::string, ColliderLook, std::less<>>;  ///< by name
+ColliderLook collider_look(const pliant::ColliderAppearance& appearance);
 
 /// The surface of a shape, in its own frame.
 struct ColliderSurface {
@@ -27,6 +40,7 @@ struct ColliderSurface {
 
 struct DrawnCollider {
   pliant::Index number = 0;  ///< of its ColliderId
+  std::string name{};
   std::shared_ptr<const ColliderSurface> surface;
   pliant::Pose pose{};
 };

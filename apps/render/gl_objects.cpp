@@ -49,11 +49,11 @@ Program::~Program() {
 }
 
 void set_up_texture(const Texture& texture, GLenum format, int width, int height, const void* pixels) {
-  const bool is_mask = format == GL_R8;
+  const bool is_mask = format != GL_RGB8;
+  const GLenum channels = format == GL_R8 ? GL_RED : format == GL_RGB8 ? GL_RGB : GL_RGBA;
   glBindTexture(GL_TEXTURE_2D, texture.id());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glTexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(format), width, height, 0, is_mask ? GL_RED : GL_RGB,
-               GL_UNSIGNED_BYTE, pixels);
+  glTexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(format), width, height, 0, channels, GL_UNSIGNED_BYTE, pixels);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, is_mask ? GL_CLAMP_TO_BORDER : GL_CLAMP_TO_EDGE);

@@ -65,8 +65,8 @@ void upload(const Buffer& buffer, GLenum target, const std::vector<T>& list, GLe
   glBufferData(target, static_cast<GLsizeiptr>(list.size() * sizeof(T)), list.data(), usage);
 }
 
-/// Fills a texture with pixels, row by row from the top: GL_RGB8, three bytes each, or GL_R8, one each, which is 0
-/// beyond its edges. pixels: null for none yet.
+/// Fills a texture with pixels, row by row from the top: GL_RGB8, three bytes each, or GL_R8 and GL_RGBA8, one
+/// and four each, which are 0 beyond their edges. pixels: null for none yet.
 void set_up_texture(const Texture& texture, GLenum format, int width, int height, const void* pixels);
 
 }  // namespace pliant_render

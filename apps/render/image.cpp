@@ -40,6 +40,14 @@ std::string encode_png(const Image& image) {
     throw pliant::Error(pliant::ErrorKind::output,
                         "cannot be written: the picture has more than 2^31 bytes; choose a smaller size");
   }
+  // Pictures have the same pattern of 4 by 4 pixels nearly everywhere (shaders::dithering): differences to the pixel
+  // before are the shortest then, and patterns are found by a longer search.
+  static const bool is_set_up = [] {
+    stbi_write_force_png_filter = 1;
+    stbi_write_png_compression_level = 32;
+    return true;
+  }();
+  static_cast<void>(is_set_up);
   std::string file;
   const auto append = [](void* context, void* bytes, int size) {
     static_cast<std::string*>(context)->append(static_cast<const char*>(bytes), static_cast<std::size_t>(size));

@@ -33,17 +33,20 @@ inline constexpr std::uint8_t gradient_pattern = 3, texture_pattern = 4;
 static_assert(choice_names(pliant::Pattern{}).size() == gradient_pattern);
 /// What a body has where its appearance leaves colors open, by its place in the list.
 const pliant::BodyTones& open_tones(std::size_t body);
-/// What all bodies look like.
+/// What all bodies and colliders look like.
 struct BodyLooks {
   std::vector<VertexLook> vertices;               ///< one per vertex; or none, where all look as usual
   std::map<std::uint32_t, std::string> textures;  ///< paths of files, by the places of bodies in the list
+  ColliderLooks colliders;                        ///< of those that have one of their own
 
   bool operator==(const BodyLooks&) const = default;
 };
 /// By the bodies at rest. materials: of bodies that are made of one, which tells what their surface is like.
+/// colliders: by name.
 BodyLooks body_looks(const std::vector<pliant::Body>& bodies,
                      const std::map<pliant::BodyId, pliant::BodyAppearance>& appearances,
-                     const std::map<pliant::BodyId, pliant::Material>& materials = {});
+                     const std::map<pliant::BodyId, pliant::Material>& materials = {},
+                     const std::map<std::string, pliant::ColliderAppearance, std::less<>>& colliders = {});
 
 /// Index lists as OpenGL takes them, with vertices numbered through all bodies.
 struct RenderMesh {

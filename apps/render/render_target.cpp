@@ -4,6 +4,7 @@
 #include <string>
 
 #include "pliant/core/error.h"
+#include "render/shaders.h"
 
 namespace pliant_render {
 namespace {
@@ -20,32 +21,53 @@ void check_complete(int width, int height) {
                      " pixels with so many samples; give a smaller one, or --samples 1");
 }
 
+/// The texture that samples are drawn into.
+void attach_samples(const Texture& texture, int width, int height, int samples) {
+  const GLenum kind = samples > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D;
+  glBindTexture(kind, texture.id());
+  if (samples > 1) {
+    glTexImage2DMultisample(kind, samples, GL_RGBA8, width, height, GL_TRUE);
+  } else {
+    glTexImage2D(kind, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+    glTexParameteri(kind, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(kind, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  }
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, kind, texture.id(), 0);
+  glBindTexture(kind, 0);
+}
+
+/// Of texelFetch(), which takes a sample in one kind of texture, and a level in the other.
+std::string resolve_program(int factor, int samples) {
+  std::string text = "#version 330 core\n";
+  text += std::string("#define SAMPLER ") + (samples > 1 ? "sampler2DMS\n" : "sampler2D\n");
+  text += "const int factor = " + std::to_string(factor) + ", samples = " + std::to_string(samples) + ";\n";
+  return text.append(shaders::resolve_fragment);
+}
+
 }  // namespace
 
 RenderTarget::RenderTarget(int width, int height, int samples) : width_(width), height_(height) {
   GLint most_samples = 1;
   GLint most_pixels = 0;
+  GLint most_texture_samples = 1;
   glGetIntegerv(GL_MAX_SAMPLES, &most_samples);
+  glGetIntegerv(GL_MAX_COLOR_TEXTURE_SAMPLES, &most_texture_samples);
   glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &most_pixels);
   if (std::max(width, height) > most_pixels) {
     pliant::fail_input("size: " + std::to_string(std::max(width, height)) + " pixels are more than the " +
                        std::to_string(most_pixels) + " that the driver draws; give a smaller picture");
   }
-  most_samples = std::max(1, most_samples);
+  most_samples = std::max(1, std::min(most_samples, most_texture_samples));
   if (samples > most_samples && 2 * std::max(width, height) <= most_pixels) factor_ = 2;
   samples_ = std::clamp((samples + factor_ * factor_ - 1) / (factor_ * factor_), 1, most_samples);
   glBindFramebuffer(GL_FRAMEBUFFER, sampled_.id());
-  attach(sampled_color_, GL_COLOR_ATTACHMENT0, GL_RGBA8, factor_ * width, factor_ * height, samples_);
+  attach_samples(sampled_color_, factor_ * width, factor_ * height, samples_);
   attach(sampled_depth_, GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT24, factor_ * width, factor_ * height, samples_);
   check_complete(width, height);
-  if (factor_ > 1) {
-    glBindFramebuffer(GL_FRAMEBUFFER, large_.id());
-    attach(large_color_, GL_COLOR_ATTACHMENT0, GL_RGBA8, factor_ * width, factor_ * height, 1);
-    check_complete(width, height);
-  }
   glBindFramebuffer(GL_FRAMEBUFFER, plain_.id());
   attach(plain_color_, GL_COLOR_ATTACHMENT0, GL_RGBA8, width, height, 1);
   check_complete(width, height);
+  resolve_.emplace(shaders::screen_vertex, "", resolve_program(factor_, samples_));
 }
 
 void RenderTarget::begin() const {
@@ -54,19 +76,17 @@ void RenderTarget::begin() const {
 }
 
 void RenderTarget::resolve() const {
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, sampled_.id());
-  if (factor_ > 1) {
-    const int width = factor_ * width_, height = factor_ * height_;
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, large_.id());
-    glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, large_.id());
-  }
-  // Between the four pixels that one is drawn as, their mean.
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, plain_.id());
-  glBlitFramebuffer(0, 0, factor_ * width_, factor_ * height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT,
-                    factor_ > 1 ? GL_LINEAR : GL_NEAREST);
-  glViewport(0, 0, width_, height_);
   glBindFramebuffer(GL_FRAMEBUFFER, plain_.id());
+  glViewport(0, 0, width_, height_);
+  const GLenum kind = samples_ > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D;
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(kind, sampled_color_.id());
+  resolve_->use();
+  resolve_->set("picture", 0);
+  glBindVertexArray(empty_array_.id());
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glBindVertexArray(0);
+  glBindTexture(kind, 0);
 }
 
 void RenderTarget::show() const {

@@ -1,5 +1,7 @@
 #pragma once
 // Where a picture is drawn without a window: a multisampled framebuffer, and a plain one that can be read back.
+#include <optional>
+
 #include "render/gl_objects.h"
 #include "render/image.h"
 
@@ -22,7 +24,7 @@ class RenderTarget {
   int samples() const { return samples_ * factor_ * factor_; }
   /// Starts a picture: what needs depth and several samples is drawn next.
   void begin() const;
-  /// Resolves the samples: what is drawn flat on top comes next.
+  /// Resolves the samples, with blending and the test of depths off: what is drawn flat on top comes next.
   void resolve() const;
   Image read() const;
   /// Copies the resolved picture into a window of the same size and leaves the window's framebuffer bound.
@@ -33,8 +35,11 @@ class RenderTarget {
   int height_;
   int factor_ = 1;
   int samples_ = 1;  // of a pixel as drawn
-  Framebuffer sampled_, large_, plain_;
-  Renderbuffer sampled_color_, sampled_depth_, large_color_, plain_color_;
+  Framebuffer sampled_, plain_;
+  Texture sampled_color_;
+  Renderbuffer sampled_depth_, plain_color_;
+  VertexArray empty_array_;
+  std::optional<Program> resolve_;
 };
 
 }  // namespace pliant_render

@@ -9,7 +9,6 @@
 namespace pliant_render {
 namespace {
 
-constexpr int mask_size = 192;
 constexpr float rope_width = 3.5F;         // pixels of a picture of 720 rows
 constexpr float rope_shadow_width = 1.5F;  // texels of the mask
 constexpr float edge_width = 1.0F;
@@ -20,8 +19,6 @@ constexpr float least_selected_radius = 4.0F;
 const Vec3f selected_color(1.0F, 0.70F, 0.12F);
 const Vec3f pin_color(0.98F, 0.98F, 0.97F);  // and of vertices under a test force; no body has it
 const Vec3f edge_color(0.10F, 0.11F, 0.14F);
-constexpr int ground_rings = 24;
-constexpr int ground_sectors = 48;
 constexpr float shadow_darkness = 0.34F;
 constexpr float least_slope_of_light = 0.05F;  // over a floor, for a shadow on it
 constexpr float occlusion_reach = 0.2F;        // of the radius of the scene
@@ -29,6 +26,17 @@ constexpr float lift = 1.5e-3F;  // towards the eye, of the radius of the scene,
 
 Vec3f tone_of(const pliant::Color& color) {
   return {static_cast<float>(color.red), static_cast<float>(color.green), static_cast<float>(color.blue)};
+}
+
+/// As it comes out in bytes, so that what fades into it ends in it.
+Vec3f background_of(const pliant::ViewSettings& appearance) {
+  return (255 * tone_of(appearance.background)).array().round() / 255;
+}
+
+Mat4f ground_at(float height) {
+  Mat4f ground = Mat4f::Identity();
+  ground(2, 3) = height;
+  return ground;
 }
 
 /// The tones that a scene gives are those of all bodies.
@@ -62,12 +70,6 @@ Vec3f light_of(const pliant::ViewSettings& appearance) {
   return appearance.light.cast<float>().normalized();
 }
 
-void set_up_mask(const Texture& texture, const Framebuffer& target) {
-  set_up_texture(texture, GL_R8, mask_size, mask_size, nullptr);
-  glBindFramebuffer(GL_FRAMEBUFFER, target.id());
-  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture.id(), 0);
-}
-
 /// About the distance at which bodies touch colliders [m]. Between vertices they come nearer, and so far they are drawn
 /// in front all the same; what is behind a collider is never that near to its front.
 float setback_of(std::vector<float> rest_lengths) {
@@ -89,16 +91,9 @@ Renderer::Renderer(RenderMesh render_mesh)
     : mesh_(std::move(render_mesh)),
       setback_(setback_of(mesh_.render_mesh().rest_lengths)),
       line_(shaders::stroke_vertex, shaders::line_geometry, shaders::line_fragment),
-      marker_(shaders::stroke_vertex, shaders::marker_geometry, shaders::marker_fragment),
-      flatten_(shaders::flatten_vertex, "", shaders::flatten_fragment),
-      flatten_ropes_(shaders::flatten_vertex, shaders::line_geometry, shaders::flatten_fragment),
-      blur_(shaders::screen_vertex, "", shaders::blur_fragment),
-      ground_(shaders::ground_vertex, "", shaders::ground_fragment),
-      shadow_(shaders::shadow_vertex, "", shaders::shadow_fragment) {
+      marker_(shaders::stroke_vertex, shaders::marker_geometry, shaders::marker_fragment) {
   mesh_.set_up(markers_array_, markers_, {});
   mesh_.set_up(selected_array_, selected_, {});
-  set_up_mask(mask_, mask_target_);
-  set_up_mask(half_blurred_, half_blurred_target_);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
@@ -127,24 +122,19 @@ void Renderer::draw(const pliant::ViewSettings& appearance, const DrawOptions& o
   const auto end = [&options](std::string_view pass) {
     if (options.clock != nullptr) options.clock->end(pass);
   };
-  const Vec3f background = tone_of(appearance.background);
+  const Vec3f background = background_of(appearance);
   glClearColor(background.x(), background.y(), background.z(), 1);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   glEnable(GL_MULTISAMPLE);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-  if (colliders_.has_planes()) {
-    draw_planes(appearance, options, static_cast<GLuint>(target));
-  } else if (appearance.ground) {
-    draw_floor(appearance, options, camera, static_cast<GLuint>(target));
-  }
+  draw_planes(appearance, options, static_cast<GLuint>(target));
   end("background and floor");
   glEnable(GL_BLEND);
-  light_.shade_floors(picture);
-  end("sky on the floor");
   glEnable(GL_DEPTH_TEST);
   draw_surface(appearance, options, camera);  // first, since they lie in front of what they lie on
   end("bodies");
-  colliders_.draw_solids(projection(options), light_, {options.lit_collider, options.selected_collider});
+  colliders_.draw_solids(projection(options), light_, mesh_.render_mesh().looks.colliders,
+                         {options.lit_collider, options.selected_collider});
   end("colliders");
   draw_ropes(appearance, options, camera);
   if (appearance.wireframe) draw_wireframe(options, camera);
@@ -158,7 +148,7 @@ void Renderer::draw(const pliant::ViewSettings& appearance, const DrawOptions& o
 
 /// Shadows of bodies and colliders on each other, and how much of the sky is seen from where.
 void Renderer::draw_light_maps(const pliant::ViewSettings& appearance, const DrawOptions& options) {
-  light_.begin(options.viewpoint.eye, light_of(appearance));
+  light_.begin(options.viewpoint.eye, light_of(appearance), options.pixel);
   if (options.quality == pliant::Quality::low || bounds_.is_empty()) return;
   if (appearance.shadow) {
     light_.draw_shadow_map(bounds_, setback_, [&](float setback) {
@@ -215,7 +205,8 @@ void Renderer::draw_floor_depths(const pliant::ViewSettings& appearance, const D
   const Vec3f middle = bounds_.center();
   Mat4f grown = Mat4f::Identity();
   grown.diagonal().head<2>().setConstant(std::max(12 * bounds_.radius(), 1.0F));
-  for (Mat4f plane : colliders_.planes(options.viewpoint.eye)) {
+  for (const auto& seen : colliders_.planes(options.viewpoint.eye)) {
+    Mat4f plane = seen.place;
     const Vec3f normal = plane.block<3, 1>(0, 2);
     plane.topRightCorner<3, 1>() = middle - normal * normal.dot(middle - plane.topRightCorner<3, 1>());
     light_.draw_square(plane * grown);
@@ -248,123 +239,51 @@ void Renderer::go_to_picture(GLuint target) const {
   glViewport(0, 0, static_cast<GLsizei>(size_.x()), static_cast<GLsizei>(size_.y()));
 }
 
-/// The ground that nothing stands on, and the shadow on it.
-void Renderer::draw_floor(const pliant::ViewSettings& appearance, const DrawOptions& options, const Mat4f& camera,
-                          GLuint target) {
-  const Vec3f light = light_of(appearance);
-  draw_ground(appearance, options, camera);
-  if (!appearance.shadow || !(light.z() > least_slope_of_light) || bounds_.is_empty()) return;
-  Mat4f to_floor = Mat4f::Identity();
-  to_floor(2, 3) = -options.ground_height;
-  if (options.clock != nullptr) options.clock->end("background and floor");
-  const ShadowArea area = draw_shadow(to_floor, light);
-  if (options.clock != nullptr) options.clock->end("shadow on the floor");
-  go_to_picture(target);
-  glEnable(GL_BLEND);
-  lay_shadow(area, options.ground_height, camera);
-}
-
-/// Planes that are colliders, each with the shadow on it.
+/// Planes that are colliders or, without any, the ground that nothing stands on; each with the shadow on it.
 void Renderer::draw_planes(const pliant::ViewSettings& appearance, const DrawOptions& options, GLuint target) {
   const Vec3f light = light_of(appearance);
   const Vec3f middle = bounds_.is_empty() ? Vec3f::Zero().eval() : bounds_.center();
   const float extent = std::max(12 * bounds_.radius(), 1.0F);
-  for (const Mat4f& plane : colliders_.planes(options.viewpoint.eye)) {
+  const bool has_planes = colliders_.has_planes();
+  Projection projected = projection(options);
+  std::vector<ColliderPainter::SeenPlane> planes;
+  if (has_planes) {
+    planes = colliders_.planes(options.viewpoint.eye, mesh_.render_mesh().looks.colliders);
+  } else if (appearance.ground) {
+    planes.push_back({ground_at(options.ground_height), {}});
+    projected.setback = 0;
+  }
+  for (const ColliderPainter::SeenPlane& plane : planes) {
     const bool has_shadow =
-        appearance.shadow && plane.block<3, 1>(0, 2).dot(light) > least_slope_of_light && !bounds_.is_empty();
+        appearance.shadow && plane.place.block<3, 1>(0, 2).dot(light) > least_slope_of_light && !bounds_.is_empty();
     ShadowArea area;
     if (has_shadow) {
-      area = draw_shadow(plane.inverse(), light);
+      if (options.clock != nullptr) options.clock->end("background and floor");
+      area = draw_shadow(plane.place.inverse(), light, options.quality);
+      if (options.clock != nullptr) options.clock->end("shadow on the floor");
       go_to_picture(target);
     }
-    glEnable(GL_BLEND);
-    glEnable(GL_DEPTH_TEST);
-    glActiveTexture(GL_TEXTURE0);
-    glBindTexture(GL_TEXTURE_2D, mask_.id());
-    colliders_.draw_plane(plane, {middle, extent, tone_of(appearance.background), has_shadow ? shadow_darkness : 0.0F},
-                          area, projection(options), light);
+    if (has_planes) glEnable(GL_DEPTH_TEST);
+    if (planes.size() > 1) glEnable(GL_BLEND);
+    floor_shadow_.bind(GL_TEXTURE0);
+    const ColliderPainter::PlaneLook look{
+        middle, extent, background_of(appearance), has_shadow ? shadow_darkness : 0, planes.size() == 1, size_};
+    colliders_.draw_plane(plane, look, area, projected, light, light_);
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_BLEND);
   }
 }
 
-ShadowArea Renderer::draw_shadow(const Mat4f& to_floor, const Vec3f& light_in_space) {
+ShadowArea Renderer::draw_shadow(const Mat4f& to_floor, const Vec3f& light_in_space, pliant::Quality quality) {
   const Vec3f light = to_floor.topLeftCorner<3, 3>() * light_in_space;
   Bounds flat = colliders_.bounds_in(to_floor, light);
   for (const Vec3f& position : mesh_.positions()) {
     flat.add(flatten(to_floor.topLeftCorner<3, 3>() * position + to_floor.topRightCorner<3, 1>(), light));
   }
-  // The blur reaches seven texels out.
-  const Vec3f half = (flat.high - flat.low) / 2;
-  const float margin = 0.06F * std::max({half.x(), half.y(), 1e-3F});
-  const ShadowArea area{flat.center().head<2>(), half.head<2>().array() + margin};
-  glBindFramebuffer(GL_FRAMEBUFFER, mask_target_.id());
-  glViewport(0, 0, mask_size, mask_size);
-  glClearColor(0, 0, 0, 0);
-  glClear(GL_COLOR_BUFFER_BIT);
-  const auto use = [&](const Program& program) {
-    program.use();
-    program.set("place", to_floor);
-    program.set("light", light);
-    program.set("middle", area.middle);
-    program.set("reach", area.reach);
-    program.set("picture", Vec2f(mask_size, mask_size));
-    program.set("width", rope_shadow_width);
-    program.set("lift", 0.0F);
-  };
-  use(flatten_ropes_);
-  mesh_.draw_ropes();
-  use(flatten_);
-  mesh_.draw_triangles();
-  colliders_.draw_triangles(flatten_, to_floor);
-  // As wide in both directions on the ground, not in the mask.
-  const float texel = 0.75F * area.reach.maxCoeff() / mask_size;
-  blur(mask_, half_blurred_target_, {texel / area.reach.x(), 0});
-  blur(half_blurred_, mask_target_, {0, texel / area.reach.y()});
-  return area;
-}
-
-void Renderer::blur(const Texture& from, const Framebuffer& to, const Vec2f& step) const {
-  glBindFramebuffer(GL_FRAMEBUFFER, to.id());
-  blur_.use();
-  blur_.set("mask", 0);
-  blur_.set("step_size", step);
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, from.id());
-  glBindVertexArray(empty_array_.id());
-  glDrawArrays(GL_TRIANGLES, 0, 3);
-}
-
-void Renderer::draw_ground(const pliant::ViewSettings& appearance, const DrawOptions& options,
-                           const Mat4f& camera) const {
-  const Vec3f background = tone_of(appearance.background);
-  const Vec3f center = bounds_.is_empty() ? Vec3f::Zero().eval() : bounds_.center();
-  ground_.use();
-  ground_.set("camera", camera);
-  ground_.set("center", Vec3f(center.x(), center.y(), options.ground_height));
-  ground_.set("extent", std::max(12 * bounds_.radius(), 1.0F));
-  ground_.set("tone", Vec3f(0.86F * background));
-  ground_.set("background", background);
-  ground_.set("rings", ground_rings);
-  ground_.set("sectors", ground_sectors);
-  glBindVertexArray(empty_array_.id());
-  glEnable(GL_DEPTH_CLAMP);  // it goes on in front of what the camera is made for
-  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 2 * (ground_sectors + 1), ground_rings);
-  glDisable(GL_DEPTH_CLAMP);
-}
-
-void Renderer::lay_shadow(const ShadowArea& area, float height, const Mat4f& camera) const {
-  shadow_.use();
-  shadow_.set("camera", camera);
-  shadow_.set("middle", area.middle);
-  shadow_.set("reach", area.reach);
-  shadow_.set("height", height);
-  shadow_.set("darkness", shadow_darkness);
-  shadow_.set("mask", 0);
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, mask_.id());
-  glBindVertexArray(empty_array_.id());
-  glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+  const ShadowArea area{flat.center().head<2>(), ((flat.high - flat.low) / 2).head<2>()};
+  return floor_shadow_.draw(to_floor, light, area, quality != pliant::Quality::low,
+                            {[this] { mesh_.draw_ropes(); }, [this] { mesh_.draw_triangles(); },
+                             [&](const Program& program) { colliders_.draw_triangles(program, to_floor); }});
 }
 
 float Renderer::nearest_pixel(const DrawOptions& options) const {

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "render/collider_painter.h"
+#include "render/floor_shadow.h"
 #include "render/gl_objects.h"
 #include "render/mesh_buffers.h"
 #include "render/pass_clock.h"
@@ -45,7 +46,7 @@ class Renderer {
 
  private:
   /// Both of space: from it to the frame of the floor, and where light comes from.
-  ShadowArea draw_shadow(const Mat4f& to_floor, const Vec3f& light);
+  ShadowArea draw_shadow(const Mat4f& to_floor, const Vec3f& light, pliant::Quality quality);
   Projection projection(const DrawOptions& options) const;
   void draw_light_maps(const pliant::ViewSettings& appearance, const DrawOptions& options);
   PictureArea area_of(const DrawOptions& options, float reach) const;
@@ -54,12 +55,7 @@ class Renderer {
   /// width: in the picture that is drawn [pixels]
   void draw_rope_depths(const DrawOptions& options, float width) const;
   void go_to_picture(GLuint target) const;
-  void draw_floor(const pliant::ViewSettings& appearance, const DrawOptions& options, const Mat4f& camera,
-                  GLuint target);
   void draw_planes(const pliant::ViewSettings& appearance, const DrawOptions& options, GLuint target);
-  void blur(const Texture& from, const Framebuffer& to, const Vec2f& step) const;
-  void draw_ground(const pliant::ViewSettings& appearance, const DrawOptions& options, const Mat4f& camera) const;
-  void lay_shadow(const ShadowArea& area, float height, const Mat4f& camera) const;
   void draw_surface(const pliant::ViewSettings& appearance, const DrawOptions& options, const Mat4f& camera);
   /// What a pixel shows of the nearest body, across [m]; 0: the camera is among them.
   float nearest_pixel(const DrawOptions& options) const;
@@ -80,11 +76,11 @@ class Renderer {
   pliant::ColorBy map_of_ = pliant::ColorBy::none;
   GLsizei marker_count_ = 0, selected_count_ = 0;
   SurfacePrograms surface_programs_;
-  Program line_, marker_, flatten_, flatten_ropes_, blur_, ground_, shadow_;
+  Program line_, marker_;
+  FloorShadow floor_shadow_;
   VertexArray markers_array_, selected_array_, empty_array_;
   Buffer markers_, selected_;
-  Texture map_, mask_, half_blurred_;
-  Framebuffer mask_target_, half_blurred_target_;
+  Texture map_;
 };
 
 }  // namespace pliant_render

@@ -107,8 +107,7 @@ SceneLight::SceneLight()
       rope_screen_depth_(shaders::depth_vertex, shaders::line_geometry, shaders::rope_screen_depth_fragment),
       occlusion_(shaders::screen_vertex, "", shaders::reading_depths(shaders::occlusion_fragment)),
       occlusion_blur_(shaders::screen_vertex, "", shaders::occlusion_blur_fragment),
-      screen_light_program_(shaders::screen_vertex, "", shaders::reading_depths(shaders::screen_light_fragment)),
-      floors_(shaders::screen_vertex, "", shaders::occlusion_floor_fragment) {
+      screen_light_program_(shaders::screen_vertex, "", shaders::reading_depths(shaders::screen_light_fragment)) {
   set_up(shadow_map_, shadow_target_, GL_DEPTH_COMPONENT32F, shadow_map_size, shadow_map_size);
   glDrawBuffer(GL_NONE);
   glReadBuffer(GL_NONE);
@@ -122,8 +121,9 @@ SceneLight::SceneLight()
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
-void SceneLight::begin(const Vec3f& eye, const Vec3f& to_light) {
+void SceneLight::begin(const Vec3f& eye, const Vec3f& to_light, float pixel) {
   eye_ = eye;
+  pixel_ = static_cast<int>(std::lround(pixel));
   to_light_ = to_light;
   has_shadows_ = has_occlusion_ = false;
 }
@@ -209,11 +209,18 @@ void SceneLight::find_occlusion(const Mat4f& projection, float reach) const {
   occlusion_.set("reach", reach);
   occlusion_.set("pixels", projection(1, 1) * static_cast<float>(height_) / 4);
   draw_screen(empty_array_);
-  begin_screen(share_target_, size, area_);
-  bind(GL_TEXTURE0, raw_);
   occlusion_blur_.use();
   occlusion_blur_.set("occlusion", 0);
-  draw_screen(empty_array_);
+  const auto blur = [&](const Texture& from, const Framebuffer& to, int side, int corner) {
+    begin_screen(to, size, area_);
+    bind(GL_TEXTURE0, from);
+    occlusion_blur_.set("side", side);
+    occlusion_blur_.set("corner", corner);
+    draw_screen(empty_array_);
+  };
+  // The mean over squares has steps where what is seen changes; those of four neighbors are smoother.
+  blur(raw_, share_target_, 4, -2);
+  blur(shares_, raw_target_, 2, 0);
   glDisable(GL_SCISSOR_TEST);
 }
 
@@ -226,7 +233,7 @@ void SceneLight::find_screen_light(const Mat4f& projection, const Mat4f& view) c
   program.set("occlusion", 2);
   bind(GL_TEXTURE0, depths_);
   bind(GL_TEXTURE1, shadow_map_);
-  bind(GL_TEXTURE2, shares_);
+  bind(GL_TEXTURE2, raw_);
   set_lens(program, projection);
   program.set("normals", 3);
   bind(GL_TEXTURE3, normals_);
@@ -239,17 +246,16 @@ void SceneLight::find_screen_light(const Mat4f& projection, const Mat4f& view) c
   glDisable(GL_SCISSOR_TEST);
 }
 
-void SceneLight::shade_floors(const Vec2f& picture) const {
-  if (!has_occlusion_) return;
-  limit_to(area_, picture);
-  floors_.use();
-  floors_.set("screen_light", 0);
-  bind(GL_TEXTURE0, screen_light_);
-  draw_screen(empty_array_);
-  glDisable(GL_SCISSOR_TEST);
+void SceneLight::set_floor(const Program& program, const Vec2f& picture) const {
+  program.set("pixel", pixel_);
+  program.set("screen_light", 1);
+  program.set("to_screen", Vec2f(picture.cwiseInverse()));
+  bind(GL_TEXTURE1, screen_light_);
+  glActiveTexture(GL_TEXTURE0);
 }
 
 void SceneLight::set(const Program& program) const {
+  program.set("pixel", pixel_);
   program.set("eye", eye_);
   program.set("light", to_light_);
   program.set("screen_light", 1);

@@ -21,8 +21,9 @@ class SceneLight {
   /// Needs a current OpenGL context, as do all members.
   SceneLight();
 
-  /// Takes all light as unhindered, until the maps below are drawn anew.
-  void begin(const Vec3f& eye, const Vec3f& to_light);
+  /// Takes all light as unhindered, until the maps below are drawn anew. pixel: drawn for one of the picture, along a
+  /// side.
+  void begin(const Vec3f& eye, const Vec3f& to_light, float pixel);
   /// Draws the shadow map of what lies in the box. setback: of colliders [m].
   void draw_shadow_map(const Bounds& bounds, float setback, const DrawDepths& draw);
   /// Draws the depths of the picture, and from them which share of the sky and of the key light each point sees: call
@@ -37,8 +38,6 @@ class SceneLight {
   /// from others in a picture.
   void draw_screen_light(const Viewpoint& viewpoint, const ScreenLook& look, const std::function<void()>& draw,
                          const std::function<void()>& draw_thin);
-  /// Darkens floors where they see less of the sky, over the bound framebuffer.
-  void shade_floors(const Vec2f& picture) const;
 
   /// A square with sides of 2 in the plane z = 0 of this frame, with the program of depths.
   void draw_square(const Mat4f& place) const;
@@ -50,6 +49,9 @@ class SceneLight {
   bool has_occlusion() const { return has_occlusion_; }
   /// Sets the uniforms of shaders::lighting in a program that is in use, and binds textures 1 and 2.
   void set(const Program& program) const;
+  /// Sets those of shaders::plane_fragment that tell what it sees of the sky, and binds texture 1. picture: its size
+  /// [pixels].
+  void set_floor(const Program& program, const Vec2f& picture) const;
 
  private:
   void find_occlusion(const Mat4f& projection, float reach) const;
@@ -59,12 +61,12 @@ class SceneLight {
   Vec3f eye_ = Vec3f::Zero(), to_light_ = Vec3f::UnitZ();
   bool has_shadows_ = false, has_occlusion_ = false;
   Mat4f to_shadow_map_ = Mat4f::Identity();
-  float texel_ = 1;             // of the shadow map [m]
+  float texel_ = 1;  // of the shadow map [m]
+  int pixel_ = 1;
   int width_ = 0, height_ = 0;  // of the depths [pixels]; what is seen of the sky is found at half of that
   Vec2f screen_scale_ = {1, 1};
   PictureArea area_;
-  Program depth_, rope_depth_, screen_depth_, rope_screen_depth_, occlusion_, occlusion_blur_, screen_light_program_,
-      floors_;
+  Program depth_, rope_depth_, screen_depth_, rope_screen_depth_, occlusion_, occlusion_blur_, screen_light_program_;
   const Program* depth_in_use_ = &depth_;
   Texture shadow_map_, depths_, normals_, raw_, shares_, screen_light_;
   Framebuffer shadow_target_, depth_target_, raw_target_, share_target_, screen_target_;

@@ -35,6 +35,7 @@ in float value_here;
 flat in vec4 front_here, back_here, second_here;
 flat in float threads_here;
 uniform vec3 held;
+uniform int held_finish;  // of colliders
 uniform vec3 fronts[7], backs[7];  // of body_tones
 uniform float low, high;
 uniform sampler2D colors, picture;
@@ -96,7 +97,7 @@ void main() {
   if (!gl_FrontFacing) n = -n;
   vec2 here = has_picture || has_weave ? laid(in_pattern_here) : vec2(0);
   vec3 tone = held;
-  int finish = is_solid ? 2 : int(255.0 * second_here.a + 0.5);
+  int finish = is_solid ? held_finish : int(255.0 * second_here.a + 0.5);
   if (is_colored) {
     finish = min(finish, 2);  // what reflects would change what colors tell
     float place = clamp((value_here - low) / (high - low), 0.002, 0.998);
@@ -108,7 +109,7 @@ void main() {
     tone = gl_FrontFacing ? fronts[number] : backs[number];
   }
   if (has_weave && threads_here > 0.0) tone *= weave(threads_here * here, n);
-  color = vec4(lit(tone, point_here, n, finish), 1);
+  color = vec4(dithered(lit(tone, point_here, n, finish)), 1);
 })";
 
 const std::string_view solid_vertex = R"(#version 330 core
@@ -315,120 +316,5 @@ void main() {
   float core = clamp(core_radius + 0.5 - distance, 0.0, 1.0);
   color = vec4(mix(vec3(0.13, 0.15, 0.18), tone, core), inside);
 })";
-
-const std::string_view flatten_vertex = R"(#version 330 core
-layout(location = 0) in vec3 position;
-uniform mat4 place;  // to the frame of the floor, where the light is given too
-uniform vec3 light;
-uniform vec2 middle, reach;
-out float value_at;  // as line_geometry takes it
-out vec4 front_at;
-out vec3 place_at;
-void main() {
-  value_at = 0.0;
-  front_at = vec4(0);
-  place_at = vec3(0);
-  vec3 p = (place * vec4(position, 1)).xyz;
-  p -= light * (max(p.z, 0.0) / light.z);
-  gl_Position = vec4((p.xy - middle) / reach, 0, 1);
-})";
-
-const std::string_view flatten_fragment = R"(#version 330 core
-out vec4 color;
-void main() { color = vec4(1); })";
-
-const std::string_view screen_vertex = R"(#version 330 core
-out vec2 place;
-void main() {
-  place = vec2(gl_VertexID & 1, gl_VertexID >> 1);
-  gl_Position = vec4(4.0 * place - 1.0, 0, 1);
-  place *= 2.0;
-})";
-
-const std::string_view blur_fragment = R"(#version 330 core
-in vec2 place;
-uniform sampler2D mask;
-uniform vec2 step_size;
-out vec4 color;
-void main() {
-  // Seven of a bell's values, in pairs: a place between two texels has both.
-  const float weights[3] = float[](0.2623, 0.1234, 0.0351);
-  const float places[3] = float[](1.4415, 3.3661, 5.3638);
-  float sum = 0.1585 * textureLod(mask, place, 0.0).r;
-  for (int i = 0; i < 3; ++i) {
-    vec2 aside = places[i] * step_size;
-    sum += weights[i] * (textureLod(mask, place + aside, 0.0).r + textureLod(mask, place - aside, 0.0).r);
-  }
-  color = vec4(sum, 0, 0, 1);
-})";
-
-// Rings about the center, of which the outer ones are wider; their tones are found at the vertices, since most of a
-// picture is ground.
-const std::string_view ground_vertex = R"(#version 330 core
-uniform mat4 camera;
-uniform vec3 center, tone, background;
-uniform float extent;
-uniform int rings, sectors;
-out vec3 tone_here;
-void main() {
-  float far = float(gl_InstanceID + (gl_VertexID & 1)) / float(rings);
-  far *= far;
-  float angle = 6.2831853 * float(gl_VertexID >> 1) / float(sectors);
-  tone_here = mix(tone, background, smoothstep(0.12, 1.0, far));
-  gl_Position = camera * vec4(center.xy + extent * far * vec2(cos(angle), sin(angle)), center.z, 1);
-})";
-
-const std::string_view ground_fragment = R"(#version 330 core
-in vec3 tone_here;
-out vec4 color;
-void main() { color = vec4(tone_here, 1); })";
-
-// As the ground, but anywhere, and so that what is behind shows where it fades.
-const std::string_view plane_vertex = R"(#version 330 core
-uniform mat4 camera, place;
-uniform vec3 center;
-uniform float extent, setback;
-uniform int rings, sectors;
-out vec2 on_plane;
-out float opacity;
-void main() {
-  float far = float(gl_InstanceID + (gl_VertexID & 1)) / float(rings);
-  far *= far;
-  float angle = 6.2831853 * float(gl_VertexID >> 1) / float(sectors);
-  on_plane = center.xy + extent * far * vec2(cos(angle), sin(angle));
-  opacity = 1.0 - smoothstep(0.12, 1.0, far);
-  gl_Position = camera * (place * vec4(on_plane, 0, 1));
-  gl_Position.z += setback * gl_Position.w;
-})";
-
-const std::string_view plane_fragment = R"(#version 330 core
-in vec2 on_plane;
-in float opacity;
-uniform vec3 tone;
-uniform vec2 middle, reach;
-uniform float darkness;
-uniform sampler2D mask;
-out vec4 color;
-void main() {
-  float shadow = darkness * textureLod(mask, (on_plane - middle) / reach / 2.0 + 0.5, 0.0).r;
-  color = vec4((1.0 - shadow) * tone, opacity);
-})";
-
-const std::string_view shadow_vertex = R"(#version 330 core
-uniform mat4 camera;
-uniform vec2 middle, reach;
-uniform float height;
-out vec2 place;
-void main() {
-  place = vec2(gl_VertexID & 1, gl_VertexID >> 1);
-  gl_Position = camera * vec4(middle + reach * (2.0 * place - 1.0), height, 1);
-})";
-
-const std::string_view shadow_fragment = R"(#version 330 core
-in vec2 place;
-uniform float darkness;
-uniform sampler2D mask;
-out vec4 color;
-void main() { color = vec4(0, 0, 0, darkness * textureLod(mask, place, 0.0).r); })";
 
 }  // namespace pliant_render::shaders

@@ -12,6 +12,7 @@ extern const std::string_view flat_vertex;
 extern const std::string_view flat_geometry;
 
 // How light falls on surfaces: behind the head of a fragment program, see head_of, and before its own part.
+extern const std::string_view dithering;
 extern const std::string_view lighting;
 extern const std::string_view depth_vertex;
 extern const std::string_view depth_fragment;
@@ -22,7 +23,6 @@ extern const std::string_view depth_reading;
 extern const std::string_view occlusion_fragment;
 extern const std::string_view occlusion_blur_fragment;
 extern const std::string_view screen_light_fragment;
-extern const std::string_view occlusion_floor_fragment;
 inline std::string reading_depths(std::string_view fragment) {
   return std::string(depth_reading).append(fragment);
 }
@@ -40,16 +40,14 @@ extern const std::string_view flatten_vertex;
 extern const std::string_view flatten_fragment;
 extern const std::string_view screen_vertex;
 extern const std::string_view blur_fragment;
+extern const std::string_view combine_fragment;
 
-// The ground, which fades into the background.
-extern const std::string_view ground_vertex;
-extern const std::string_view ground_fragment;
-extern const std::string_view shadow_vertex;
-extern const std::string_view shadow_fragment;
-
-// Colliders: solids, and planes with the shadow on them.
+// Colliders that are solids, and planes with the shadow on them, as the ground is one.
 extern const std::string_view solid_vertex;
 extern const std::string_view plane_vertex;
 extern const std::string_view plane_fragment;
+
+// From samples to the pixels of a picture, behind constants: see RenderTarget.
+extern const std::string_view resolve_fragment;
 
 }  // namespace pliant_render::shaders

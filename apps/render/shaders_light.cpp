@@ -3,6 +3,18 @@
 
 namespace pliant_render::shaders {
 
+// Colors are rounded to bytes; before that they are moved by less than half a step up or down, in a pattern of 4 by 4
+// pixels of the picture, so that slow gradients have no bands. What is a byte to begin with stays as it is.
+const std::string_view dithering = R"(
+uniform int pixel;  // drawn for one of the picture, along a side
+
+vec3 dithered(vec3 color) {
+  const float order[16] = float[](0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5);
+  ivec2 at = (ivec2(gl_FragCoord.xy) / pixel) & 3;
+  return color + (order[at.x + 4 * at.y] - 7.5) * (0.05 / 255.0);
+}
+)";
+
 // Put before the fragment programs of surfaces, behind the constants of SurfaceTraits. Light is added up in linear
 // light, and rolls off where a tone would be brighter than white; a tone in full light comes out about as it was given.
 const std::string_view lighting = R"(
@@ -182,13 +194,14 @@ void main() {
 // The directions looked at differ in squares of 4 by 4 pixels, over which this takes the mean of one surface.
 const std::string_view occlusion_blur_fragment = R"(#version 330 core
 uniform sampler2D occlusion;
+uniform int side, corner;  // of the square [pixels], and where it begins, beside the pixel
 out vec4 color;
 void main() {
   ivec2 at = ivec2(gl_FragCoord.xy), last = textureSize(occlusion, 0) - 1;
   float depth = texelFetch(occlusion, at, 0).g, sum = 0.0, weights = 0.0;
-  for (int y = -2; y < 2; ++y) {
-    for (int x = -2; x < 2; ++x) {
-      vec2 seen = texelFetch(occlusion, clamp(at + ivec2(x, y), ivec2(0), last), 0).rg;
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x) {
+      vec2 seen = texelFetch(occlusion, clamp(at + corner + ivec2(x, y), ivec2(0), last), 0).rg;
       float weight = max(1e-3, 1.0 - 12.0 * abs(seen.g / depth - 1.0));
       sum += weight * seen.r;
       weights += weight;
@@ -255,11 +268,18 @@ void main() {
   color.b = key_share(here, view * normalize(2.0 * normal.xyz - 1.0), has_shadows != 0 && normal.a > 0.5);
 })";
 
-// Over floors, before anything stands on them.
-const std::string_view occlusion_floor_fragment = R"(#version 330 core
-in vec2 place;
-uniform sampler2D screen_light;
+// The mean of all samples of a pixel.
+const std::string_view resolve_fragment = R"(
+uniform SAMPLER picture;
 out vec4 color;
-void main() { color = vec4(0, 0, 0, 0.7 * (1.0 - textureLod(screen_light, place, 0.0).r)); })";
+void main() {
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  vec3 sum = vec3(0);
+  for (int i = 0; i < factor * factor; ++i) {
+    ivec2 from = factor * at + ivec2(i % factor, i / factor);
+    for (int j = 0; j < samples; ++j) sum += texelFetch(picture, from, j).rgb;
+  }
+  color = vec4(sum / float(factor * factor * samples), 1);
+})";
 
 }  // namespace pliant_render::shaders

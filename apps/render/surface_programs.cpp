@@ -42,6 +42,7 @@ const Program& SurfacePrograms::of(const SurfaceTraits& traits) {
   std::unique_ptr<Program>& program = programs_[traits];
   if (program == nullptr) {
     const std::string fragment = head_of(traits)
+                                     .append(shaders::dithering)
                                      .append(shaders::lighting)
                                      .append(traits.is_rope ? shaders::rope_fragment : shaders::surface_fragment);
     if (traits.is_rope) {

@@ -96,6 +96,7 @@ Scene copy_of(const Scene& scene) {
   copy.files = scene.files;
   copy.materials = scene.materials;
   copy.appearances = scene.appearances;
+  copy.collider_appearances = scene.collider_appearances;
   copy.own_materials = scene.own_materials;
   copy.group_names = scene.group_names;
   copy.collider_names = scene.collider_names;
@@ -118,6 +119,7 @@ void take_run(const Scene& from, Scene& to) {
   to.output = from.output;
   to.view = from.view;
   to.appearances = from.appearances;
+  to.collider_appearances = from.collider_appearances;
 }
 
 }  // namespace

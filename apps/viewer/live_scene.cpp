@@ -39,7 +39,8 @@ pliant_render::VertexLook look_of_factor(Real factor, bool has_surface) {
 pliant_render::BodyLooks looks_of(const Session& session, const std::string& painted) {
   const pliant::Simulation& simulation = session.simulation();
   const pliant::Scene& scene = session.scene();
-  pliant_render::BodyLooks looks = pliant_render::body_looks(simulation.bodies(), scene.appearances, scene.materials);
+  pliant_render::BodyLooks looks =
+      pliant_render::body_looks(simulation.bodies(), scene.appearances, scene.materials, scene.collider_appearances);
   const auto id = painted.empty() ? std::nullopt : simulation.find_group(painted);
   if (!id) return looks;
   looks.vertices.resize(static_cast<std::size_t>(simulation.state().vertex_count()));

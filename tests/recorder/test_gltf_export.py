@@ -135,7 +135,7 @@ class GltfExport(ExportCase):
             numpy.testing.assert_array_equal(gltf.accessor(own["NORMAL"]), -gltf.accessor(other["NORMAL"]))
         (self.folder / "two/checkpoint.pliant").write_bytes(b"x")
         done = self.pliant("convert", "two", "two.glb", "--tolerance", 0.01)
-        self.assertIn("warning: the colors that the scene gives its bodies are not known: ", done.stderr)
+        self.assertIn("warning: the colors that the scene gives its bodies and colliders are not known: ", done.stderr)
         self.assertEqual(len(Gltf(self.folder / "two.glb").json["materials"]), 5)
         dressed = ('--set=bodies[bar].appearance={"front": "#ff0000", "back": "#00ff00"}',
                    '--set=bodies[rope].appearance={"front": "#0000ff"}')

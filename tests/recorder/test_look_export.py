@@ -326,6 +326,32 @@ class LookExport(ExportCase):
         self.assertIn("the picture is broken", self.done.stderr)
         self.assertNotIn("images", gltf.json)
 
+    def test_colliders(self):
+        scene = {"pliant": 1, "steps": 1, "bodies": [{"name": "sheet", "mesh": SHEET, "mass": {"total": 1}}], "colliders": [
+            {"type": "sphere", "name": "ball", "center": [0, 0, -3], "appearance": {"front": "#ff0000", "finish": "metal"}},
+            {"type": "box", "name": "box", "center": [2, 0, -3], "appearance": {"finish": "glossy"}},
+            {"type": "box", "name": "plain", "center": [4, 0, -3]}]}
+        (self.folder / "colliders.json").write_text(json.dumps(scene))
+        self.pliant("run", "colliders.json", "--out", "colliders")
+        gltf, root = self.gltf("colliders.glb", source="colliders"), self.usd("colliders.usda", source="colliders")
+        neutral = [((share + 0.055) / 1.055) ** 2.4 for share in (0.60, 0.65, 0.71)]
+        for name, color, metal, roughness in (("ball", [1, 0, 0], 1, 0.35), ("box", neutral, 0, 0.35), ("plain", neutral, 0, 0.8)):
+            with self.subTest(name):
+                material = self.material(gltf, name)
+                numpy.testing.assert_allclose(material["baseColorFactor"], [*color, 1], atol=5e-3)
+                self.assertEqual((material["metallicFactor"], material["roughnessFactor"]), (metal, roughness))
+                mesh = root.find(name, "mesh")
+                numpy.testing.assert_allclose(mesh.attributes["primvars:displayColor"], [color], atol=5e-3)
+                self.assertEqual("look" in root.find(name).children, name != "plain")
+                if name == "plain":
+                    continue
+                self.assertEqual(mesh.attributes["material:binding"], f"/colliders/{name}/look")
+                self.assertEqual(mesh.metadata["apiSchemas"], ["MaterialBindingAPI"])
+                surface = root.find(name, "look", "surface").attributes
+                numpy.testing.assert_allclose(surface["inputs:diffuseColor"], color, atol=5e-3)
+                self.assertEqual((surface["inputs:metallic"], surface["inputs:roughness"]), (metal, roughness))
+        self.assertEqual(self.done.stderr, "")
+
     def test_a_run_that_was_moved_without_its_texture(self):
         before = self.folder / "before"
         before.mkdir()

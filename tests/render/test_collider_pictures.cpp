@@ -23,6 +23,7 @@ using Rgb = std::array<int, 3>;
 struct Stage {
   pliant::Simulation simulation;
   PictureOptions options;
+  std::map<std::string, pliant::ColliderAppearance, std::less<>> looks;
 
   Stage() {
     pliant::Mesh mesh = pliant::grid({.columns = 5, .rows = 5, .size = {0.2, 0.2}});
@@ -44,7 +45,9 @@ struct Stage {
   std::optional<Image> draw() {
     try {
       options.bounds = bounds_of(frame());
-      PictureMaker maker(make_render_mesh(simulation.bodies()), options);
+      RenderMesh mesh = make_render_mesh(simulation.bodies());
+      mesh.looks = body_looks(simulation.bodies(), {}, {}, looks);
+      PictureMaker maker(std::move(mesh), options);
       return maker.draw(frame(), {});
     } catch (const pliant::Error& error) {
       MESSAGE("skipped: ", std::string(error.what()));
@@ -144,6 +147,53 @@ TEST_CASE("a plane is drawn in place of the ground, with a shadow, and not from 
   CHECK(darker > 50);  // behind the square
   CHECK(darker < 2000);
   CHECK(from_below->pixels == bare_from_below->pixels);
+}
+
+TEST_CASE("colliders have their own colors and finishes, spheres as well as planes, others stay neutral") {
+  Stage stage;
+  stage.simulation.add(pliant::SphereCollider{.center = {0.6, 0, 0.3}, .radius = 0.3}, "ball");
+  stage.simulation.add(pliant::SphereCollider{.center = {-0.6, 0, 0.3}, .radius = 0.3}, "other");
+  stage.simulation.add(pliant::PlaneCollider{.position = {0, 0, -0.3}}, "floor");
+  stage.options.appearance.camera.position = Vec3(0, -3, 1);
+  stage.options.appearance.camera.target = Vec3(0, 0, 0);
+  const std::optional<Image> plain = stage.draw();
+  stage.looks = {{"ball", {.front = pliant::Color{0.1, 0.7, 0.2}}}, {"floor", {.front = pliant::Color{0.7, 0.5, 0.2}}}};
+  const std::optional<Image> colored = stage.draw();
+  stage.looks["ball"].finish = pliant::Finish::metal;
+  const std::optional<Image> of_metal = stage.draw();
+  if (!plain) return;
+  const Rgb green = at(*colored, 0.6, 0.3);
+  CHECK(green[1] > 2 * green[0]);
+  CHECK(green[1] > green[2] + 50);
+  CHECK(at(*colored, -0.6, 0.3) == at(*plain, -0.6, 0.3));
+  CHECK(is_neutral(at(*colored, -0.6, 0.3)));
+  const Rgb wood = at(*colored, 0, -0.6);
+  CHECK(std::abs(wood[0] - 178) < 12);  // in full light as it was given
+  CHECK(std::abs(wood[1] - 127) < 12);
+  CHECK(std::abs(wood[2] - 51) < 12);
+  CHECK(distance(at(*of_metal, 0.6, 0.3), green) > 40);
+  CHECK(at(*of_metal, -0.6, 0.3) == at(*plain, -0.6, 0.3));
+}
+
+TEST_CASE("looks of colliders reach the frames of a scene and of its recorded run") {
+  const auto make = [] {
+    return pliant::parse_scene(R"({"pliant": 1, "steps": 1, "gravity": null,
+      "bodies": [{"mesh": {"shape": "grid", "columns": 3, "rows": 3}, "mass": {"total": 1},
+        "constraints": [{"type": "edge_spring", "stiffness": 1}]}],
+      "colliders": [{"type": "sphere", "name": "ball", "center": [0, 0, 9], "appearance": {"front": "#ff0000"}}]})",
+                               {}, "s.json");
+  };
+  pliant::Scene live = make();
+  const Clip clip = clip_from_scene(live, 1, [](std::int64_t) { return true; });
+  REQUIRE(clip.render_mesh.looks.colliders.size() == 1);
+  CHECK(clip.render_mesh.looks.colliders.at("ball").tone == Vec3f(1, 0, 0));
+  CHECK(clip.frames[0].content.colliders.at(0).name == "ball");
+  const std::vector<pliant::Positions> frames = {live.simulation.state().positions};
+  const std::vector<pliant::Real> times = {0};
+  const pliant::Animation animation = pliant::animate(live.simulation.body(pliant::BodyId{0}).mesh, "run",
+                                                      pliant::PointCache::from_frames(frames, times));
+  const RunFrames run(animation, annotate_run(make(), animation));
+  CHECK(run.render_mesh().looks.colliders == clip.render_mesh.looks.colliders);
 }
 
 TEST_CASE("the camera takes colliders into the picture, but for what has no end or dwarfs the bodies") {

@@ -200,7 +200,35 @@ TEST_CASE("colliders and contact of included scenes: lists are joined, settings 
   CHECK(scene.simulation.options<BoxCollider>(id(scene.simulation, "box"))->size == Vec3(1, 2, 3));
 }
 
+TEST_CASE("colliders of a scene, and those that events add, have an appearance of their own") {
+  const Scene scene = scene_with(
+      R"({"step": 1, "add": {"type": "box", "name": "crate", "center": [9, 0, 0], "appearance": {"finish": "metal"}}})",
+      R"("colliders": [{"type": "sphere", "name": "ball", "center": [0, 0, -3], "appearance":
+           {"front": "#ff8000", "finish": "glossy"}}, {"type": "plane", "position": [0, 0, -4]}],)");
+  REQUIRE(scene.collider_appearances.size() == 2);
+  const ColliderAppearance& ball = scene.collider_appearances.at("ball");
+  REQUIRE(ball.front);
+  CHECK(ball.front->red == 1);
+  CHECK(ball.front->green == doctest::Approx(128.0 / 255));
+  CHECK(ball.front->blue == 0);
+  CHECK(ball.finish == Finish::glossy);
+  CHECK(scene.collider_appearances.at("crate") == ColliderAppearance{{}, Finish::metal});
+}
+
 TEST_CASE("what is wrong with a collider is said with its place") {
+  const auto check_look = [](const std::string& appearance, const std::string& start) {
+    check_refused("", R"("colliders": [{"type": "sphere", "appearance": )" + appearance + "}],",
+                  "colliders[0].appearance" + start);
+  };
+  check_look(R"({"frnt": "#102030"})", ".frnt: unknown key; did you mean 'front'?");
+  check_look(R"({"texture": "wood.png"})", ".texture: unknown key;");
+  check_look(R"({"front": "brown"})", ".front: ");
+  check_look(R"({"finish": "shiny"})", ".finish: ");
+  check_look(R"("#102030")", ": ");
+  check_refused(R"({"step": 1, "add": {"type": "sphere", "appearance": {"front": [2, 0, 0]}}})", ball_and_floor,
+                "events[0].add.appearance.front");
+  check_refused(R"({"step": 1, "change": "ball", "appearance": {"front": "#102030"}})", ball_and_floor,
+                "events[0].appearance: unknown key;");
   check_refused("", R"("colliders": [{"type": "spher"}],)",
                 "colliders[0].type: unknown collider 'spher'; did you mean 'sphere'? (known: plane, sphere, capsule, ");
   check_refused("", R"("colliders": [{"type": "sphere", "radius": 0}],)", "colliders[0].radius: 0 is out of range;");

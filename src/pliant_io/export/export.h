@@ -3,6 +3,7 @@
 #include <array>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -80,6 +81,8 @@ struct ExportOptions {
   /// Of glTF and USD, of the first bodies in turn; where the two sides differ, each has triangles of its own in glTF,
   /// and USD has the front's. None: in glTF a muted color for each body, in USD the reader's.
   std::vector<std::optional<SurfaceLook>> looks = {};
+  /// Of glTF and USD, by the names of colliders, of which the front counts. Others are a dull gray blue.
+  std::map<std::string, SurfaceLook, std::less<>> collider_looks = {};
   /// Of pvd: what vertices have beside positions in a frame, given by its index. Called for one frame after the other.
   /// Default: nothing.
   std::function<std::vector<VertexValues>(std::size_t frame)> values = {};

@@ -37,7 +37,11 @@ std::vector<Index> turned(std::vector<Index> triangles) {
 class GltfExport {
  public:
   GltfExport(const Animation& animation, const std::vector<std::size_t>& frames, const ExportOptions& options)
-      : animation_(animation), frames_(frames), normals_(options.normals), looks_(options.looks) {
+      : animation_(animation),
+        frames_(frames),
+        normals_(options.normals),
+        looks_(options.looks),
+        collider_looks_(options.collider_looks) {
     for (std::size_t body = 0; body < animation.bodies.size(); ++body) add_body(body);
     for (const AnimatedCollider& collider : animation.colliders) add_collider(collider);
     add_animation();
@@ -126,6 +130,19 @@ class GltfExport {
     return known->second;
   }
 
+  /// The same of colliders, and one for all that have no look of their own.
+  std::size_t material_of(const AnimatedCollider& collider) {
+    const auto look = collider_looks_.find(collider.name);
+    if (look != collider_looks_.end()) {
+      return material_of({look->second.front.color, nullptr}, look->second.finish.value_or(SurfaceFinish{}),
+                         Sides::both);
+    }
+    if (!collider_material_) {
+      collider_material_ = document_.add("materials", gltf_material({collider_light}, Sides::both));
+    }
+    return *collider_material_;
+  }
+
   /// Pictures of the same bytes are there once.
   std::size_t texture_of(const SurfaceImage& image) {
     const auto [known, is_new] = textures_.try_emplace(image.bytes);
@@ -171,12 +188,10 @@ class GltfExport {
       positions.push_back(y_up(single_precision(corners.positions, static_cast<Index>(i))));
       normals.push_back(y_up(corners.normals.row(i).transpose().cast<float>().normalized()));
     }
-    if (!collider_material_)
-      collider_material_ = document_.add("materials", gltf_material({collider_light}, Sides::both));
     OrderedJson attributes = {{"POSITION", document_.add_vectors(positions, true)}};
     if (normals_ == Normals::smooth) attributes["NORMAL"] = document_.add_vectors(normals, false);
     const OrderedJson primitive = {{"attributes", std::move(attributes)},
-                                   {"material", *collider_material_},
+                                   {"material", material_of(collider)},
                                    {"mode", static_cast<int>(Mode::triangles)},
                                    {"indices", document_.add_indices(corners.triangles)}};
     const std::size_t mesh = document_.add("meshes", {{"name", collider.name}, {"primitives", {primitive}}});
@@ -319,6 +334,7 @@ class GltfExport {
   const std::vector<std::size_t>& frames_;
   Normals normals_;
   const std::vector<std::optional<SurfaceLook>>& looks_;
+  const std::map<std::string, SurfaceLook, std::less<>>& collider_looks_;
   std::map<std::tuple<std::array<double, 3>, std::optional<std::size_t>, bool, Real, Sides>, std::size_t> materials_;
   std::map<std::string_view, std::size_t> textures_;  ///< by the bytes of their pictures
   std::optional<std::size_t> collider_material_;

@@ -63,6 +63,7 @@ class UsdExport {
         animation_(animation),
         frames_(frames),
         looks_(options.looks),
+        collider_looks_(options.collider_looks),
         rate_(frame_rate(animation.times)) {
     constexpr Real rate_of_uneven_frames = 24;
     if (rate_ == 0) rate_ = rate_of_uneven_frames;
@@ -90,7 +91,7 @@ class UsdExport {
       look_ = i < looks_.size() ? looks_[i] : std::nullopt;
       write_body(animation_.bodies[i], root, bodies, sizes[i]);
     }
-    for (const AnimatedCollider& collider : animation_.colliders) write_collider(collider, bodies);
+    for (const AnimatedCollider& collider : animation_.colliders) write_collider(collider, root, bodies);
     text_.close();
   }
 
@@ -115,15 +116,7 @@ class UsdExport {
   /// `place` is the path of the body's prim.
   void write_mesh(const Body& body, const PolygonFaces& faces, const std::string& place) {
     const bool has_material = look_ && (look_->finish || look_->front.image);
-    if (has_material) {
-      text_.line("def Mesh \"mesh\" (");
-      text_.line("    prepend apiSchemas = [\"MaterialBindingAPI\"]");
-      text_.open(")");
-      text_.line(fmt::format("rel material:binding = <{}>", usd_material(place)));
-    } else {
-      text_.open("def Mesh \"mesh\"");
-    }
-    text_.line("uniform bool doubleSided = 1");
+    open_mesh(has_material ? usd_material(place) : "");
     std::vector<Index> counts;
     for (std::size_t f = 1; f < faces.offsets.size(); ++f) counts.push_back(faces.offsets[f] - faces.offsets[f - 1]);
     text_.line("int[] faceVertexCounts = " + indices_text(counts));
@@ -138,17 +131,39 @@ class UsdExport {
   }
 
   /// A rigid mesh under the transform of its prim.
-  void write_collider(const AnimatedCollider& collider, PrimNames& names) {
-    const Mesh& surface = collider.surface;
+  void write_collider(const AnimatedCollider& collider, const std::string& root, PrimNames& names) {
     const auto is_there = [&](Real time) { return collider.is_there(time); };
-    if (surface.triangles.empty() || std::ranges::none_of(animation_.times, is_there)) return;
-    text_.line(fmt::format("def Xform \"{}\" (", names.name(collider.name)));
+    if (collider.surface.triangles.empty() || std::ranges::none_of(animation_.times, is_there)) return;
+    const std::string name = names.name(collider.name);
+    text_.line(fmt::format("def Xform \"{}\" (", name));
     text_.line(fmt::format("    customData = {{ string name = {} }}", usd_string(collider.name)));
     text_.open(")");
     write_pose(collider);
     if (!std::ranges::all_of(animation_.times, is_there)) write_visibility(collider);
-    text_.open("def Mesh \"mesh\"");
+    const auto look = collider_looks_.find(collider.name);
+    const std::string place = fmt::format("/{}/{}", root, name);
+    open_mesh(look != collider_looks_.end() ? usd_material(place) : "");
+    write_surface(collider, look != collider_looks_.end() ? light_of(look->second.front.color) : collider_light);
+    text_.close();
+    if (look != collider_looks_.end()) write_usd_material(text_, place, look->second, "");
+    text_.close();
+  }
+
+  /// material: its path; empty: none.
+  void open_mesh(const std::string& material) {
+    if (material.empty()) {
+      text_.open("def Mesh \"mesh\"");
+    } else {
+      text_.line("def Mesh \"mesh\" (");
+      text_.line("    prepend apiSchemas = [\"MaterialBindingAPI\"]");
+      text_.open(")");
+      text_.line(fmt::format("rel material:binding = <{}>", material));
+    }
     text_.line("uniform bool doubleSided = 1");
+  }
+
+  void write_surface(const AnimatedCollider& collider, const std::array<double, 3>& light) {
+    const Mesh& surface = collider.surface;
     std::vector<Index> corners;
     for (const Triangle& triangle : surface.triangles) corners.insert(corners.end(), triangle.begin(), triangle.end());
     text_.line("int[] faceVertexCounts = " + indices_text(std::vector<Index>(surface.triangles.size(), 3)));
@@ -161,10 +176,8 @@ class UsdExport {
     text_.line("    interpolation = \"faceVarying\"");
     text_.line(")");
     text_.line("point3f[] points = " + list(points, append_point));
-    write_color(collider_light);
+    write_color(light);
     text_.line("uniform token subdivisionScheme = \"none\"");
-    text_.close();
-    text_.close();
   }
 
   void write_pose(const AnimatedCollider& collider) {
@@ -303,6 +316,7 @@ class UsdExport {
   const Animation& animation_;
   const std::vector<std::size_t>& frames_;
   const std::vector<std::optional<SurfaceLook>>& looks_;
+  const std::map<std::string, SurfaceLook, std::less<>>& collider_looks_;
   std::optional<SurfaceLook> look_;  ///< of the body that is being written
   Real rate_;
   Positions positions_;  ///< of the frame that is being written

@@ -1,5 +1,6 @@
 #pragma once
-// What a body looks like: its two sides, a pattern or a texture on them, and what its surface is like.
+// What a body looks like: its two sides, a pattern or a texture on them, and what its surface is like. And what a
+// collider does.
 #include <optional>
 #include <string>
 
@@ -74,6 +75,22 @@ struct BodyAppearance {
     field(OptionInfo{"weave", "m", "from thread to thread, which close-ups show; 0: none; default: of the material",
                      Range{0, 1}},
           self.weave);
+  }
+};
+
+/// Of a collider, with those keys of a body's that a shape without a rest state has.
+struct ColliderAppearance {
+  std::optional<Color> front{};       ///< none: the neutral gray blue of colliders, of a plane that of the ground
+  Finish finish = Finish::automatic;  ///< how the surface throws light back; automatic: matte. None of a plane's
+
+  bool operator==(const ColliderAppearance&) const = default;
+
+  template <class Self, class Visitor>
+  static void visit(Self& self, Visitor&& field) {
+    field(OptionInfo{"front", "", "its color; default: a neutral gray blue, and of a plane that of the ground"},
+          self.front);
+    field(OptionInfo{"finish", "", "`cloth`, `matte`, `glossy` or `metal`; `automatic`: matte. Planes are always dull"},
+          self.finish);
   }
 };
 

@@ -188,6 +188,7 @@ void read_simulation(const Node& root, bool leaves_out_events, Scene& scene) {
   reader.read_events(root);
   scene.materials = std::move(reader.material_of);
   scene.appearances = std::move(reader.appearance_of);
+  scene.collider_appearances = std::move(reader.collider_appearances);
   scene.places = std::move(reader.places);
   scene.implied_bodies = std::move(reader.implied_bodies);
   scene.disabled = std::move(reader.disabled);

@@ -56,10 +56,12 @@ struct Scene {
   std::vector<SceneFile> files;                  ///< of its meshes and maps, each once
   std::map<BodyId, Material> materials;          ///< of the bodies that are made of one
   std::map<BodyId, BodyAppearance> appearances;  ///< of the bodies that have one of their own
-  std::vector<Material> own_materials;           ///< those that the scene itself has, by name
-  std::vector<std::string> group_names;          ///< of the groups there are, and behind them those that events add
-  std::vector<std::string> collider_names;       ///< the same of colliders
-  bool has_surfaces = false;                     ///< whether surfaces touch at the start, or once an event has acted
+  /// By their names, of the colliders that have one of their own, at the start or once an event has added them.
+  std::map<std::string, ColliderAppearance, std::less<>> collider_appearances;
+  std::vector<Material> own_materials;      ///< those that the scene itself has, by name
+  std::vector<std::string> group_names;     ///< of the groups there are, and behind them those that events add
+  std::vector<std::string> collider_names;  ///< the same of colliders
+  bool has_surfaces = false;                ///< whether surfaces touch at the start, or once an event has acted
 
   /// Where in the scene as one document (scene_document.h) a group, a force or a collider of that name stands, and
   /// gravity: "bodies[0].constraints[1]". Those of materials and what events add have no such place.

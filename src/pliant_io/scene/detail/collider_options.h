@@ -11,7 +11,8 @@ using ColliderOptions = VariantOf<BuiltinColliders>::Type;
 
 /// Whether that is the type of a collider.
 bool is_collider_type(std::string_view type);
-/// The options of the type that the key "type" names; "name" and `more_keys` are known besides their own keys.
+/// The options of the type that the key "type" names; "name", "appearance" and `more_keys` are known besides their own
+/// keys.
 ColliderOptions read_collider_options(const Node& node, std::vector<std::string_view> more_keys = {});
 /// Takes the options that the object has into those there are; `more_keys` are known besides.
 void read_changed_collider(const Node& node, std::vector<std::string_view> more_keys, ColliderOptions& options);

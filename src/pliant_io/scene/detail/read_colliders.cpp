@@ -32,7 +32,7 @@ bool is_collider_type(std::string_view type) {
 }
 
 ColliderOptions read_collider_options(const Node& node, std::vector<std::string_view> more_keys) {
-  more_keys.insert(more_keys.end(), {"type", "name"});
+  more_keys.insert(more_keys.end(), {"type", "name", "appearance"});
   const Node type = node.require("type");
   std::string name;
   read(type, name);
@@ -94,10 +94,19 @@ std::vector<BodyId> SceneReader::read_ignored(const Node& names, BodyId id) cons
 void SceneReader::read_collider(const Node& node) {
   ColliderOptions options = read_collider_options(node, {"enabled"});
   const std::string name = own_name(node, type_of(options));
+  read_collider_appearance(node, name);
   places.emplace(name, entry);
   if (!is_enabled(node)) return disable_collider(type_of(options), name);
   node.locate([&] { add(simulation, options, name); });
   colliders.emplace(name, std::move(options));
+}
+
+void SceneReader::read_collider_appearance(const Node& collider, const std::string& name) {
+  const auto node = collider.find("appearance");
+  if (!node) return;
+  ColliderAppearance appearance;
+  read_options(*node, appearance);
+  collider_appearances.insert_or_assign(name, appearance);
 }
 
 }  // namespace pliant

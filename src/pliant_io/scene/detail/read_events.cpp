@@ -296,6 +296,7 @@ Timeline::Edit EventReader::read_add(const Node& value) {
   if (is_collider_type(text_of(type))) {
     const ColliderOptions collider = read_collider_options(value);
     const std::string name = scene_.own_name(value, type_of(collider));
+    scene_.read_collider_appearance(value, name);
     scene_.colliders.emplace(name, collider);
     scene_.later_colliders.push_back(name);
     scene_.later_places[name] = scene_.entry;

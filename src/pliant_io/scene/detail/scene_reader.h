@@ -31,6 +31,7 @@ struct SceneReader {
   OwnMaterials materials = {};                  ///< of the scene
   std::map<BodyId, Material> material_of = {};  ///< of the bodies that have one
   std::map<BodyId, BodyAppearance> appearance_of = {};
+  std::map<std::string, ColliderAppearance, std::less<>> collider_appearances = {};  ///< see Scene
   std::map<std::string, BodyId, std::less<>> bodies = {};
   std::map<const Origin*, std::vector<BodyId>> bodies_of = {};  ///< by the text that they stand in
   std::map<std::string, GroupEntry, std::less<>> groups = {};
@@ -68,6 +69,9 @@ struct SceneReader {
   /// The bodies that a body's contact ignores.
   std::vector<BodyId> read_ignored(const Node& names, BodyId id) const;
   void read_collider(const Node& node);
+  /// What the object of a collider says of how it looks. An event may add another collider of a name that was removed
+  /// before: they look alike, as the last one with an appearance says.
+  void read_collider_appearance(const Node& collider, const std::string& name);
   /// An entry of the list of attachments, after all bodies.
   GroupEntry read_attachment(const Node& node, std::vector<std::string_view> more_keys = {}) const;
   void add_attachment(const Node& node);

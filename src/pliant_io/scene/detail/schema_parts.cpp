@@ -128,6 +128,7 @@ SchemaJson collider_schema() {
   SchemaJson friction = number_schema("number", not_negative);  // one for all of its surface
   friction["description"] = properties["friction"]["description"];
   properties["friction"] = std::move(friction);
+  properties["appearance"] = object_schema(options_properties<ColliderAppearance>());
   SchemaJson schema = object_schema(std::move(properties), {"type"});
   schema["description"] = std::string(Options::info.formula);
   return schema;
@@ -170,7 +171,7 @@ SchemaJson change_schema() {
   SchemaJson names = {"change", "step", "time"};
   const auto add = [&](const SchemaJson& properties) {
     for (const auto& [name, schema] : properties.items()) {
-      if (name != "type" && name != "name" && name != "enabled") names.push_back(name);
+      if (name != "type" && name != "name" && name != "enabled" && name != "appearance") names.push_back(name);
     }
   };
   add(options_properties<RampOptions>());
