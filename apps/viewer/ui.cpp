@@ -14,7 +14,7 @@ namespace {
 
 constexpr float letter_height = 15;  // units
 
-bool is_dark(const pliant::Color& background) {
+bool is_dark_color(const pliant::Color& background) {
   return 0.2126 * background.red + 0.7152 * background.green + 0.0722 * background.blue < 0.5;
 }
 
@@ -23,7 +23,7 @@ bool is_dark(const pliant::Color& background) {
 Ui::Ui(Window& window, const pliant::Color& background, const WindowSettings& settings)
     : former_context_(ImGui::GetCurrentContext()),
       context_(ImGui::CreateContext()),
-      is_background_dark_(is_dark(background)),
+      is_background_dark_(is_dark_color(background)),
       ink_(pliant_render::ink_on(background)),
       window_(window) {
   ImGui::SetCurrentContext(context_);
@@ -52,17 +52,17 @@ void Ui::set_up(const WindowSettings& settings) {
   const float pixels_a_unit = static_cast<float>(pixels[0]) / window_.size().x();
   if (!(pixels_a_unit > 0) && font_ != nullptr) return;  // minimized
   const float scale = settings.scale > 0 ? settings.scale : automatic_scale(window_.content_scale(), pixels);
-  const bool is_dark = settings.theme == Theme::automatic ? is_background_dark_ : settings.theme == Theme::dark;
+  const bool shall_be_dark = settings.theme == Theme::automatic ? is_background_dark_ : settings.theme == Theme::dark;
   // Where the mouse counts in larger units than pixels, letters are as large in these.
   const float unit = pixels_a_unit > 0 ? scale / pixels_a_unit : scale;
-  if (scale == scale_ && unit == style_.unit && is_dark == is_dark_ && font_ != nullptr) return;
+  if (scale == scale_ && unit == style_.unit && shall_be_dark == is_dark_ && font_ != nullptr) return;
   ImGui::SetCurrentContext(context_);
   load_letters(letter_height * scale);
   if (pixels_a_unit > 0) ImGui::GetIO().FontGlobalScale = 1 / pixels_a_unit;
   scale_ = scale;
-  is_dark_ = is_dark;
+  is_dark_ = shall_be_dark;
   style_.unit = unit;
-  set_panel_style(is_dark, unit);
+  set_panel_style(shall_be_dark, unit);
 }
 
 void Ui::load_letters(float height) {

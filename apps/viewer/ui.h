@@ -20,6 +20,7 @@ class Ui {
   /// Takes over settings and the size of the window, where they have changed; to be called before begin().
   void set_up(const WindowSettings& settings);
   float scale() const { return scale_; }  ///< of panels and letters
+  bool is_dark() const { return is_dark_; }
   /// Panels and annotations are built between these two; end() draws them onto the framebuffer that is bound.
   void begin();
   void end();

@@ -109,8 +109,7 @@ bool Viewer::takes_window_key(int key, char letter) {
   } else if (letter == '0' || key == GLFW_KEY_KP_0) {
     settings_.scale = 0;
   } else if (letter == 't') {
-    constexpr auto count = static_cast<int>(choice_names(Theme{}).size());
-    settings_.theme = static_cast<Theme>((static_cast<int>(settings_.theme) + 1) % count);
+    settings_.theme = ui_.is_dark() ? Theme::light : Theme::dark;
   } else {
     return false;
   }

@@ -245,7 +245,14 @@ TEST_CASE("panels are light or dark as is chosen, larger and smaller by keys, an
   CHECK(desk.viewer.panel_color().maxCoeff() < 0.3F);
   CHECK(read_window_settings(file).theme == Theme::dark);
   desk.key("ctrl+t");
-  CHECK(desk.viewer.settings().theme == Theme::automatic);
+  CHECK(desk.viewer.settings().theme == Theme::light);
+  CHECK(desk.viewer.panel_color().minCoeff() > 0.7F);
+  desk.key("ctrl+t");
+  CHECK(desk.viewer.panel_color().maxCoeff() < 0.3F);
+  desk.click(middle(theme()));
+  desk.turns(4);
+  desk.click(middle(desk.viewer.button_place("theme automatic")));
+  desk.turns(4);
   CHECK(desk.viewer.panel_color().minCoeff() > 0.7F);  // as the background
 
   CHECK(desk.viewer.panel_scale() == 1);

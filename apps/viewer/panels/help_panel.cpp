@@ -54,8 +54,7 @@ constexpr std::array<Key, 9> appearance_keys = {Key{"C", "color by the next quan
                                                 Key{"H or F1", "this help"}};
 
 constexpr std::array<Key, 3> program_keys = {Key{"Ctrl + and −, 0", "larger and smaller panels, automatic"},
-                                             Key{"Ctrl + T", "light or dark panels, automatic"},
-                                             Key{"Ctrl + Q", "end it"}};
+                                             Key{"Ctrl + T", "light or dark panels"}, Key{"Ctrl + Q", "end it"}};
 
 /// Where keys and what they do stand from left to right.
 struct Column {

@@ -113,7 +113,7 @@ void ParameterPanel::draw(const Snapshot& snapshot, LiveScene& live, const std::
     draw_body_contacts(those_of(5), live);
   }
   const bool is_new = std::exchange(shown_collider_, selected) != selected && !selected.empty();
-  scrolls_to_collider_ = is_new;
+  scrolls_to_collider_ = is_new ? 2 : std::max(scrolls_to_collider_ - 1, 0);
   if (section_header("Colliders", true, is_new)) draw_colliders(those_of(3), snapshot, live, selected);
 }
 
@@ -227,7 +227,7 @@ void ParameterPanel::draw_colliders(std::span<const Slider> sliders, const Snaps
       }
     }
     ImGui::PopID();
-    if (is_selected && scrolls_to_collider_) scroll_to_all_from(top);
+    if (is_selected && scrolls_to_collider_ > 0) scroll_to_all_from(top);
   }
   for (const auto& [name, off] : *snapshot.switched_off) {
     if (off.is_collider) draw_switched_off(name, off, snapshot, live);
@@ -239,7 +239,7 @@ void ParameterPanel::draw_colliders(std::span<const Slider> sliders, const Snaps
 /// one, as a click in the picture does.
 bool ParameterPanel::draw_collider_name(const std::string& heading, const Snapshot& snapshot, const std::string& name,
                                         bool is_selected) {
-  if (is_selected && scrolls_to_collider_) {
+  if (is_selected && scrolls_to_collider_ > 0) {
     ImGui::SetNextItemOpen(true);
   } else {
     ImGui::SetNextItemOpen(snapshot.wrenches.size() <= few_colliders, ImGuiCond_Once);
@@ -247,7 +247,10 @@ bool ParameterPanel::draw_collider_name(const std::string& heading, const Snapsh
   int flags = ImGuiTreeNodeFlags_NoTreePushOnOpen | ImGuiTreeNodeFlags_SpanAvailWidth;
   if (is_selected) flags |= ImGuiTreeNodeFlags_Selected;
   if (!name.empty()) flags |= ImGuiTreeNodeFlags_OpenOnArrow | ImGuiTreeNodeFlags_OpenOnDoubleClick;
+  const ImGuiCol color = is_selected ? ImGuiCol_TextSelectedBg : ImGuiCol_Header;
+  ImGui::PushStyleColor(ImGuiCol_Header, ImGui::GetStyleColorVec4(color));
   const bool is_open = ImGui::TreeNodeEx("##options", flags, "%s", heading.c_str());
+  ImGui::PopStyleColor();
   if (name.empty()) return is_open;
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
   places_["collider:" + name] = {low.x, low.y, high.x, high.y};

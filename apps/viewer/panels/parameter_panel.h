@@ -69,8 +69,8 @@ class ParameterPanel {
   std::optional<MovedRow> moved_;  // that is dragged
   bool shows_forces_ = false;
   std::string shown_collider_, clicked_collider_;
-  bool scrolls_to_collider_ = false;  // it was selected just now
-  std::string held_;                  // key of what is being dragged and has changed: one change for undo
+  int scrolls_to_collider_ = 0;  // pictures in which that goes on: it was selected just now, and its rows are new
+  std::string held_;             // key of what is being dragged and has changed: one change for undo
   std::map<std::string, std::array<double, 2>> ranges_;  // of sliders, by the values that were seen first
   std::map<std::string, std::array<float, 4>> places_;
 };

@@ -23,7 +23,7 @@ bool draw_window_panel(WindowSettings& settings, float scale, std::map<std::stri
     places[name] = {low.x, low.y, high.x, high.y};
   };
   constexpr auto themes = choice_names(Theme{});
-  row_label("theme", "Ctrl + T: of the panels; automatic: as light or dark as the background of the picture");
+  row_label("theme", "Ctrl + T: light or dark panels; automatic: as the background of the picture is");
   const bool is_theme_open = ImGui::BeginCombo("##theme", themes[static_cast<std::size_t>(settings.theme)].data());
   if (!is_theme_open) note_place("theme");
   for (std::size_t i = 0; is_theme_open && i < themes.size(); ++i) {
