@@ -28,7 +28,8 @@ Scene read_table() {
   return pliant::parse_scene(R"({ "pliant": 1, "bodies": [
     { "name": "cloth", "mesh": { "shape": "grid", "columns": 7, "rows": 7, "size": [0.5, 0.5], "plane": "xy" },
       "transform": { "translate": [-0.25, -0.25, 0.3] }, "mass": { "total": 0.2 },
-      "constraints": [ { "type": "triangle_strain", "name": "stretch", "stiffness": 100 } ] },
+      "constraints": [ { "type": "triangle_strain", "name": "stretch", "stiffness": 100 },
+                       { "type": "hinge", "name": "bend", "stiffness": 4e-6 } ] },
     { "name": "ball", "mesh": { "shape": "sphere", "radius": 0.1, "subdivisions": 1 },
       "transform": { "translate": [0.3, 0, 0.5] }, "mass": { "total": 0.1 },
       "constraints": [ { "type": "edge_strain", "name": "skin", "stiffness": 500 } ] } ],
@@ -142,6 +143,15 @@ TEST_CASE("a number beside its slider is typed after a click on it, and changed 
   desk.key("ctrl+z");
   desk.turn_until([&] { return desk.parameter("group:stretch.stiffness") == 2500; });
   CHECK(desk.shown().note.empty());
+}
+
+TEST_CASE("a slider goes by powers of ten, also where numbers are tiny") {
+  PanelDesk desk;
+  const Rect slider = desk.row("group:bend.stiffness");
+  desk.click({slider[0] + 0.75F * (slider[2] - slider[0]), (slider[1] + slider[3]) / 2});
+  desk.turn_until([&] { return desk.parameter("group:bend.stiffness") > 4e-6; });
+  CHECK(desk.parameter("group:bend.stiffness") > 4e-5);
+  CHECK(desk.parameter("group:bend.stiffness") < 4e-4);
 }
 
 TEST_CASE("the numbers of a vector are typed one by one") {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <vector>
 
 #include <fmt/format.h>
@@ -75,7 +76,9 @@ bool number_field(const char* id, double& value, const std::string& text, float 
 bool bare_slider(const char* id, double& value, const NumberSlider& slider) {
   const bool is_hidden = !is_typed_into(id);
   if (is_hidden) ImGui::PushStyleColor(ImGuiCol_Text, 0);
-  const int logarithmic = slider.is_logarithmic ? ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat : 0;
+  // As many decades as the format has digits go by powers of ten, those below are skipped.
+  const int flags = slider.is_logarithmic ? ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat : 0;
+  const std::string format = slider.is_logarithmic ? "%.15g" : number_format(value, slider.unit);
   bool has_changed = false;
   if (slider.is_whole) {
     int whole = static_cast<int>(std::min(value, 1e9));
@@ -83,8 +86,9 @@ bool bare_slider(const char* id, double& value, const NumberSlider& slider) {
                                    ImGuiSliderFlags_Logarithmic);
     if (has_changed) value = whole;
   } else {
-    has_changed = ImGui::SliderScalar(id, ImGuiDataType_Double, &value, &slider.low, &slider.high,
-                                      number_format(value, slider.unit).c_str(), logarithmic);
+    has_changed =
+        ImGui::SliderScalar(id, ImGuiDataType_Double, &value, &slider.low, &slider.high, format.c_str(), flags);
+    if (has_changed && is_hidden) value = std::strtod(printed(value, "%.4g").c_str(), nullptr);  // as it is shown
   }
   if (is_hidden) ImGui::PopStyleColor();
   return has_changed;
