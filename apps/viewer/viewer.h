@@ -116,6 +116,7 @@ class Viewer {
   void draw_annotations();
   void draw_panels();
   void draw_main_panel();
+  void draw_last_sections(float width);
   void draw_message();
   void draw_plots();
   void draw_tour();

@@ -89,6 +89,12 @@ void Viewer::draw_main_panel() {
     handles_.collider.select(clicked == handles_.collider.selected() ? "" : clicked);
     draws_left_ = std::max(draws_left_, 3);
   }
+  draw_last_sections(third);
+  ImGui::End();
+}
+
+/// What a run has as well: the picture, films, the window, and buttons of the given width.
+void Viewer::draw_last_sections(float width) {
   if (section_header("Picture") &&
       draw_appearance_panel(appearance_, samples_, quality_.choose(appearance_.quality), source_))
     change_color();
@@ -98,21 +104,20 @@ void Viewer::draw_main_panel() {
   }
   ImGui::Separator();
   ImGui::Spacing();
-  if (ImGui::Button("Help", {third, 0})) is_help_open_ = !is_help_open_;
+  if (ImGui::Button("Help", {width, 0})) is_help_open_ = !is_help_open_;
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
   button_places_["Help"] = {low.x, low.y, high.x, high.y};
   explain("H: all keys");
   ImGui::SameLine();
-  if (ImGui::Button("Plots", {third, 0})) plots_panel_.is_open = !plots_panel_.is_open;
+  if (ImGui::Button("Plots", {width, 0})) plots_panel_.is_open = !plots_panel_.is_open;
   explain("G: energies, speed, residual, contacts and the time of a step, over time");
   if (source_.live() != nullptr) {
     ImGui::SameLine();
-    if (ImGui::Button("Tour", {third, 0})) tour_.begin();
+    if (ImGui::Button("Tour", {width, 0})) tour_.begin();
     explain("five things to try in the window");
   }
   ImGui::TextDisabled("%.0f pictures a second", frames_.means(Clock::now()).rate);
   explain("drawn by " + window_.driver());
-  ImGui::End();
 }
 
 void Viewer::draw_file_buttons(float width) {

@@ -35,7 +35,7 @@ bool draw_window_panel(WindowSettings& settings, float scale, std::map<std::stri
   row_label("size", "Ctrl + and Ctrl −: of the panels and their letters; Ctrl 0: automatic");
   const std::string automatic = "automatic (" + percent(scale) + ")";
   const bool is_size_open = ImGui::BeginCombo("##size", (settings.scale > 0 ? percent(scale) : automatic).c_str());
-  if (!is_size_open) note_place("size");
+  if (!is_size_open) note_place("panel size");
   if (is_size_open) {
     if (ImGui::Selectable("automatic", !(settings.scale > 0))) settings.scale = 0;
     for (const float each : panel_scales) {
