@@ -5,7 +5,9 @@
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -22,7 +24,9 @@
 #include "viewer/live_source.h"
 #include "viewer/playback.h"
 #include "viewer/recent_files.h"
+#include "viewer/recent_pictures.h"
 #include "viewer/viewer.h"
+#include "viewer/window_settings.h"
 
 namespace pliant_cli {
 namespace {
@@ -150,8 +154,10 @@ std::vector<pliant_viewer::OpenableScene> openable_scenes(const ViewArguments& s
   std::vector<pliant_viewer::OpenableScene> scenes;
   for (const fs::path& file : pliant_viewer::read_recent_files(pliant_viewer::recent_files_path())) {
     if (std::error_code ignored; fs::equivalent(file, shown.scene, ignored)) continue;
-    scenes.push_back(
-        {pliant::printable_place(file.filename().string(), longest_name), shown_folder(file), file.string()});
+    scenes.push_back({.name = pliant::printable_place(file.filename().string(), longest_name),
+                      .description = shown_folder(file),
+                      .opens = file.string(),
+                      .picture = pliant_viewer::recent_picture_file(pliant_viewer::recent_pictures_folder(), file)});
   }
   const auto first = scenes.size();
   for (const pliant::BuiltinScene& scene : pliant::builtin_scenes()) {
@@ -168,10 +174,35 @@ void remember_file(const fs::path& file) {
   pliant_viewer::remember_file(pliant_viewer::recent_files_path(), file);
 }
 
-void remember(const ViewArguments& shown) {
-  const bool is_builtin = std::ranges::count(pliant::builtin_scenes(), shown.scene, &pliant::BuiltinScene::name) > 0;
-  if (!is_builtin) remember_file(shown.scene);
+bool is_builtin(const ViewArguments& shown) {
+  return std::ranges::count(pliant::builtin_scenes(), shown.scene, &pliant::BuiltinScene::name) > 0;
 }
+
+/// The files that a window shows and saves, and how they look.
+class SeenFiles {
+ public:
+  explicit SeenFiles(const ViewArguments& shown) {
+    if (is_builtin(shown)) return;
+    remember_file(shown.scene);
+    files_.emplace_back(shown.scene);
+  }
+  /// From any thread.
+  void add_saved(const fs::path& file) {
+    remember_file(file);
+    const std::lock_guard lock(mutex_);
+    files_.push_back(file);
+  }
+  void keep(const pliant_render::Image& picture) {
+    const std::lock_guard lock(mutex_);
+    for (const fs::path& file : files_) {
+      pliant_viewer::keep_recent_picture(pliant_viewer::recent_pictures_folder(), file, picture);
+    }
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<fs::path> files_;
+};
 
 /// As it was asked for on the command line, for what was chosen in the window: no option of the scene's own holds.
 ViewArguments arguments_for(const std::string& what, const ViewArguments& first) {
@@ -185,7 +216,7 @@ ViewArguments arguments_for(const std::string& what, const ViewArguments& first)
 /// Shows one thing after another, until the window is closed.
 int show(pliant_viewer::Window& window, Shown shown, bool chooses_scene) {
   while (true) {
-    remember(shown.arguments);
+    const auto seen = std::make_shared<SeenFiles>(shown.arguments);
     std::optional<Shown> next;
     std::string film;
     pliant_viewer::ViewerOptions options;
@@ -194,7 +225,9 @@ int show(pliant_viewer::Window& window, Shown shown, bool chooses_scene) {
     options.scenes = openable_scenes(shown.arguments);
     options.chooses_scene = std::exchange(chooses_scene, false);
     options.greeting = shown.greeting;
-    options.saved = remember_file;
+    options.saved = [seen](const fs::path& file) { seen->add_saved(file); };
+    options.looked = [seen](const pliant_render::Image& picture) { seen->keep(picture); };
+    options.settings_file = pliant_viewer::window_settings_path();
     options.open = [&](const std::string& what) -> std::string {
       try {
         const ViewArguments arguments = arguments_for(what, shown.arguments);

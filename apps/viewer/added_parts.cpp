@@ -67,6 +67,14 @@ std::vector<AddableType> addable_types() {
   return list;
 }
 
+bool can_hold_pressure(const pliant::Mesh& mesh) {
+  try {
+    return pliant::PressureForce(mesh, 0, {}).rest_volume() > 0;
+  } catch (const pliant::Error&) {
+    return false;
+  }
+}
+
 AddedPart make_part(const std::string& type, const std::string& name, const std::string& body,
                     const pliant::BoundingBox& bodies, Real floor) {
   const std::vector<AddableType> types = addable_types();

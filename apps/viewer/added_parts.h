@@ -19,6 +19,9 @@ struct AddableType {
 /// Of the built-in types all that act with their defaults, but for gravity, of which a scene has one.
 std::vector<AddableType> addable_types();
 
+/// Whether a pressure can be in a body: its surface has no border and encloses a volume.
+bool can_hold_pressure(const pliant::Mesh& mesh);
+
 /// The entry of a scene file for a force or a collider of that type; a collider stands beneath what is in `bodies` [m],
 /// or above it where it would be under the floor. @throws pliant::Error (input): no such type, or no body for one of
 /// a body.

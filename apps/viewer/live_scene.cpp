@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "pliant/core/error.h"
+#include "viewer/added_parts.h"
 #include "viewer/suggestions.h"
 
 namespace pliant_viewer {
@@ -325,8 +326,13 @@ void LiveScene::update_render_mesh() {
       render_mesh->looks != render_mesh_->looks)
     render_mesh_ = std::move(render_mesh);
   std::vector<std::string> names;
-  for (const pliant::Body& body : session_.simulation().bodies()) names.push_back(body.name);
+  std::vector<char> is_closed;
+  for (const pliant::Body& body : session_.simulation().bodies()) {
+    names.push_back(body.name);
+    is_closed.push_back(can_hold_pressure(body.mesh) ? 1 : 0);
+  }
   body_names_ = std::make_shared<const std::vector<std::string>>(std::move(names));
+  is_closed_ = std::make_shared<const std::vector<char>>(std::move(is_closed));
 }
 
 void LiveScene::update_looks() {
@@ -371,6 +377,7 @@ void LiveScene::publish() {
   if (simulation.bodies().size() != body_names_->size()) update_render_mesh();  // a program has added some
   back_.render_mesh = render_mesh_;
   back_.body_names = body_names_;
+  back_.is_closed = is_closed_;
   back_.frame = pliant_render::capture_frame(simulation, *render_mesh_, context_.color, surfaces_);
   back_.color = context_.color;
   back_.pinned = session_.pinned_vertices();

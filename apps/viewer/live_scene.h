@@ -21,10 +21,11 @@ struct Snapshot {
   std::shared_ptr<const pliant_render::RenderMesh> render_mesh;
   std::shared_ptr<const std::vector<std::string>> body_names;
   pliant_render::ClipFrame frame;
-  pliant::ColorBy color = pliant::ColorBy::none;  ///< what the values of the frame mean
-  std::vector<std::uint32_t> pins;                ///< pinned vertices, which can be grabbed, ascending
-  std::vector<PinnedVertex> pinned;               ///< the same, with where they are held
-  std::vector<char> is_figure;                    ///< of each body, see Session::figures
+  pliant::ColorBy color = pliant::ColorBy::none;       ///< what the values of the frame mean
+  std::vector<std::uint32_t> pins;                     ///< pinned vertices, which can be grabbed, ascending
+  std::vector<PinnedVertex> pinned;                    ///< the same, with where they are held
+  std::vector<char> is_figure;                         ///< of each body, see Session::figures
+  std::shared_ptr<const std::vector<char>> is_closed;  ///< of each body: a pressure can be in it
   std::optional<Pull> pull;
   std::shared_ptr<const std::vector<Slider>> sliders;
   std::shared_ptr<const std::vector<BodyMaterial>> materials;
@@ -152,6 +153,7 @@ class LiveScene {
   bool is_at_start_ = true;             // no step since the scene was made or began anew
   std::shared_ptr<const pliant_render::RenderMesh> render_mesh_;
   std::shared_ptr<const std::vector<std::string>> body_names_;
+  std::shared_ptr<const std::vector<char>> is_closed_;
   pliant_render::ColliderSurfaces surfaces_;
   std::string note_;
   Clock::time_point published_{};

@@ -36,6 +36,7 @@ class LiveSource final : public ViewSource {
   std::uint64_t measured_version() const override { return history_.version(); }
   void measure(const Measuring& measuring) override;
   void draw_panel(const std::string& selected_collider) override;
+  std::string take_clicked_collider() override { return parameters_.take_clicked_collider(); }
   bool shows_forces() const override { return parameters_.shows_forces(); }
   LiveScene* live() override { return &scene_; }
 

@@ -41,12 +41,17 @@ std::vector<fs::path> read_all(const fs::path& list) {
 
 }  // namespace
 
-fs::path recent_files_path() {
+fs::path state_folder() {
   const char* state = std::getenv("XDG_STATE_HOME");
-  if (state != nullptr && fs::path(state).is_absolute()) return fs::path(state) / "pliant" / "recent.json";
+  if (state != nullptr && fs::path(state).is_absolute()) return fs::path(state) / "pliant";
   const char* home = std::getenv("HOME");
   if (home == nullptr || !fs::path(home).is_absolute()) return {};
-  return fs::path(home) / ".local" / "state" / "pliant" / "recent.json";
+  return fs::path(home) / ".local" / "state" / "pliant";
+}
+
+fs::path recent_files_path() {
+  const fs::path folder = state_folder();
+  return folder.empty() ? folder : folder / "recent.json";
 }
 
 std::vector<fs::path> read_recent_files(const fs::path& list) {

@@ -6,6 +6,10 @@
 
 namespace pliant_viewer {
 
+/// Where the window keeps what it remembers, $XDG_STATE_HOME/pliant or ~/.local/state/pliant; empty where the
+/// environment names no folder.
+std::filesystem::path state_folder();
+
 /// Where the list is kept; empty where the environment names no folder.
 std::filesystem::path recent_files_path();
 

@@ -14,26 +14,21 @@ namespace {
 
 constexpr float letter_height = 15;  // units
 
-bool is_dark(const pliant::Color& background) {
+bool is_dark_color(const pliant::Color& background) {
   return 0.2126 * background.red + 0.7152 * background.green + 0.0722 * background.blue < 0.5;
 }
 
 }  // namespace
 
-Ui::Ui(Window& window, const pliant::Color& background)
+Ui::Ui(Window& window, const pliant::Color& background, const WindowSettings& settings)
     : former_context_(ImGui::GetCurrentContext()),
       context_(ImGui::CreateContext()),
+      is_background_dark_(is_dark_color(background)),
       ink_(pliant_render::ink_on(background)),
       window_(window) {
   ImGui::SetCurrentContext(context_);
   ImGui::GetIO().IniFilename = nullptr;
-  const float scale = window.content_scale();
-  font_ = pliant_render::load_font(letter_height * scale, pliant_render::Letters::with_symbols);
-  // Where the mouse counts in larger units than pixels, letters are as large in these.
-  const float pixels_a_unit = static_cast<float>(window.framebuffer_size()[0]) / window.size().x();
-  if (pixels_a_unit > 0) ImGui::GetIO().FontGlobalScale = 1 / pixels_a_unit;
-  style_.unit = pixels_a_unit > 0 ? scale / pixels_a_unit : scale;
-  set_panel_style(is_dark(background), style_.unit);
+  ImGui::GetIO().ConfigDragClickToInputText = true;
   // ImGui looks at the state of the keyboard once a frame and misses a key that is down for less: take() gives it one
   // change after another instead.
   glfwSetKeyCallback(window.handle(), nullptr);
@@ -41,6 +36,7 @@ Ui::Ui(Window& window, const pliant::Color& background)
   ImGui_ImplGlfw_InitForOpenGL(window.handle(), true);
   window.install_key_callbacks();
   ImGui_ImplOpenGL3_Init("#version 330 core");
+  set_up(settings);
 }
 
 Ui::~Ui() {
@@ -49,6 +45,35 @@ Ui::~Ui() {
   ImGui_ImplGlfw_Shutdown();
   ImGui::DestroyContext(context_);
   ImGui::SetCurrentContext(former_context_);
+}
+
+void Ui::set_up(const WindowSettings& settings) {
+  const std::array<int, 2> pixels = window_.framebuffer_size();
+  const float pixels_a_unit = static_cast<float>(pixels[0]) / window_.size().x();
+  if (!(pixels_a_unit > 0) && font_ != nullptr) return;  // minimized
+  const float scale = settings.scale > 0 ? settings.scale : automatic_scale(window_.content_scale(), pixels);
+  const bool shall_be_dark = settings.theme == Theme::automatic ? is_background_dark_ : settings.theme == Theme::dark;
+  // Where the mouse counts in larger units than pixels, letters are as large in these.
+  const float unit = pixels_a_unit > 0 ? scale / pixels_a_unit : scale;
+  if (scale == scale_ && unit == style_.unit && shall_be_dark == is_dark_ && font_ != nullptr) return;
+  ImGui::SetCurrentContext(context_);
+  load_letters(letter_height * scale);
+  if (pixels_a_unit > 0) ImGui::GetIO().FontGlobalScale = 1 / pixels_a_unit;
+  scale_ = scale;
+  is_dark_ = shall_be_dark;
+  style_.unit = unit;
+  set_panel_style(shall_be_dark, unit);
+}
+
+void Ui::load_letters(float height) {
+  if (height == letters_) return;
+  letters_ = height;
+  const bool has_texture = font_ != nullptr;  // else the first frame makes it
+  ImGui::GetIO().Fonts->Clear();
+  font_ = pliant_render::load_font(height, pliant_render::Letters::with_symbols);
+  if (!has_texture) return;
+  ImGui_ImplOpenGL3_DestroyFontsTexture();
+  ImGui_ImplOpenGL3_CreateFontsTexture();
 }
 
 void Ui::begin() {

@@ -3,6 +3,7 @@
 #include "render/annotations.h"
 #include "viewer/panels/panel_style.h"
 #include "viewer/window.h"
+#include "viewer/window_settings.h"
 
 struct ImGuiContext;
 
@@ -10,12 +11,16 @@ namespace pliant_viewer {
 
 class Ui {
  public:
-  /// Chooses light or dark panels to suit the background.
-  Ui(Window& window, const pliant::Color& background);
+  /// `background`: of the picture, which panels suit unless the settings say otherwise.
+  Ui(Window& window, const pliant::Color& background, const WindowSettings& settings);
   ~Ui();
   Ui(const Ui&) = delete;
   Ui& operator=(const Ui&) = delete;
 
+  /// Takes over settings and the size of the window, where they have changed; to be called before begin().
+  void set_up(const WindowSettings& settings);
+  float scale() const { return scale_; }  ///< of panels and letters
+  bool is_dark() const { return is_dark_; }
   /// Panels and annotations are built between these two; end() draws them onto the framebuffer that is bound.
   void begin();
   void end();
@@ -41,10 +46,16 @@ class Ui {
   pliant_render::Vec3f panel_color() const;
 
  private:
+  void load_letters(float height);
+
   ImGuiContext* former_context_;  // of the program, if it has one
   ImGuiContext* context_;
   ImFont* font_ = nullptr;
   PanelStyle style_;
+  bool is_background_dark_;
+  bool is_dark_ = false;
+  float scale_ = 0;
+  float letters_ = 0;  // height that the font has [pixels]
   std::uint32_t ink_;
   Window& window_;
   std::vector<int> keys_down_;        // as the panels have been told

@@ -44,6 +44,7 @@ void show(pliant::Scene& scene, const pliant::ViewOptions& options, Window& wind
   if (!options.paused) shown->play(true);
   ViewerOptions viewer_options;
   viewer_options.appearance = shown->appearance();
+  viewer_options.settings_file = window_settings_path();
   Viewer viewer(window, *shown, std::move(viewer_options));
   viewer.run([&] { return options.should_close && options.should_close(); });
   viewer.finish_film();

@@ -62,6 +62,8 @@ class ViewSource {
 
   /// Draws this source's part of the panel, with more about the collider of that name.
   virtual void draw_panel(const std::string& selected_collider) = 0;
+  /// The collider whose name was clicked in it since the last call; "": none.
+  virtual std::string take_clicked_collider() { return {}; }
   /// Whether that is open where forces are.
   virtual bool shows_forces() const { return false; }
   /// The scene that can be pulled and pinned; null for a recorded run.

@@ -63,7 +63,9 @@ Viewer::Viewer(Window& window, ViewSource& source, ViewerOptions options)
       samples_(options.samples.value_or(window.is_software() ? 1 : 4)),
       picture_folder_(std::move(options.picture_folder)),
       saved_scene_(std::make_shared<std::filesystem::path>()),
-      ui_(window, appearance_.background),
+      settings_file_(std::move(options.settings_file)),
+      settings_(read_window_settings(settings_file_)),
+      ui_(window, appearance_.background, settings_),
       camera_(first_viewpoint(source, appearance_, picture_size()), appearance_.camera.up.cast<float>()),
       first_camera_(camera_),
       interaction_(source.live() != nullptr ? source.live()->suggested_pull() : 1),
@@ -71,6 +73,7 @@ Viewer::Viewer(Window& window, ViewSource& source, ViewerOptions options)
       sees_nothing_(source.render_mesh()->vertex_count == 0),
       open_(std::move(options.open)),
       saved_(std::move(options.saved)),
+      looked_(std::move(options.looked)),
       scene_panel_(std::move(options.scenes), options.chooses_scene) {
   if (!source.knows(appearance_.color)) appearance_.color = pliant::ColorBy::none;
   if (appearance_.color != source.appearance().color) source_.show(appearance_.color);
@@ -83,6 +86,7 @@ Viewer::Viewer(Window& window, ViewSource& source, ViewerOptions options)
 void Viewer::run(const std::function<bool()>& shall_end) {
   while (!window_.wants_to_close() && !shall_end() && !is_over_) turn(idle_turn);
   if (!is_over_) window_.hide();
+  tell_look();
 }
 
 bool Viewer::turn(double most_wait) {
@@ -237,6 +241,7 @@ void Viewer::draw() {
   if (width <= 0 || height <= 0) return;
   if (wants_picture_) write_picture(width, height);
   film();
+  ui_.set_up(settings_);
   ui_.begin();
   draw_annotations();
   const pliant_render::AnnotationCanvas canvas = ui_.canvas(screen_.size);

@@ -18,28 +18,15 @@
 #include "viewer/mouse_interaction.h"
 #include "viewer/panels/film_panel.h"
 #include "viewer/panels/plots_panel.h"
-#include "viewer/panels/scene_panel.h"
 #include "viewer/panels/tour.h"
 #include "viewer/quality_chooser.h"
 #include "viewer/select_tool.h"
 #include "viewer/ui.h"
 #include "viewer/view_source.h"
+#include "viewer/viewer_options.h"
+#include "viewer/window_settings.h"
 
 namespace pliant_viewer {
-
-struct ViewerOptions {
-  pliant::ViewSettings appearance;  ///< initial appearance; its size is ignored in favor of the window's
-  std::optional<int> samples{};     ///< per pixel; default: 4 on a graphics card, 1 where the processor draws
-  std::filesystem::path picture_folder = ".";  ///< where pictures and scenes are saved
-  /// Opens what was dropped onto the window, typed, or chosen, a file, a folder of a run or the name of a scene, to be
-  /// shown once run() has returned; returns "", or what is wrong with it. None: nothing can be opened.
-  std::function<std::string(const std::string&)> open = {};
-  /// Told of every scene and session that was saved, on the thread of the scene.
-  std::function<void(const std::filesystem::path&)> saved = {};
-  std::vector<OpenableScene> scenes = {};  ///< to choose from
-  bool chooses_scene = false;              ///< begin with the list of them
-  std::string greeting = {};               ///< shown at first
-};
 
 class Viewer {
  public:
@@ -70,6 +57,9 @@ class Viewer {
   const std::array<float, 4>& button_place(const std::string& label) const { return button_places_.at(label); }
   const Tour& tour() const { return tour_; }
   const std::string& message() const { return message_; }
+  const WindowSettings& settings() const { return settings_; }
+  float panel_scale() const { return ui_.scale(); }
+  pliant_render::Vec3f panel_color() const { return ui_.panel_color(); }
   /// Takes back the last change of the scene, and does it again, as soon as its thread comes to it.
   void undo();
   void redo();
@@ -94,6 +84,7 @@ class Viewer {
   void take_key(const KeyEvent& event);
   void take_plain_key(int key, bool has_shift);
   void take_control_key(char letter, bool has_shift, bool is_repeated);
+  bool takes_window_key(int key, char letter);
   void toggle_color();
   void change_color();
   void frame_everything();
@@ -125,10 +116,12 @@ class Viewer {
   void draw_annotations();
   void draw_panels();
   void draw_main_panel();
+  void draw_last_sections(float width);
   void draw_message();
   void draw_plots();
   void draw_tour();
   void save_plots(PlotsPanel::Wish wish, const pliant_plot::MeasuredRun& run);
+  void tell_look();
   void write_picture(int width, int height);
   void draw_edit_buttons(float width);
   void draw_file_buttons(float width);
@@ -146,6 +139,8 @@ class Viewer {
   std::shared_ptr<std::filesystem::path> saved_scene_;  // last, for the thread of the scene; empty: none
   std::string refused_;         // to be opened, though changes would be lost; once more, and it is
   std::uint64_t messages_ = 0;  // of the scene that were shown
+  std::filesystem::path settings_file_;
+  WindowSettings settings_;
   Ui ui_;
   bool is_panel_open_ = true;
   OrbitCamera camera_;
@@ -187,6 +182,7 @@ class Viewer {
   std::map<std::string, std::array<float, 4>> button_places_;
   std::function<std::string(const std::string&)> open_;
   std::function<void(const std::filesystem::path&)> saved_;
+  std::function<void(const pliant_render::Image&)> looked_;
   ScenePanel scene_panel_;
   Tour tour_;
   PlotsPanel plots_panel_;

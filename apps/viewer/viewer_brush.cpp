@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "viewer/panels/number_slider.h"
 #include "viewer/viewer.h"
 
 namespace pliant_viewer {
@@ -78,20 +79,21 @@ void Viewer::draw_brush_rows(float width) {
   row_label("factor", "by which the stiffness is multiplied where the brush has gone");
   constexpr double softest = 0.01, stiffest = 100;
   double factor = brush_.factor;
-  if (ImGui::SliderScalar("##factor", ImGuiDataType_Double, &factor, &softest, &stiffest, "× %.3g",
-                          ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat)) {
+  NumberPlaces places;
+  if (number_slider("##factor", factor,
+                    {.low = softest, .high = stiffest, .unit = "×", .is_logarithmic = true, .least = 1e-3}, &places)) {
     brush_.factor = std::clamp(factor, 1e-3, 1e3);
   }
-  note_place("factor");
+  button_places_["factor"] = places.slider;
   row_label("size", "of the brush: its radius");
   const double size = size_of_body(brush_.subject.body, live->shown());
   const double least = size / 200, most = size / 2;
   double radius = brush_.radius;
-  if (ImGui::SliderScalar("##size", ImGuiDataType_Double, &radius, &least, &most, number_format(radius, "m").c_str(),
-                          ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat)) {
+  if (number_slider("##size", radius,
+                    {.low = least, .high = most, .unit = "m", .is_logarithmic = true, .least = 1e-3 * size}, &places)) {
     brush_.radius = static_cast<float>(std::clamp(radius, 1e-3 * size, 10 * size));
   }
-  note_place("size");
+  button_places_["size"] = places.slider;
   if (ImGui::Button("Fill", {width, 0})) fill_with_brush(brush_.factor);
   note_place("Fill");
   explain("all of the body");

@@ -4,6 +4,7 @@
 #include "pliant/core/error.h"
 #include "viewer/free_name.h"
 #include "viewer/gizmos.h"
+#include "viewer/recent_pictures.h"
 #include "viewer/viewer.h"
 
 namespace pliant_viewer {
@@ -33,6 +34,27 @@ void Viewer::toggle_film() {
     return say(error.what());
   }
   is_frame_new_ = true;
+}
+
+/// Draws the scene as it looks, small and without what the hand is about.
+void Viewer::tell_look() {
+  if (!looked_ || !renderer_ || frame_count_ == 0) return;
+  constexpr int width = 2 * recent_picture_width, height = 2 * recent_picture_height;
+  try {
+    pliant_render::DrawOptions options = draw_options(height);
+    options.viewpoint = camera_.viewpoint(bounds_, 0);
+    options.markers = appearance_.markers.value_or(false);
+    options.selection = false;
+    options.lit_collider.reset();
+    options.selected_collider.reset();
+    const pliant_render::RenderTarget target(width, height, 1);
+    target.begin();
+    renderer_->draw(appearance_, options, width, height);
+    target.resolve();
+    looked_(halved(target.read()));
+  } catch (const std::exception&) {
+    return;  // a convenience, not worth a word at the end
+  }
 }
 
 /// Whether the newest frame is between two pictures of the film, which is not shown then.

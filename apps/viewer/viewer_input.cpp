@@ -78,6 +78,7 @@ void Viewer::take_key(const KeyEvent& event) {
   const bool has_control = (event.modifiers & GLFW_MOD_CONTROL) != 0;
   const bool has_shift = (event.modifiers & GLFW_MOD_SHIFT) != 0;
   const bool is_repeated = event.kind == KeyEvent::Kind::repeat;
+  if (has_control && takes_window_key(event.key, letter_of(event))) return;
   LiveScene* live = source_.live();
   if (event.key == GLFW_KEY_RIGHT || (event.key == GLFW_KEY_S && !has_control)) {
     // A key that is held asks for no more steps than are taken; each press asks for one.
@@ -96,6 +97,24 @@ void Viewer::take_key(const KeyEvent& event) {
   if (is_repeated && !has_control) return;
   if (has_control) return take_control_key(letter_of(event), has_shift, is_repeated);
   take_plain_key(event.key, has_shift);
+}
+
+/// With Ctrl: how large and how dark the panels are.
+bool Viewer::takes_window_key(int key, char letter) {
+  const WindowSettings before = settings_;
+  if (letter == '+' || letter == '=' || key == GLFW_KEY_KP_ADD) {
+    settings_.scale = next_scale(ui_.scale(), true);
+  } else if (letter == '-' || key == GLFW_KEY_KP_SUBTRACT) {
+    settings_.scale = next_scale(ui_.scale(), false);
+  } else if (letter == '0' || key == GLFW_KEY_KP_0) {
+    settings_.scale = 0;
+  } else if (letter == 't') {
+    settings_.theme = ui_.is_dark() ? Theme::light : Theme::dark;
+  } else {
+    return false;
+  }
+  if (!(settings_ == before)) write_window_settings(settings_file_, settings_);
+  return true;
 }
 
 void Viewer::take_plain_key(int key, bool has_shift) {

@@ -1,10 +1,14 @@
 // The panels of the window.
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <imgui.h>
 
 #include "viewer/panels/appearance_panel.h"
 #include "viewer/panels/help_panel.h"
+#include "viewer/panels/number_slider.h"
 #include "viewer/panels/time_bar.h"
+#include "viewer/panels/window_panel.h"
 #include "viewer/plot_files.h"
 #include "viewer/viewer.h"
 
@@ -72,9 +76,8 @@ void Viewer::draw_main_panel() {
     row_label("pull", "+ and −: stiffness of the spring by which the mouse pulls");
     double stiffness = interaction_.stiffness();
     const double low = live->suggested_pull() / 1e3, high = live->suggested_pull() * 1e6;
-    if (ImGui::SliderScalar("##pull", ImGuiDataType_Double, &stiffness, &low, &high,
-                            number_format(stiffness, "N/m").c_str(),
-                            ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat) &&
+    if (number_slider("##pull", stiffness,
+                      {.low = low, .high = high, .unit = "N/m", .is_logarithmic = true, .least = low}) &&
         stiffness > 0) {
       interaction_.set_stiffness(stiffness, *live);
     }
@@ -82,25 +85,39 @@ void Viewer::draw_main_panel() {
   draw_selection_rows(third);
   draw_brush_rows(third);
   source_.draw_panel(handles_.collider.selected());
+  if (const std::string clicked = source_.take_clicked_collider(); !clicked.empty()) {
+    handles_.collider.select(clicked == handles_.collider.selected() ? "" : clicked);
+    draws_left_ = std::max(draws_left_, 3);
+  }
+  draw_last_sections(third);
+  ImGui::End();
+}
+
+/// What a run has as well: the picture, films, the window, and buttons of the given width.
+void Viewer::draw_last_sections(float width) {
   if (section_header("Picture") &&
       draw_appearance_panel(appearance_, samples_, quality_.choose(appearance_.quality), source_))
     change_color();
   if (section_header("Film", false)) film_panel_.draw(film_under_way());
+  if (section_header("Window") && draw_window_panel(settings_, ui_.scale(), button_places_)) {
+    write_window_settings(settings_file_, settings_);
+  }
   ImGui::Separator();
   ImGui::Spacing();
-  if (ImGui::Button("Help", {third, 0})) is_help_open_ = !is_help_open_;
+  if (ImGui::Button("Help", {width, 0})) is_help_open_ = !is_help_open_;
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  button_places_["Help"] = {low.x, low.y, high.x, high.y};
   explain("H: all keys");
   ImGui::SameLine();
-  if (ImGui::Button("Plots", {third, 0})) plots_panel_.is_open = !plots_panel_.is_open;
+  if (ImGui::Button("Plots", {width, 0})) plots_panel_.is_open = !plots_panel_.is_open;
   explain("G: energies, speed, residual, contacts and the time of a step, over time");
   if (source_.live() != nullptr) {
     ImGui::SameLine();
-    if (ImGui::Button("Tour", {third, 0})) tour_.begin();
+    if (ImGui::Button("Tour", {width, 0})) tour_.begin();
     explain("five things to try in the window");
   }
   ImGui::TextDisabled("%.0f pictures a second", frames_.means(Clock::now()).rate);
   explain("drawn by " + window_.driver());
-  ImGui::End();
 }
 
 void Viewer::draw_file_buttons(float width) {

@@ -4,6 +4,7 @@ import os
 import pathlib
 import shutil
 import signal
+import struct
 import subprocess
 import sys
 import tempfile
@@ -48,7 +49,8 @@ class WithDisplay(unittest.TestCase):
         with os.fdopen(read_end) as pipe:
             number = pipe.readline().strip()
         cls.folder = pathlib.Path(tempfile.mkdtemp()).resolve()
-        cls.environment = WITHOUT_DISPLAY | {"DISPLAY": ":" + number, "XDG_STATE_HOME": str(cls.folder / "state")}
+        cls.environment = WITHOUT_DISPLAY | {"DISPLAY": ":" + number, "XDG_STATE_HOME": str(cls.folder / "state"),
+                                             "XDG_CACHE_HOME": str(cls.folder / "cache")}
 
     @classmethod
     def tearDownClass(cls):
@@ -151,6 +153,28 @@ class WithDisplay(unittest.TestCase):
             self.assertEqual(remembered()[0], str(two))
 
     @unittest.skipUnless(shutil.which("xdotool"), "xdotool is not installed")
+    def test_what_was_shown_has_a_small_picture_for_the_list_of_scenes(self):
+        mesh = self.folder / "seen.obj"
+        mesh.write_text(QUAD)
+        pictures = self.folder / "cache" / "pliant" / "pictures"
+        before = set(pictures.glob("*"))
+        new = set()
+        for wait in (2, 4, 8, 16):  # it has a picture once one was drawn
+            process = self.start(mesh, "--paused")
+            self.wait_for_window(process, "seen")
+            time.sleep(wait)
+            process.send_signal(signal.SIGTERM)
+            process.communicate(timeout=120)
+            new = set(pictures.glob("*")) - before
+            if new:
+                break
+        self.assertEqual(len(new), 1)
+        content = new.pop().read_bytes()
+        self.assertEqual(content[:8], b"\x89PNG\r\n\x1a\n")
+        self.assertEqual(struct.unpack(">II", content[16:24]), (256, 160))
+        self.assertGreater(len(content), 2000)  # something is to be seen in it
+
+    @unittest.skipUnless(shutil.which("xdotool"), "xdotool is not installed")
     def test_where_nothing_can_be_remembered_all_works(self):
         occupied = self.folder / "occupied"
         occupied.write_text("a file where a folder would be")
@@ -158,7 +182,10 @@ class WithDisplay(unittest.TestCase):
         mesh.write_text(QUAD)
         before = self.environment
         try:
-            type(self).environment = before | {"XDG_STATE_HOME": str(occupied)}
+            # Without its own cache the driver has nothing to complain of.
+            nowhere = {"XDG_STATE_HOME": str(occupied), "XDG_CACHE_HOME": str(occupied),
+                       "MESA_SHADER_CACHE_DISABLE": "true"}
+            type(self).environment = before | nowhere
             self.open_and_close(mesh, "quad")
         finally:
             type(self).environment = before

@@ -86,6 +86,22 @@ void check_same_steps(Simulation& a, Simulation& b, int count) {
 
 }  // namespace
 
+TEST_CASE("a stiffness has the unit that its group has") {
+  Simulation simulation;
+  const BodyId sheet = simulation.add_body(grid({.columns = 3, .rows = 3}), Mass::total(1));
+  const auto unit = [&](GroupId id) { return parameter(simulation, {id, "stiffness"}).unit; };
+  CHECK(unit(simulation.add(sheet, EdgeStrain{.measure = FibreMeasure::rope})) == "N");
+  const GroupId threads = simulation.add(sheet, EdgeStrain{.measure = FibreMeasure::cloth});
+  CHECK(unit(threads) == "N/m");
+  set_parameter(simulation, {threads, "measure"}, {0, 0, 0});
+  CHECK(unit(threads) == "N");
+  const GroupId ties = simulation.add(sheet, Attachment{.on = {0}, .to = sheet, .to_on = {8}});
+  CHECK(unit(ties) == "N/m");
+  const Attachment seam{.on = {0, 1, 2}, .to = sheet, .to_on = {6, 7, 8}, .mode = AttachmentMode::seam};
+  CHECK(unit(simulation.add(sheet, seam)) == "N/m²");
+  CHECK(unit(simulation.add(sheet, EdgeStrain{.on = {0, 1, 2}, .stiffness = std::vector<Real>{5, 6}})).empty());
+}
+
 TEST_CASE("every number, choice and vector of every type is a parameter") {
   const std::map<std::string, Names> expected = {
       {"line", {"stiffness", "direction"}},

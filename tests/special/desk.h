@@ -49,7 +49,7 @@ inline void xdotool(const std::string& arguments) {
 
 /// A window with a source, and hands on mouse and keys.
 struct Desk {
-  pliant_tests::TemporaryFolder folder;
+  pliant_tests::TemporaryFolder folder, state;
   Window window{"Pliant test", 1000, 640};
   LiveSource source;
   Viewer viewer;
@@ -64,7 +64,8 @@ struct Desk {
                 .open = std::move(open),
                 .scenes = {{"flag", "A flag"},
                            {"towel", "A towel over a rail"},
-                           {"shirt.obj", "~/meshes", "/home/meshes/shirt.obj", "Recent"}}}) {
+                           {"shirt.obj", "~/meshes", "/home/meshes/shirt.obj", "Recent"}},
+                .settings_file = state.path() / "window.json"}) {
     turn_until([&] { return viewer.frame_count() > 3; });
     xdotool("search --sync --name 'Pliant test' windowfocus");
     turns(3);

@@ -83,8 +83,8 @@ void draw_energy(const std::vector<std::span<const Slider>>& groups, const plian
 bool draw_size(const char* label, const char* unit, pliant::Real& size) {
   constexpr double least = 1e-3, most = 10;
   double shown = size;
-  if (!ImGui::SliderScalar(label, ImGuiDataType_Double, &shown, &least, &most, number_format(shown, unit).c_str(),
-                           ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat)) {
+  if (!number_slider(label, shown,
+                     {.low = least, .high = most, .unit = unit, .is_logarithmic = true, .least = 1e-6, .most = 1e6})) {
     return false;
   }
   size = std::clamp(shown, 1e-6, 1e6);

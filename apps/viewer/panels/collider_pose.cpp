@@ -38,14 +38,14 @@ void ParameterPanel::end_lost_drag(LiveScene& live) {
 
 /// Where it will come to rest, which can be changed.
 void ParameterPanel::draw_pose(const MovableCollider& collider, LiveScene& live) {
-  const auto draw = [&](const char* label, const char* help, const char* id, pliant::Vec3 value, float speed,
+  const auto draw = [&](const char* label, const char* unit, const char* help, const char* id, pliant::Vec3 value,
+                        float speed,
                         const std::function<void(Session&, pliant::ColliderId, const pliant::Vec3&)>& act) {
-    row_label(label, help);
+    row_label(label_with_unit(label, unit), help);
     // While the hand is on it the simulation may be some steps behind.
     const auto is_moved = [&] { return moved_ && moved_->collider == collider.name && moved_->id == id; };
     if (is_moved()) value = moved_->value;
-    const bool has_changed =
-        ImGui::DragScalarN(id, ImGuiDataType_Double, value.data(), 3, speed, nullptr, nullptr, "%.3g");
+    const bool has_changed = vector_fields(id, value.data(), speed, unit);
     const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
     places_[collider.name + id] = {low.x, low.y, high.x, high.y};
     if (has_changed && value.allFinite()) {
@@ -57,12 +57,12 @@ void ParameterPanel::draw_pose(const MovableCollider& collider, LiveScene& live)
     moved_.reset();
     drop(collider.name, live);
   };
-  draw("place", "m, where it will come to rest; a plane goes along its normal", "##place", collider.pose.position,
+  draw("place", "m", "where it will come to rest; a plane goes along its normal", "##place", collider.pose.position,
        0.01F, [](Session& session, pliant::ColliderId id, const pliant::Vec3& to) {
          session.move_collider(id, to.cast<float>());
        });
   const Eigen::AngleAxis<Real> turn(collider.pose.rotation);
-  draw("turned", "°, axis times angle, about its place", "##turned", turn.angle() / degree * turn.axis(), 1,
+  draw("turned", "°", "axis times angle, about its place", "##turned", turn.angle() / degree * turn.axis(), 1,
        [](Session& session, pliant::ColliderId id, const pliant::Vec3& to) { session.turn_collider(id, to * degree); });
 }
 

@@ -53,6 +53,9 @@ constexpr std::array<Key, 9> appearance_keys = {Key{"C", "color by the next quan
                                                 Key{"Tab", "hide or show the panel"},
                                                 Key{"H or F1", "this help"}};
 
+constexpr std::array<Key, 3> program_keys = {Key{"Ctrl + and −, 0", "larger and smaller panels, automatic"},
+                                             Key{"Ctrl + T", "light or dark panels"}, Key{"Ctrl + Q", "end it"}};
+
 /// Where keys and what they do stand from left to right.
 struct Column {
   float left, what, right;
@@ -87,7 +90,7 @@ void draw_other_keys(bool is_live, const Column& column) {
   draw_keys("time", is_live ? std::span<const Key>(live_keys) : std::span<const Key>(run_keys), column);
   if (is_live) draw_keys("the scene", scene_keys, column);
   draw_keys("the picture", appearance_keys, column);
-  draw_keys("the program", std::array{Key{"Ctrl + Q", "end it"}}, column);
+  draw_keys("the program", program_keys, column);
 }
 
 }  // namespace

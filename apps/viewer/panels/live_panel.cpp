@@ -5,6 +5,7 @@
 #include <imgui.h>
 
 #include "viewer/live_source.h"
+#include "viewer/panels/number_slider.h"
 
 namespace pliant_viewer {
 namespace {
@@ -73,15 +74,15 @@ void LiveSource::draw_pace() {
   row("phases", phases, help);
   row("contact", statistics.contact > 0 ? milliseconds(statistics.contact) + " of it" : "none",
       "what contact takes in these phases; without `surfaces`, below, bodies meet colliders alone, which is faster");
-  row_label("speed", "simulated seconds in a second, where the machine can; Ctrl + click: type a number");
+  row_label("speed", "simulated seconds in a second, where the machine can");
   double speed = speed_;
   constexpr double slowest = 0.01, fastest = 10;
   const ImGuiStyle& spaces = ImGui::GetStyle();
   ImGui::SetNextItemWidth(
       -(ImGui::GetFrameHeight() + spaces.ItemInnerSpacing.x + ImGui::CalcTextSize("max").x + spaces.ItemSpacing.x));
   ImGui::BeginDisabled(is_unlimited_);
-  bool has_changed = ImGui::SliderScalar("##speed", ImGuiDataType_Double, &speed, &slowest, &fastest, "%.3g ×",
-                                         ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat);
+  bool has_changed = number_slider(
+      "##speed", speed, {.low = slowest, .high = fastest, .unit = "×", .is_logarithmic = true, .least = slowest});
   ImGui::EndDisabled();
   ImGui::SameLine();
   has_changed |= ImGui::Checkbox("max", &is_unlimited_);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <imgui.h>
 
@@ -9,6 +10,12 @@ namespace pliant_viewer {
 namespace {
 
 constexpr float label_share = 0.35F;  // of a row
+
+/// By title; each thread has a window at most.
+std::map<std::string, std::array<float, 4>>& places_of_sections() {
+  thread_local std::map<std::string, std::array<float, 4>> places;
+  return places;
+}
 
 void set_colors(bool is_dark) {
   ImVec4* colors = ImGui::GetStyle().Colors;
@@ -75,9 +82,19 @@ std::string number_format(double number, const std::string& unit) {
   return format;
 }
 
-bool section_header(const char* title, bool is_open_at_first) {
+bool section_header(const char* title, bool is_open_at_first, bool shall_open) {
   ImGui::Separator();
-  return ImGui::CollapsingHeader(title, is_open_at_first ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+  if (shall_open) ImGui::SetNextItemOpen(true);
+  const bool is_open = ImGui::CollapsingHeader(title, is_open_at_first ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  places_of_sections()[title] = {low.x, low.y, high.x, high.y};
+  return is_open;
+}
+
+std::optional<std::array<float, 4>> section_place(const std::string& title) {
+  const auto found = places_of_sections().find(title);
+  if (found == places_of_sections().end()) return {};
+  return found->second;
 }
 
 std::string label_of(std::string name) {

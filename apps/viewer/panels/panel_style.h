@@ -1,5 +1,7 @@
 #pragma once
 // Styles and small widgets shared by all panels.
+#include <array>
+#include <optional>
 #include <string>
 
 namespace pliant_viewer {
@@ -24,8 +26,11 @@ void row_label(const std::string& label, const std::string& help);
 /// Text that continues on a new line where the panel is too narrow for it.
 void wrapped_text(const std::string& text);
 
-/// A heading that folds its section; returns whether the section is unfolded.
-bool section_header(const char* title, bool is_open_at_first = true);
+/// A heading that folds its section, and unfolds it now where `shall_open`; returns whether it is unfolded.
+bool section_header(const char* title, bool is_open_at_first = true, bool shall_open = false);
+
+/// Where the heading of a section stood when it was drawn last: left, top, right, bottom.
+std::optional<std::array<float, 4>> section_place(const std::string& title);
 
 /// A tooltip for the widget drawn last; none where `help` is empty.
 void explain(const std::string& help);

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include "viewer/added_parts.h"
 #include "viewer/rounding.h"
@@ -68,15 +69,21 @@ bool is_allowed(const Parameter& parameter, const pliant::Vec3& value) {
 
 std::string help_of(const Parameter& parameter) {
   const bool is_typed = parameter.kind == ParameterKind::real || parameter.kind == ParameterKind::integer;
-  return parameter.doc + (is_typed ? "\nCtrl + click: type a number" : "");
+  return parameter.doc + (is_typed ? "\nclick its number to type one" : "");
 }
 
-/// "0.12, 0, -3.4 N", and in the tooltip with more digits.
+/// What is lost in rounding is not told.
 void draw_feeling(const char* label, const pliant::Vec3& value, const char* unit, const std::string& help) {
-  // What is lost in rounding is not told.
   const pliant::Vec3 shown = (value.array().abs() < 1e-6 * value.norm()).select(0, value.array()).matrix();
-  row_label(label, fmt::format("{}\n{:.5g}, {:.5g}, {:.5g} {}", help, shown.x(), shown.y(), shown.z(), unit));
-  wrapped_text(fmt::format("{:.2g}, {:.2g}, {:.2g} {}", shown.x(), shown.y(), shown.z(), unit));
+  row_label(label_with_unit(label, unit), help);
+  vector_text({shown.x(), shown.y(), shown.z()}, unit, help);
+}
+
+/// Scrolls until all from `top` to here is seen.
+void scroll_to_all_from(float top) {
+  ImGuiWindow* const panel = ImGui::GetCurrentWindow();
+  ImGui::ScrollToRect(panel, {panel->Pos.x, top, panel->Pos.x + panel->Size.x, ImGui::GetCursorScreenPos().y},
+                      ImGuiScrollFlags_KeepVisibleEdgeY);
 }
 
 }  // namespace
@@ -106,7 +113,9 @@ void ParameterPanel::draw(const Snapshot& snapshot, LiveScene& live, const std::
     draw_options(those_of(4), live);
     draw_body_contacts(those_of(5), live);
   }
-  if (section_header("Colliders")) draw_colliders(those_of(3), snapshot, live, selected);
+  const bool is_new = std::exchange(shown_collider_, selected) != selected && !selected.empty();
+  scrolls_to_collider_ = is_new ? 2 : std::max(scrolls_to_collider_ - 1, 0);
+  if (section_header("Colliders", true, is_new)) draw_colliders(those_of(3), snapshot, live, selected);
 }
 
 void ParameterPanel::draw_forces(std::span<const Slider> sliders, const Snapshot& snapshot, LiveScene& live) {
@@ -136,18 +145,33 @@ void ParameterPanel::draw_adder(std::string_view list, const Snapshot& snapshot,
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
   places_[key] = {low.x, low.y, high.x, high.y};
   if (!is_open) return;
+  const auto draw_item = [&](const std::string& label, int flags) {
+    const bool is_chosen = ImGui::Selectable(label.c_str(), false, flags);
+    const ImVec2 top = ImGui::GetItemRectMin(), end = ImGui::GetItemRectMax();
+    places_["add " + label] = {top.x, top.y, end.x, end.y};
+    return is_chosen;
+  };
   const auto offer = [&](std::string_view type, const std::string& body) {
     const std::string label = label_of(std::string(type)) + (body.empty() ? "" : " in " + body);
-    if (!ImGui::Selectable(label.c_str())) return;
+    if (!draw_item(label, 0)) return;
     live.post([type = std::string(type), body](CommandContext& context) { context.session.add(type, body); },
               LiveScene::Kind::changes);
   };
   for (const AddableType& type : addable_types()) {
     if (type.list != list) continue;
-    if (!type.is_of_body) offer(type.name, {});
-    for (std::size_t i = 0; type.is_of_body && i < snapshot.body_names->size(); ++i) {
-      if (snapshot.is_figure.at(i) == 0) offer(type.name, (*snapshot.body_names)[i]);
+    if (!type.is_of_body) {
+      offer(type.name, {});
+      continue;
     }
+    bool is_offered = false;
+    for (std::size_t i = 0; i < snapshot.body_names->size(); ++i) {
+      if (snapshot.is_figure.at(i) != 0 || snapshot.is_closed->at(i) == 0) continue;
+      offer(type.name, (*snapshot.body_names)[i]);
+      is_offered = true;
+    }
+    if (is_offered) continue;
+    draw_item(label_of(std::string(type.name)) + ": no body is closed", ImGuiSelectableFlags_Disabled);
+    explain("it needs a body whose surface has no border and encloses a volume");
   }
   ImGui::EndCombo();
 }
@@ -189,13 +213,13 @@ void ParameterPanel::draw_colliders(std::span<const Slider> sliders, const Snaps
     const auto is_own = [&](const Slider& slider) { return slider.parameter.handle.owner == owner; };
     const auto begin = std::ranges::find_if(sliders, is_own);
     if (begin == sliders.end()) continue;
-    ImGui::PushID(begin->key.c_str());
-    if (draw_switch(begin->parameter.name, snapshot, live)) ImGui::SameLine();
-    ImGui::SetNextItemOpen(snapshot.wrenches.size() <= few_colliders, ImGuiCond_Once);
     const auto movable = snapshot.movable.find(id);
     const bool is_selected = movable != snapshot.movable.end() && movable->second.name == selected;
-    const int mark = is_selected ? ImGuiTreeNodeFlags_Selected : 0;
-    if (ImGui::TreeNodeEx("##options", ImGuiTreeNodeFlags_NoTreePushOnOpen | mark, "%s", begin->heading.c_str())) {
+    const float top = ImGui::GetCursorScreenPos().y;
+    ImGui::PushID(begin->key.c_str());
+    if (draw_switch(begin->parameter.name, snapshot, live)) ImGui::SameLine();
+    if (draw_collider_name(begin->heading, snapshot, movable == snapshot.movable.end() ? "" : movable->second.name,
+                           is_selected)) {
       if (is_selected) draw_pose(movable->second, live);
       draw_feeling("force", wrench.force, "N", "what bodies pressed and rubbed it with in the last step");
       draw_feeling("torque", wrench.torque, "N·m", "the same about its position");
@@ -204,11 +228,36 @@ void ParameterPanel::draw_colliders(std::span<const Slider> sliders, const Snaps
       }
     }
     ImGui::PopID();
+    if (is_selected && scrolls_to_collider_ > 0) scroll_to_all_from(top);
   }
   for (const auto& [name, off] : *snapshot.switched_off) {
     if (off.is_collider) draw_switched_off(name, off, snapshot, live);
   }
   draw_adder("colliders", snapshot, live);
+}
+
+/// The line that unfolds the others, by its arrow or a double click; a click on the name selects a collider that has
+/// one, as a click in the picture does.
+bool ParameterPanel::draw_collider_name(const std::string& heading, const Snapshot& snapshot, const std::string& name,
+                                        bool is_selected) {
+  if (is_selected && scrolls_to_collider_ > 0) {
+    ImGui::SetNextItemOpen(true);
+  } else {
+    ImGui::SetNextItemOpen(snapshot.wrenches.size() <= few_colliders, ImGuiCond_Once);
+  }
+  int flags = ImGuiTreeNodeFlags_NoTreePushOnOpen | ImGuiTreeNodeFlags_SpanAvailWidth;
+  if (is_selected) flags |= ImGuiTreeNodeFlags_Selected;
+  if (!name.empty()) flags |= ImGuiTreeNodeFlags_OpenOnArrow | ImGuiTreeNodeFlags_OpenOnDoubleClick;
+  const ImGuiCol color = is_selected ? ImGuiCol_TextSelectedBg : ImGuiCol_Header;
+  ImGui::PushStyleColor(ImGuiCol_Header, ImGui::GetStyleColorVec4(color));
+  const bool is_open = ImGui::TreeNodeEx("##options", flags, "%s", heading.c_str());
+  ImGui::PopStyleColor();
+  if (name.empty()) return is_open;
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  places_["collider:" + name] = {low.x, low.y, high.x, high.y};
+  if (ImGui::IsItemClicked() && !ImGui::IsItemToggledOpen()) clicked_collider_ = name;
+  explain("a click selects it, as in the picture: a handle moves and turns it");
+  return is_open;
 }
 
 /// Of each body how it touches, which folds.
@@ -276,21 +325,15 @@ void ParameterPanel::draw_row(const Slider& slider, const std::string& label, co
   const std::string& key = slider.key;
   const auto found = edited_.find(key);
   pliant::Vec3 value = found == edited_.end() ? parameter.value : found->second.value;
-  row_label(label, help);
+  row_label(parameter.kind == ParameterKind::vector ? label_with_unit(label, parameter.unit) : label, help);
   const std::string id = "##" + parameter.handle.option;
   bool has_changed = false;
+  NumberPlaces places;
   switch (parameter.kind) {
     case ParameterKind::real:
-      has_changed = draw_real(slider, value[0]);
+    case ParameterKind::integer:
+      has_changed = number_slider(id.c_str(), value[0], slider_of(slider), &places);
       break;
-    case ParameterKind::integer: {
-      int number = static_cast<int>(std::min(value[0], 1e9));
-      const int most = static_cast<int>(std::min<double>(parameter.range.max, 100));
-      has_changed = ImGui::SliderInt(id.c_str(), &number, static_cast<int>(parameter.range.min), most, "%d",
-                                     ImGuiSliderFlags_Logarithmic);
-      value[0] = number;
-      break;
-    }
     case ParameterKind::choice: {
       int chosen = static_cast<int>(value[0]);
       std::string items;
@@ -306,14 +349,14 @@ void ParameterPanel::draw_row(const Slider& slider, const std::string& label, co
       break;
     }
     case ParameterKind::vector:
-      has_changed =
-          ImGui::DragScalarN(id.c_str(), ImGuiDataType_Double, value.data(), 3, 0.05F, nullptr, nullptr, "%.3g");
+      has_changed = vector_fields(id.c_str(), value.data(), 0.05F, parameter.unit);
       break;
   }
+  const bool is_number = parameter.kind == ParameterKind::real || parameter.kind == ParameterKind::integer;
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
-  places_[key] = {low.x, low.y, high.x, high.y};
+  places_[key] = is_number ? places.slider : std::array{low.x, low.y, high.x, high.y};
+  if (is_number) places_["number:" + key] = places.number;
   post_change(key, parameter, value, has_changed, live);
-  if (parameter.kind == ParameterKind::vector) explain(parameter.unit);
 }
 
 /// What is on the way to a number, as the 0 of 0.02, is not sent, unless it is left like that.
@@ -347,21 +390,22 @@ void ParameterPanel::post_change(const std::string& key, const Parameter& parame
   edited_[key] = {value, command};
 }
 
-bool ParameterPanel::draw_real(const Slider& slider, double& value) {
+/// How far it goes is decided when it is first seen.
+NumberSlider ParameterPanel::slider_of(const Slider& slider) {
   const Parameter& parameter = slider.parameter;
-  const std::string id = "##" + parameter.handle.option;
-  const std::string format = number_format(value, parameter.unit);
-  auto found = ranges_.find(slider.key);
-  if (found == ranges_.end()) found = ranges_.emplace(slider.key, range_of(parameter)).first;
-  auto [low, high] = found->second;
-  if (!(low < high)) {  // from zero there are no decades
-    const double step = std::max(std::abs(value) * 0.01, 1e-3);
-    return ImGui::DragScalar(id.c_str(), ImGuiDataType_Double, &value, static_cast<float>(step),
-                             parameter.range.min > -1e300 ? &parameter.range.min : nullptr, nullptr, format.c_str());
+  NumberSlider shown{.unit = parameter.unit, .most = parameter.range.max};
+  shown.least = parameter.range.min + (parameter.range.excludes_min ? 1e-9 : 0);
+  if (parameter.kind == ParameterKind::integer) {
+    shown.low = parameter.range.min;
+    shown.high = std::min<double>(parameter.range.max, 100);
+    shown.is_logarithmic = shown.is_whole = true;
+    return shown;
   }
-  const bool is_wide = low > 0 && high > 100 * low;
-  return ImGui::SliderScalar(id.c_str(), ImGuiDataType_Double, &value, &low, &high, format.c_str(),
-                             is_wide ? ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat : 0);
+  const auto found = ranges_.try_emplace(slider.key, range_of(parameter)).first;
+  shown.low = found->second[0];
+  shown.high = found->second[1];
+  shown.is_logarithmic = shown.low > 0 && shown.high > 100 * shown.low;
+  return shown;
 }
 
 }  // namespace pliant_viewer

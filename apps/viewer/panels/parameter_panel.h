@@ -3,8 +3,10 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "viewer/live_scene.h"
+#include "viewer/panels/number_slider.h"
 #include "viewer/panels/panel_style.h"
 
 namespace pliant_viewer {
@@ -21,9 +23,11 @@ class ParameterPanel {
   /// Draws all parameters of a snapshot but those of groups, and posts what is changed. `selected`: the name of a
   /// collider that has rows for where it is as well.
   void draw(const Snapshot& snapshot, LiveScene& live, const std::string& selected = {});
+  /// The collider whose name was clicked since the last call; "": none.
+  std::string take_clicked_collider() { return std::exchange(clicked_collider_, {}); }
   bool shows_forces() const { return shows_forces_; }  ///< as of the last drawing
-  /// Where the widget of a parameter, "switch:NAME", or "add forces" and "add colliders", stands in the window, as of
-  /// the last drawing: left, top, right, bottom.
+  /// Where the widget of a parameter, the "number:KEY" beside its slider, "switch:NAME", "collider:NAME", or "add
+  /// forces" and "add colliders", stands in the window, as of the last drawing: left, top, right, bottom.
   std::optional<std::array<float, 4>> place_of(const std::string& key) const;
 
  private:
@@ -38,6 +42,8 @@ class ParameterPanel {
   bool draw_switch(const std::string& name, const Snapshot& snapshot, LiveScene& live);
   void draw_colliders(std::span<const Slider> sliders, const Snapshot& snapshot, LiveScene& live,
                       const std::string& selected);
+  bool draw_collider_name(const std::string& heading, const Snapshot& snapshot, const std::string& name,
+                          bool is_selected);
   void draw_pose(const MovableCollider& collider, LiveScene& live);
   /// Where the row of a collider has gone from under the hand, which then has let go.
   void end_lost_drag(LiveScene& live);
@@ -45,7 +51,7 @@ class ParameterPanel {
   void draw_row(const Slider& slider, const std::string& label, const std::string& help, LiveScene& live);
   void post_change(const std::string& key, const pliant::Parameter& parameter, pliant::Vec3 value, bool has_changed,
                    LiveScene& live);
-  bool draw_real(const Slider& slider, double& value);
+  NumberSlider slider_of(const Slider& slider);
 
   /// The same of a switch.
   struct Switched {
@@ -62,7 +68,9 @@ class ParameterPanel {
   };
   std::optional<MovedRow> moved_;  // that is dragged
   bool shows_forces_ = false;
-  std::string held_;  // key of what is being dragged and has changed: one change for undo
+  std::string shown_collider_, clicked_collider_;
+  int scrolls_to_collider_ = 0;  // pictures in which that goes on: it was selected just now, and its rows are new
+  std::string held_;             // key of what is being dragged and has changed: one change for undo
   std::map<std::string, std::array<double, 2>> ranges_;  // of sliders, by the values that were seen first
   std::map<std::string, std::array<float, 4>> places_;
 };

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include "viewer/panels/number_slider.h"
 #include "viewer/panels/panel_style.h"
 #include "viewer/playback.h"
 
@@ -12,11 +13,11 @@ void Playback::draw_panel(const std::string&) {
   wrapped_text(fmt::format("{:.2f} of {:.2f} s", time(place_), time(count() - 1)));
   row_label("frame", "");
   ImGui::TextUnformatted(fmt::format("{} of {}", place_ + 1, count()).c_str());
-  row_label("speed", "seconds of the run in a second; Ctrl + click: type a number");
+  row_label("speed", "seconds of the run in a second");
   double speed = speed_;
   constexpr double slowest = 0.01, fastest = 10;
-  if (ImGui::SliderScalar("##speed", ImGuiDataType_Double, &speed, &slowest, &fastest, "%.3g ×",
-                          ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat) &&
+  if (number_slider("##speed", speed,
+                    {.low = slowest, .high = fastest, .unit = "×", .is_logarithmic = true, .least = slowest}) &&
       speed > 0) {
     set_speed(speed);
   }

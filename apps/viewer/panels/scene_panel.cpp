@@ -28,12 +28,15 @@ bool ScenePanel::draw_row_with_picture(const OpenableScene& scene, const PanelSt
   places_.push_back({low.x, low.y, high.x, high.y});
   const ImVec2 end = ImGui::GetCursorPos();
   if (ImGui::IsItemVisible()) {
-    if (const pliant_render::Texture* texture = thumbnails_.find(scene.name)) {
-      const ImVec2 corner = {low.x + ImGui::GetStyle().ItemSpacing.x / 2, (low.y + high.y - picture.y) / 2};
+    const ImVec2 corner = {low.x + ImGui::GetStyle().ItemSpacing.x / 2, (low.y + high.y - picture.y) / 2};
+    if (const pliant_render::Texture* texture = thumbnails_.find(scene.name, scene.picture)) {
       // NOLINTNEXTLINE(performance-no-int-to-ptr): as ImGui wants the number of a texture
       ImGui::GetWindowDrawList()->AddImageRounded(reinterpret_cast<ImTextureID>(std::uintptr_t{texture->id()}), corner,
                                                   {corner.x + picture.x, corner.y + picture.y}, {0, 0}, {1, 1},
                                                   IM_COL32_WHITE, 4 * style.unit);
+    } else {
+      ImGui::GetWindowDrawList()->AddRectFilled(corner, {corner.x + picture.x, corner.y + picture.y},
+                                                ImGui::GetColorU32(ImGuiCol_FrameBg), 4 * style.unit);
     }
   }
   ImGui::SetCursorPos({left, start.y + std::max(0.0F, (height - text_height) / 2)});
@@ -54,7 +57,7 @@ bool ScenePanel::draw_row(const OpenableScene& scene, const PanelStyle& style) {
     ImGui::Spacing();
   }
   ImGui::PushID(static_cast<int>(places_.size()));
-  if (scene.opens.empty() && !thumbnail_file(scene.name).empty()) {
+  if (!scene.picture.empty() || (scene.opens.empty() && !thumbnail_file(scene.name).empty())) {
     const bool is_clicked = draw_row_with_picture(scene, style);
     ImGui::PopID();
     return is_clicked;

@@ -1,6 +1,7 @@
 #pragma once
 // The list of scenes that can be opened, and a field for the name of a file.
 #include <array>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -18,6 +19,8 @@ struct OpenableScene {
   std::string description;
   std::string opens = {};    ///< what is asked for; empty: the name
   std::string heading = {};  ///< of the part of the list that begins here; empty: none
+  std::filesystem::path picture =
+      {};  ///< a PNG file to be shown beside it, there or not; empty: a built-in scene's own
 };
 
 class ScenePanel {

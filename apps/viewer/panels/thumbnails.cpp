@@ -2,6 +2,8 @@
 
 #include <webp/decode.h>
 
+#include "viewer/recent_pictures.h"
+
 namespace pliant_viewer {
 
 std::optional<pliant_render::Image> thumbnail(std::string_view scene) {
@@ -17,11 +19,11 @@ std::optional<pliant_render::Image> thumbnail(std::string_view scene) {
   return image;
 }
 
-const pliant_render::Texture* ThumbnailTextures::find(const std::string& scene) {
-  const auto [place, is_new] = textures_.try_emplace(scene);
+const pliant_render::Texture* ThumbnailTextures::find(const std::string& scene, const std::filesystem::path& file) {
+  const auto [place, is_new] = textures_.try_emplace(file.empty() ? scene : file.string());
   std::optional<pliant_render::Texture>& texture = place->second;
   if (is_new) {
-    if (const auto image = thumbnail(scene)) {
+    if (const auto image = file.empty() ? thumbnail(scene) : read_recent_picture(file)) {
       texture.emplace();
       pliant_render::set_up_texture(*texture, GL_RGB8, image->width, image->height, image->pixels.data());
     }

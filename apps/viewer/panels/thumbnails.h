@@ -1,5 +1,6 @@
 #pragma once
-// Small pictures of built-in scenes, for the list of what can be opened.
+// Small pictures of built-in scenes and of recent files, for the list of what can be opened.
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <span>
@@ -20,8 +21,8 @@ std::optional<pliant_render::Image> thumbnail(std::string_view scene);
 /// Textures with these pictures, made when they are first asked for. Needs a current OpenGL context.
 class ThumbnailTextures {
  public:
-  /// Null where a scene has no picture.
-  const pliant_render::Texture* find(const std::string& scene);
+  /// Of a built-in scene, or of the PNG file that is named. Null where there is no picture.
+  const pliant_render::Texture* find(const std::string& scene, const std::filesystem::path& file = {});
 
  private:
   std::map<std::string, std::optional<pliant_render::Texture>> textures_;

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "pliant/constraints/attachment.h"
+#include "pliant/constraints/edge_strain.h"
 #include "pliant/core/error.h"
 
 namespace pliant {
@@ -133,6 +135,13 @@ void list_settings(const Simulation& simulation, std::vector<Parameter>& list) {
   list_options(settings, lister);
 }
 
+/// Of the stiffness of a group, where that depends on its other options; else empty.
+std::string_view unit_as_made(const Group& group) {
+  if (const auto* fibers = options_in<EdgeStrain>(group)) return fibers->measure == FibreMeasure::rope ? "N" : "N/m";
+  if (const auto* ties = options_in<Attachment>(group)) return is_seam(ties->mode) ? "N/m²" : "N/m";
+  return "";
+}
+
 void list_group(const Simulation& simulation, GroupId id, std::vector<Parameter>& list) {
   const Group& group = group_with(simulation, id);
   ParameterLister lister(id, group.type, group.name, list);
@@ -143,9 +152,12 @@ void list_group(const Simulation& simulation, GroupId id, std::vector<Parameter>
   lister.anchors = group.source->anchors();
   const auto first = static_cast<std::ptrdiff_t>(list.size());
   group.source->list(lister);
-  if (lister.stiffnesses != nullptr) return;
   const auto is_stiffness = [](const Parameter& each) { return each.handle.option == stiffness_alone.name; };
-  if (std::none_of(list.begin() + first, list.end(), is_stiffness)) lister.add_stiffness(stiffness_alone, false);
+  const auto stiffness = std::find_if(list.begin() + first, list.end(), is_stiffness);
+  const std::string_view unit = unit_as_made(group);
+  if (stiffness != list.end() && !stiffness->unit.empty() && !unit.empty()) stiffness->unit = unit;
+  if (lister.stiffnesses != nullptr) return;
+  if (stiffness == list.end()) lister.add_stiffness(stiffness_alone, false);
 }
 
 /// Whether "stiffness" is the common factor of a group, and no option that its constraints are made anew of.
