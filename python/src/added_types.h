@@ -28,8 +28,10 @@ class AddedType final : public TypedOptions<Options> {
     if constexpr (is_force || is_collider) {
       return std::string(Options::info.formula);
     } else {
-      return "E = " + std::string(Options::info.energy) + ", z = " + std::string(Options::info.reduction) + ", p in " +
-             std::string(Options::info.set) + " (" + std::string(Options::info.source) + ")";
+      const bool projects = Options::info.set != pliant::no_set;
+      return "E = " + std::string(Options::info.energy) + ", z = " + std::string(Options::info.reduction) +
+             (projects ? ", p in " + std::string(Options::info.set) : "") + " (" + std::string(Options::info.source) +
+             ")";
     }
   }
 

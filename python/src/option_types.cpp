@@ -32,7 +32,10 @@ using Types = std::map<std::string, std::unique_ptr<OptionType>>;
 
 template <template <class> class Made, class... Options>
 void add_types(Types& types, std::tuple<Options...>*) {
-  (types.emplace(class_name_of<Options>(), std::make_unique<Made<Options>>()), ...);
+  const auto add = [&types](std::string name, std::unique_ptr<OptionType> type) {
+    if (!types.emplace(name, std::move(type)).second) throw std::logic_error("two types are called " + name);
+  };
+  (add(class_name_of<Options>(), std::make_unique<Made<Options>>()), ...);
 }
 
 template <template <class> class Made, class List>

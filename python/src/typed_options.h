@@ -11,12 +11,27 @@
 
 namespace pliant_python {
 
-/// "EdgeSpring" of pliant::EdgeSpring.
+/// "TriangleStvk" of triangle_stvk.
+inline std::string in_camel_case(std::string_view words) {
+  std::string name;
+  bool begins = true;
+  for (const char letter : words) {
+    const bool is_small = letter >= 'a' && letter <= 'z';
+    if (letter != '_') name += begins && is_small ? static_cast<char>(letter - 'a' + 'A') : letter;
+    begins = letter == '_';
+  }
+  return name;
+}
+
+/// "EdgeSpring" of pliant::EdgeSpring; of a template, which has no name of its own, that in scene files.
 template <class Options>
 std::string class_name_of() {
   char* const text = abi::__cxa_demangle(typeid(Options).name(), nullptr, nullptr, nullptr);
   std::string name = text;
   std::free(text);
+  if constexpr (requires { Options::info.name; }) {
+    if (name.ends_with('>')) return in_camel_case(Options::info.name);
+  }
   return name.substr(name.rfind(':') + 1);
 }
 

@@ -47,6 +47,24 @@ std::vector<std::string> sorted_names(const Simulation& simulation) {
 
 }  // namespace
 
+TEST_CASE("a change of material takes the place of every elastic type that has the whole body") {
+  const auto check = [](const Mesh& mesh, const char* material, const auto& options) {
+    Simulation changed, fresh;
+    const BodyId body = changed.add_body(mesh, Mass::total(1), {.name = "body"});
+    changed.add(body, options, "own");
+    change_material(changed, body, builtin_material(material));
+    add_material(fresh, fresh.add_body(mesh, Mass::total(1), {.name = "body"}), builtin_material(material));
+    CHECK(sorted_names(changed) == sorted_names(fresh));
+  };
+  const Mesh sheet = grid({.columns = 4, .rows = 4}), block = bar({.cells = {2, 1, 1}});
+  check(sheet, "cotton", TriangleStrain{});
+  check(sheet, "cotton", TriangleNeoHookean{});
+  check(sheet, "cotton", TriangleStvk{});
+  check(block, "silicone", TetrahedronStrain{});
+  check(block, "silicone", TetrahedronNeoHookean{});
+  check(block, "silicone", TetrahedronStvk{});
+}
+
 TEST_CASE("from a change on a sheet moves as one that was made of that material") {
   // Steel is a plate without threads: other groups than those of silk.
   for (const auto& [from, to] : {std::pair{"cotton", "silk"}, std::pair{"steel_sheet", "silk"}}) {

@@ -160,4 +160,31 @@ TEST_CASE("a group of a material is switched off by its name, and keeps the fact
                        pliant::Error);
 }
 
+TEST_CASE("a solid's surface is tied as stiffly with a group of its material off as with that removed") {
+  const auto toy = [](const std::string& of_body, const std::string& of_scene) {
+    return read(R"({ "pliant": 1, "bodies": [ { "name": "toy", "material": "silicone", "solid": { "spacing": 0.5 },
+      "mesh": { "shape": "sphere", "subdivisions": 1 })" +
+                of_body + "} ]" + of_scene + "}");
+  };
+  Scene off = toy(R"(, "disabled_groups": ["toy.volume"])", "");
+  Scene removed = toy("", R"(, "events": [ { "step": 0, "remove": "toy.volume" } ])");
+  const auto ties = [](const Scene& scene) {
+    return scene.simulation.stiffness(scene.simulation.find_group("toy.surface").value());
+  };
+  CHECK(ties(off) == ties(removed));
+  CHECK(after(off, 10) == after(removed, 10));
+}
+
+TEST_CASE("groups of another body are not switched off here, and factors of what is off are checked") {
+  const auto two = [](const std::string& of_first, const std::string& of_second) {
+    const std::string mesh = R"("material": "silk", "mesh": { "shape": "grid", "columns": 3, "rows": 3 })";
+    return R"({ "pliant": 1, "bodies": [ { "name": "a", )" + mesh + R"(, "disabled_groups": ["a.bend"])" + of_first +
+           R"( }, { "name": "b", )" + mesh + of_second + " } ] }";
+  };
+  CHECK(message_of(two("", R"(, "disabled_groups": ["a.bend"])"))
+            .starts_with("s.json: bodies[1].disabled_groups[0]: 'a.bend' is no group of the body's material"));
+  CHECK(message_of(two(R"(, "stiffness_factors": { "a.bend": [1, 1, 1, 1, -1, 1, 1, 1, 1] })", ""))
+            .find("at vertex 4 is -1") != std::string::npos);
+}
+
 }  // namespace test_disabled

@@ -121,7 +121,8 @@ bool number_slider(const char* id, double& value, const NumberSlider& slider, Nu
     ImGui::SameLine(0, gap);
   }
   ImGui::SetNextItemWidth(has_slider ? number : whole);
-  const double step = slider.is_whole ? 0.1 : std::max(std::abs(value) * 0.01, slider.unit.empty() ? 1e-3 : 1e-4);
+  const double from_zero = slider.low > 0 ? 0.01 * slider.low : slider.unit.empty() ? 1e-3 : 1e-4;
+  const double step = slider.is_whole ? 0.1 : value != 0 ? 0.01 * std::abs(value) : from_zero;
   has_changed |= number_field("##number", value, shown_text(value, slider), static_cast<float>(step), slider, 1);
   if (places != nullptr) {
     places->number = last_place();

@@ -15,10 +15,13 @@ namespace pliant {
 struct ConstraintInfo {
   std::string_view name;       ///< in scene files
   std::string_view reduction;  ///< z = A S q
-  std::string_view set;        ///< the points p that satisfy the constraint
+  std::string_view set;        ///< the points p that satisfy the constraint, or no_set
   std::string_view energy;
   std::string_view source;
 };
+
+/// Of a type that does not project.
+inline constexpr std::string_view no_set = "none: an energy of its own";
 
 /// A body as the builders see it.
 struct BodyView {

@@ -3,6 +3,7 @@
 #include "pliant/constraints/hyperelastic.h"
 
 #include <cmath>
+#include <limits>
 
 #include "pliant/constraints/element_batch.h"
 #include "pliant/core/svd.h"

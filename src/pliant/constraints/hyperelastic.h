@@ -24,19 +24,19 @@ inline constexpr Real largest_poisson_ratio = 0.4999;
 struct NeoHookean {
   static constexpr auto kernel_of_tetrahedra = &LocalKernels::tetrahedron_neo_hookean;
   static constexpr auto kernel_of_triangles = &LocalKernels::triangle_neo_hookean;
-  static constexpr ConstraintInfo of_tetrahedra{"tetrahedron_neo_hookean", "F (3 × 3)", "none: an energy of its own",
+  static constexpr ConstraintInfo of_tetrahedra{"tetrahedron_neo_hookean", "F (3 × 3)", no_set,
                                                 "v (½ μ (I − 3) + ½ λ (J − α)² − ½ μ ln(I + 1))", "Smith et al. 2018"};
-  static constexpr ConstraintInfo of_triangles{"triangle_neo_hookean", "F (3 × 2)", "none: an energy of its own",
+  static constexpr ConstraintInfo of_triangles{"triangle_neo_hookean", "F (3 × 2)", no_set,
                                                "a (½ μ (I − 2J) + ½ (λ + μ) (J − 1)²)", "after Smith et al. 2018"};
 };
 
 struct StVenantKirchhoff {
   static constexpr auto kernel_of_tetrahedra = &LocalKernels::tetrahedron_stvk;
   static constexpr auto kernel_of_triangles = &LocalKernels::triangle_stvk;
-  static constexpr ConstraintInfo of_tetrahedra{"tetrahedron_stvk", "F (3 × 3)", "none: an energy of its own",
-                                                "v (μ ‖G‖² + ½ λ (tr G)²)", "Sifakis and Barbič 2012, Sec. 3.3"};
-  static constexpr ConstraintInfo of_triangles{"triangle_stvk", "F (3 × 2)", "none: an energy of its own",
-                                               "a (μ ‖G‖² + ½ λ (tr G)²)", "Sifakis and Barbič 2012, Sec. 3.3"};
+  static constexpr ConstraintInfo of_tetrahedra{"tetrahedron_stvk", "F (3 × 3)", no_set, "v (μ ‖G‖² + ½ λ (tr G)²)",
+                                                "Sifakis and Barbič 2012, Sec. 3.3"};
+  static constexpr ConstraintInfo of_triangles{"triangle_stvk", "F (3 × 2)", no_set, "a (μ ‖G‖² + ½ λ (tr G)²)",
+                                               "Sifakis and Barbič 2012, Sec. 3.3"};
 };
 
 template <class Law>

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "pliant/constraints/hyperelastic.h"
 #include "pliant/core/printable.h"
 #include "pliant/mesh/loose.h"
 #include "pliant/simulation/carried_surface.h"
@@ -14,7 +15,8 @@ namespace pliant {
 namespace {
 
 using Elastic = std::tuple<EdgeSpring, EdgeStrain, FibreStrain, TriangleStrain, TriangleArea, Bending, HingeBending,
-                           TriangleBending, TetrahedronStrain, TetrahedronVolume>;
+                           TriangleBending, TetrahedronStrain, TetrahedronVolume, TriangleNeoHookean, TriangleStvk,
+                           TetrahedronNeoHookean, TetrahedronStvk>;
 
 /// Whether a group has all elements of its body, by options of this type.
 template <class Constraint>

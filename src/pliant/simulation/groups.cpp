@@ -9,6 +9,15 @@
 #include "pliant/simulation/transaction.h"
 
 namespace pliant {
+
+void check_stiffness_factors(std::span<const Real> factors, const std::string& place) {
+  for (std::size_t i = 0; i < factors.size(); ++i) {
+    if (factors[i] > 0 && std::isfinite(factors[i])) continue;
+    fail_input(fmt::format("{}: the factor of the stiffness at vertex {} is {}; give a finite number above 0", place, i,
+                           factors[i]));
+  }
+}
+
 namespace {
 
 /// Constraints that the set has in a batch, hard pins included.
@@ -138,11 +147,7 @@ void check_factors(const std::vector<Real>& factors, const Group& group, const B
     fail_input(place + ": " + std::to_string(factors.size()) + " factors of the stiffness for " +
                std::to_string(body.mesh.vertex_count()) + " vertices; give one for each");
   }
-  for (std::size_t i = 0; i < factors.size(); ++i) {
-    if (factors[i] > 0 && std::isfinite(factors[i])) continue;
-    fail_input(fmt::format("{}: the factor of the stiffness at vertex {} is {}; give a finite number above 0", place, i,
-                           factors[i]));
-  }
+  check_stiffness_factors(factors, place);
 }
 
 /// The vertices that a group pins, ascending.

@@ -105,4 +105,7 @@ struct ColliderRecord {
   ColliderMotion motion{};
 };
 
+/// Refuses factors of a stiffness that are not finite or not above 0, naming the place and the vertex.
+void check_stiffness_factors(std::span<const Real> factors, const std::string& place);
+
 }  // namespace pliant

@@ -104,26 +104,30 @@ void Descent::go_back(Index cuts, const LocalResult& local, const StepContext& c
 Real Descent::next_cut(const LocalResult& local) const {
   if (!has_potentials_) return cut;
   const Real share = lbfgs_.best_share(local);
+  if (!(share > 0)) return cut;  // the slope has been forgotten
   return std::clamp(share > least_of_parabola ? share : std::pow(share, 0.2), smallest_cut, cut);
 }
 
 /// A prediction that leads far into what resists it, as after an impact or from a tangle, is no place to begin: then
-/// the substep does so where the one before has ended. Neither is far from there otherwise.
-LocalResult Descent::begin_lower(LocalResult local, const StepContext& context, WorkingState& work) const {
-  const Real step = inertia_step(context.settings.integrator, context.time_step);
+/// the substep does so where the one before has ended. Far is where more elastic energy is to be had back than the way
+/// there costs, many times.
+LocalResult Descent::begin_lower(const LocalResult& local, const StepContext& context, WorkingState& work) const {
+  const std::span<const Real> weights = context.system.inertia_weights();  // 0 of pinned vertices
   Real inertia = 0;
   for (Index i = 0; i < context.system.vertex_count(); ++i) {
-    inertia += work.begin.masses[at(i)] * (work.begin.positions.row(i) - work.prediction.row(i)).squaredNorm();
+    inertia += weights[at(i)] / 2 * (work.begin.positions.row(i) - work.prediction.row(i)).squaredNorm();
   }
-  if (local.objective() <= far_above * inertia / (2 * step * step)) return local;
-  Positions guess = work.positions;
+  if (local.objective() <= far_above * inertia) return local;
+  work.solution = work.positions;  // both are free until the first solve
+  work.velocities = work.residual;
   for (Index i = 0; i < context.system.vertex_count(); ++i) {
     if (context.system.is_pinned()[at(i)] == 0) work.positions.row(i) = work.begin.positions.row(i);
   }
   const LocalResult lower = evaluate(context, work);
-  if (lower.objective() < local.objective()) return lower;
-  work.positions.swap(guess);
-  return evaluate(context, work);
+  if (!(local.objective() - lower.elastic <= far_above * inertia)) return lower;  // also where it is not finite
+  work.positions = work.solution;
+  work.residual = work.velocities;
+  return local;
 }
 
 /// In place of the last move.

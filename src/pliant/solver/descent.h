@@ -29,7 +29,7 @@ class Descent {
   static constexpr Real cut = 0.4;
 
   LocalResult evaluate(const StepContext& context, WorkingState& work) const;
-  LocalResult begin_lower(LocalResult local, const StepContext& context, WorkingState& work) const;
+  LocalResult begin_lower(const LocalResult& local, const StepContext& context, WorkingState& work) const;
   bool must_go_back(const LocalResult& local) const;
   void go_back(Index cuts, const LocalResult& local, const StepContext& context, WorkingState& work);
   Real next_cut(const LocalResult& local) const;

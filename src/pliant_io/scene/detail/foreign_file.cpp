@@ -26,7 +26,7 @@ constexpr std::array<Signature, 13> signatures = {{
     {0, "GIF8"sv, "a GIF picture"},
     {0, "BM"sv, "a BMP picture"},
     {8, "WEBP"sv, "a WebP picture"},
-    {4, "ftyp"sv, "a film"},
+    {4, "ftyp"sv, "a film or a photo"},
     {0, "%PDF"sv, "a PDF document"},
     {0, "PK\x03\x04"sv, "a ZIP archive or an office document"},
     {0, "\x1f\x8b"sv, "a gzip archive"},

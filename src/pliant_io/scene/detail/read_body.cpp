@@ -78,14 +78,15 @@ std::vector<std::string> read_disabled_groups(const Node& body) {
 }
 
 /// Refuses names that are no groups of the material.
-void check_disabled_groups(const Node& body, const SceneReader& scene) {
+void check_disabled_groups(const Node& body, BodyId id, const SceneReader& scene) {
   const std::vector<std::string> names = read_disabled_groups(body);
   for (std::size_t i = 0; i < names.size(); ++i) {
     const Node node = body.require("disabled_groups")[i];
     if (scene.places.contains(names[i])) {
       node.fail(fmt::format("'{}' has an entry of its own; write \"enabled\": false there", printable(names[i])));
     }
-    if (!scene.disabled.contains(names[i])) {
+    const auto off = scene.disabled.find(names[i]);
+    if (off == scene.disabled.end() || off->second.body != id) {
       node.fail(fmt::format("'{}' is no group of the body's material; leave it out", printable(names[i])));
     }
   }
@@ -142,21 +143,27 @@ void SceneReader::read_body(const Node& node) {
   bodies_of[&node.origin()].push_back(id);
   if (const auto appearance = node.find("appearance")) appearance_of[id] = read_appearance(*appearance, warnings);
   if (animation_node) add_animation(*animation_node, id, std::move(animation.path));
-  if (material) add_material(*material_node, id, *material, node);
+  Real stiffness_off = 0;
+  if (material) stiffness_off = add_material(*material_node, id, *material, node);
   if (const auto constraints = node.find("constraints")) add_groups(*constraints, id);
-  if (node.has("solid")) carry_surface(simulation, id, 0, free_name(name + ".surface"));
+  // Ties are as stiff as the whole material asks for, so that a switch does not change them.
+  const Real all = stiffness_off + tetrahedron_stiffness(simulation, id);
+  const Real ties = stiffness_off > 0 ? tie_ratio * all : 0;
+  if (node.has("solid")) carry_surface(simulation, id, ties, free_name(name + ".surface"));
   if (const auto factors = node.find("stiffness_factors")) {
     read_stiffness_factors(*factors, id, disabled, simulation);
   }
-  check_disabled_groups(node, *this);
+  check_disabled_groups(node, id, *this);
 }
 
-void SceneReader::add_material(const Node& node, BodyId id, const BodyMaterial& given, const Node& of_body) {
+Real SceneReader::add_material(const Node& node, BodyId id, const BodyMaterial& given, const Node& of_body) {
   const std::vector<std::string> without = read_disabled_groups(of_body);
+  Real stiffness_off = 0;
   for (const MaterialGroup& group : material_groups(given.material, given.placement)) {
     const std::string name = free_name(fmt::format("{}.{}", simulation.body(id).name, group.name));
     ConstraintOptions options = std::visit([](const auto& of) { return ConstraintOptions(of); }, group.options);
     if (std::ranges::find(without, name) != without.end()) {
+      if (!simulation.body(id).mesh.tetrahedra.empty()) stiffness_off += stiffness_of(options)[0];
       disable_group(node, id, options, name);
       continue;
     }
@@ -165,6 +172,7 @@ void SceneReader::add_material(const Node& node, BodyId id, const BodyMaterial& 
   }
   simulation.set_contact(id, {.friction = given.material.surface.friction});
   material_of.emplace(id, given.material);
+  return stiffness_off;
 }
 
 void SceneReader::add_animation(const Node& node, BodyId id, std::shared_ptr<Path> path) {

@@ -35,6 +35,7 @@ void read_stiffness_factors(const Node& node, BodyId body, std::map<std::string,
     const auto off = disabled.find(std::string(name));
     if (off != disabled.end() && off->second.body == body) {
       off->second.factors = read_factors(value, simulation.body(body).mesh);
+      value.locate([&] { check_stiffness_factors(off->second.factors, printable(name)); });
       continue;
     }
     const std::optional<GroupId> group = simulation.find_group(name);

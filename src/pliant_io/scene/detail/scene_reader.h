@@ -104,7 +104,8 @@ struct SceneReader {
 
  private:
   /// The groups of a body's material.
-  void add_material(const Node& node, BodyId body, const BodyMaterial& given, const Node& of_body);
+  /// Returns the stiffness of those groups of tetrahedra that are switched off [Pa].
+  Real add_material(const Node& node, BodyId body, const BodyMaterial& given, const Node& of_body);
   BodyView view(BodyId body) const;
   /// Holds all vertices of a body, and lets them go along the path, if there is one.
   void add_animation(const Node& node, BodyId body, std::shared_ptr<Path> path);
