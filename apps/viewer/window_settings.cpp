@@ -42,10 +42,10 @@ std::filesystem::path window_settings_path() {
 }
 
 WindowSettings read_window_settings(const std::filesystem::path& file) {
-  constexpr std::uintmax_t most_bytes = 1 << 16;
+  constexpr std::uintmax_t most_of_settings = 1 << 16;
   WindowSettings settings;
   std::error_code ignored;
-  if (const auto size = std::filesystem::file_size(file, ignored); ignored || size > most_bytes) return settings;
+  if (const auto size = std::filesystem::file_size(file, ignored); ignored || size > most_of_settings) return settings;
   try {
     const nlohmann::json json = nlohmann::json::parse(pliant::read_file(file));
     constexpr auto themes = choice_names(Theme{});

@@ -377,6 +377,17 @@ class TestForce(ForceOptions):
     """
     def __init__(self, *, vertices: Selection = ..., force: Points = ..., frames: Sequence[int] = ...) -> None: ...
 
+class TetrahedronNeoHookean(ConstraintOptions):
+    """Constraint `tetrahedron_neo_hookean`. E = v (½ μ (I − 3) + ½ λ (J − α)² − ½ μ ln(I + 1)), z = F (3 × 3) (Smith et al. 2018)
+
+    Options:
+        on: vertices whose tetrahedra resist strain, default 'all'
+        stencils: quadruples of vertices, in place of the tetrahedra of the mesh
+        stiffness: Young's modulus [Pa], default 100000.0
+        poisson_ratio: by which what is stretched becomes thinner; rubber 0.49, default 0.45
+    """
+    def __init__(self, *, on: Selection = ..., stencils: Stencils = ..., stiffness: Values = ..., poisson_ratio: float = ...) -> None: ...
+
 class TetrahedronStrain(ConstraintOptions):
     """Constraint `tetrahedron_strain`. E = ½ k v ‖F − p‖², z = F (3 × 3), p in F with stretches from min to max, det > 0 (Bouaziz et al. 2014, Sec. 5.1)
 
@@ -388,6 +399,17 @@ class TetrahedronStrain(ConstraintOptions):
         max_stretch: largest singular value of F left alone, default 1.0
     """
     def __init__(self, *, on: Selection = ..., stencils: Stencils = ..., stiffness: Values = ..., min_stretch: Values = ..., max_stretch: Values = ...) -> None: ...
+
+class TetrahedronStvk(ConstraintOptions):
+    """Constraint `tetrahedron_stvk`. E = v (μ ‖G‖² + ½ λ (tr G)²), z = F (3 × 3) (Sifakis and Barbič 2012, Sec. 3.3)
+
+    Options:
+        on: vertices whose tetrahedra resist strain, default 'all'
+        stencils: quadruples of vertices, in place of the tetrahedra of the mesh
+        stiffness: Young's modulus [Pa], default 100000.0
+        poisson_ratio: by which what is stretched becomes thinner; rubber 0.49, default 0.45
+    """
+    def __init__(self, *, on: Selection = ..., stencils: Stencils = ..., stiffness: Values = ..., poisson_ratio: float = ...) -> None: ...
 
 class TetrahedronVolume(ConstraintOptions):
     """Constraint `tetrahedron_volume`. E = ½ k v ‖F − p‖², z = F (3 × 3), p in F with det F from min to max (Bouaziz et al. 2014, Sec. 5.1)
@@ -434,6 +456,17 @@ class TriangleBending(ConstraintOptions):
     """
     def __init__(self, *, on: Selection = ..., stencils: Stencils = ..., stiffness: Values = ..., orientation: Literal["absolute", "signed"] = ...) -> None: ...
 
+class TriangleNeoHookean(ConstraintOptions):
+    """Constraint `triangle_neo_hookean`. E = a (½ μ (I − 2J) + ½ (λ + μ) (J − 1)²), z = F (3 × 2) (after Smith et al. 2018)
+
+    Options:
+        on: vertices whose triangles resist strain, default 'all'
+        stencils: triples of vertices, in place of the triangles of the mesh
+        stiffness: Young's modulus times thickness [N/m], default 1000.0
+        poisson_ratio: by which what is stretched becomes narrower; rubber 0.49, default 0.3
+    """
+    def __init__(self, *, on: Selection = ..., stencils: Stencils = ..., stiffness: Values = ..., poisson_ratio: float = ...) -> None: ...
+
 class TriangleStrain(ConstraintOptions):
     """Constraint `triangle_strain`. E = ½ k a ‖F − p‖², z = F (3 × 2), p in F with stretches from min to max (Bouaziz et al. 2014, Sec. 5.1)
 
@@ -445,6 +478,17 @@ class TriangleStrain(ConstraintOptions):
         max_stretch: largest singular value of F left alone, default 1.0
     """
     def __init__(self, *, on: Selection = ..., stencils: Stencils = ..., stiffness: Values = ..., min_stretch: Values = ..., max_stretch: Values = ...) -> None: ...
+
+class TriangleStvk(ConstraintOptions):
+    """Constraint `triangle_stvk`. E = a (μ ‖G‖² + ½ λ (tr G)²), z = F (3 × 2) (Sifakis and Barbič 2012, Sec. 3.3)
+
+    Options:
+        on: vertices whose triangles resist strain, default 'all'
+        stencils: triples of vertices, in place of the triangles of the mesh
+        stiffness: Young's modulus times thickness [N/m], default 1000.0
+        poisson_ratio: by which what is stretched becomes narrower; rubber 0.49, default 0.3
+    """
+    def __init__(self, *, on: Selection = ..., stencils: Stencils = ..., stiffness: Values = ..., poisson_ratio: float = ...) -> None: ...
 
 def tube(*, points: Points = ..., segments: int = ..., rows: int = ..., radius: float = ..., ends: Literal["open", "closed", "joined"] = ..., inside: Literal["hollow", "solid"] = ...) -> Mesh:
     """A mesh.

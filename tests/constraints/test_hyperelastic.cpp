@@ -299,7 +299,7 @@ TEST_CASE("a body at rest stays at rest, wherever it is and however it is turned
 TEST_CASE("a lattice of Neo-Hookean tetrahedra carries its surface by stiff ties") {
   Simulation simulation({.substeps = 4, .threads = 1});
   const BodyId body =
-      simulation.add_body(lattice_solid(sphere({.subdivisions = 2}), {.spacing = 0.5}), Mass::density(1000));
+      simulation.add_body(lattice_solid(sphere({.subdivisions = 2}), {.spacing = 0.5}, "ball"), Mass::density(5));
   simulation.add(body, TetrahedronNeoHookean{.stiffness = 3e4});
   CHECK(tetrahedron_stiffness(simulation, body) == 3e4);
   const GroupId ties = carry_surface(simulation, body);

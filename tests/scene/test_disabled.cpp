@@ -166,13 +166,13 @@ TEST_CASE("a solid's surface is tied as stiffly with a group of its material off
       "mesh": { "shape": "sphere", "subdivisions": 1 })" +
                 of_body + "} ]" + of_scene + "}");
   };
-  Scene off = toy(R"(, "disabled_groups": ["toy.volume"])", "");
+  Scene without = toy(R"(, "disabled_groups": ["toy.volume"])", "");
   Scene removed = toy("", R"(, "events": [ { "step": 0, "remove": "toy.volume" } ])");
   const auto ties = [](const Scene& scene) {
     return scene.simulation.stiffness(scene.simulation.find_group("toy.surface").value());
   };
-  CHECK(ties(off) == ties(removed));
-  CHECK(after(off, 10) == after(removed, 10));
+  CHECK(ties(without) == ties(removed));
+  CHECK(after(without, 10) == after(removed, 10));
 }
 
 TEST_CASE("groups of another body are not switched off here, and factors of what is off are checked") {
