@@ -41,7 +41,9 @@ void Session::drop_collider(pliant::ColliderId collider) {
   const auto goal = goals_.goals.find(collider);
   if (goal == goals_.goals.end() || simulation().state().step > 0) return;
   const pliant::Pose before = simulation().pose(collider);
-  const bool is_turned = before.position == goal->second.position;
+  // The mouse knows places in single precision, a saved scene has them as they are written.
+  const bool is_turned = before.position.cast<float>() == goal->second.position.cast<float>();
+  if (is_turned) goal->second.position = before.position;
   Edit edit{.what = is_turned ? "turn a collider" : "move a collider", .before = changes_};
   SceneChanges changes = changes_;
   const std::string& name = simulation().colliders().at(collider).name;
