@@ -29,8 +29,24 @@ ColliderLook look_of(const DrawnCollider& collider, const ColliderLooks& looks) 
   return found == looks.end() ? ColliderLook{} : found->second;
 }
 
-std::string plane_program(bool has_occlusion) {
-  return head_of({.has_occlusion = has_occlusion}).append(shaders::dithering).append(shaders::plane_fragment);
+std::string plane_program(const SurfaceTraits& traits) {
+  return head_of(traits).append(shaders::dithering).append(shaders::plane_fragment);
+}
+
+/// A rectangle of pixels: x, y, width, height.
+using Pixels = std::array<GLint, 4>;
+
+/// The part of a picture, then the four around it.
+std::array<Pixels, 5> parts_of(const PictureArea& area, const Vec2f& picture) {
+  const Eigen::Array2i size = picture.array().round().cast<int>();
+  const Eigen::Array2i low = area.low.cwiseProduct(picture).array().floor().cast<int>().min(size);
+  const Eigen::Array2i high = area.high.cwiseProduct(picture).array().ceil().cast<int>().max(low).min(size);
+  const int width = high.x() - low.x(), height = high.y() - low.y();
+  return {{{low.x(), low.y(), width, height},
+           {0, 0, size.x(), low.y()},
+           {0, high.y(), size.x(), size.y() - high.y()},
+           {0, low.y(), low.x(), height},
+           {high.x(), low.y(), size.x() - high.x(), height}}};
 }
 
 Vec3f normal_of(const Mat4f& plane) {
@@ -44,8 +60,9 @@ Vec3f flatten(const Vec3f& point_in_frame, const Vec3f& light_in_frame) {
 }
 
 ColliderPainter::ColliderPainter()
-    : plane_(shaders::plane_vertex, "", plane_program(false)),
-      dark_plane_(shaders::plane_vertex, "", plane_program(true)) {}
+    : bright_plane_(shaders::plane_vertex, "", plane_program({})),
+      plane_(shaders::plane_vertex, "", plane_program({.has_shadows = true})),
+      dark_plane_(shaders::plane_vertex, "", plane_program({.has_shadows = true, .has_occlusion = true})) {}
 
 void ColliderPainter::set_frame(const std::vector<DrawnCollider>& colliders) {
   colliders_ = colliders;
@@ -158,26 +175,34 @@ void ColliderPainter::draw_plane(const SeenPlane& seen, const PlaneLook& look, c
   const float share = light_on(normal, to_light) / light_on(Vec3f::UnitZ(), to_light);
   const Vec3f from_plane = look.middle - plane.topRightCorner<3, 1>();
   const Vec3f middle = plane.topLeftCorner<3, 3>().transpose() * (from_plane - normal * normal.dot(from_plane));
-  const Program& program = light.has_occlusion() ? dark_plane_ : plane_;
-  program.use();
-  program.set("camera", projection.camera);
-  program.set("setback", projection.setback);
-  program.set("place", plane);
-  program.set("center", middle);
-  program.set("extent", look.extent);
-  program.set("tone", Vec3f((std::pow(share, 0.4545F) * tone).cwiseMin(1)));
-  program.set("rings", plane_rings);
-  program.set("sectors", plane_sectors);
-  program.set("middle", shadow.middle);
-  program.set("reach", shadow.reach);
-  program.set("darkness", look.darkness);
-  program.set("mask", 0);
-  program.set("background", look.background);
-  program.set("is_last", look.is_last ? 1 : 0);
-  light.set_floor(program, look.picture);
+  const auto draw = [&](const Program& program, const Pixels& pixels) {
+    if (pixels[2] == 0 || pixels[3] == 0) return;
+    glScissor(pixels[0], pixels[1], pixels[2], pixels[3]);
+    program.use();
+    program.set("camera", projection.camera);
+    program.set("setback", projection.setback);
+    program.set("place", plane);
+    program.set("center", middle);
+    program.set("extent", look.extent);
+    program.set("tone", Vec3f((std::pow(share, 0.4545F) * tone).cwiseMin(1)));
+    program.set("rings", plane_rings);
+    program.set("sectors", plane_sectors);
+    program.set("middle", shadow.middle);
+    program.set("reach", shadow.reach);
+    program.set("darkness", look.darkness);
+    program.set("mask", 0);
+    program.set("background", look.background);
+    program.set("is_last", look.is_last ? 1 : 0);
+    light.set_floor(program, look.picture);
+    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 2 * (plane_sectors + 1), plane_rings);
+  };
+  const std::array<Pixels, 5> parts = parts_of(look.dark, look.picture);
   glBindVertexArray(empty_array_.id());
   glEnable(GL_DEPTH_CLAMP);  // it goes on in front of what the camera is made for
-  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 2 * (plane_sectors + 1), plane_rings);
+  glEnable(GL_SCISSOR_TEST);
+  draw(light.has_occlusion() ? dark_plane_ : plane_, parts[0]);
+  for (std::size_t i = 1; i < parts.size(); ++i) draw(bright_plane_, parts[i]);
+  glDisable(GL_SCISSOR_TEST);
   glDisable(GL_DEPTH_CLAMP);
 }
 

@@ -49,9 +49,10 @@ class ColliderPainter {
     Vec3f middle;  ///< of the scene [m]
     float extent;  ///< where it has faded [m]
     Vec3f background;
-    float darkness;  ///< of the shadow
-    bool is_last;    ///< only the background is behind it
-    Vec2f picture;   ///< size [pixels]
+    float darkness;    ///< of the shadow
+    bool is_last;      ///< only the background is behind it
+    Vec2f picture;     ///< size [pixels]
+    PictureArea dark;  ///< where shadows and bodies may keep light from it
   };
   void draw_plane(const SeenPlane& plane, const PlaneLook& look, const ShadowArea& shadow, const Projection& projection,
                   const Vec3f& to_light, const SceneLight& light) const;
@@ -68,7 +69,7 @@ class ColliderPainter {
   std::vector<DrawnCollider> colliders_;
   std::map<const ColliderSurface*, std::unique_ptr<Solid>> solids_;
   SurfacePrograms programs_;
-  Program plane_, dark_plane_;  // in all of the light of the sky, and where it is seen in part
+  Program bright_plane_, plane_, dark_plane_;  // in all light, where a shadow may lie, and where less sky is seen too
   VertexArray empty_array_;
 };
 

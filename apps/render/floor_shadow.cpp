@@ -7,7 +7,7 @@
 namespace pliant_render {
 namespace {
 
-constexpr int plain_size = 192, soft_size = 512;               // along a side [texels]
+constexpr int plain_size = 192, soft_size = 320;               // along a side [texels]
 constexpr float plain_step = 0.75F, soft_step = 0.9F;          // from tap to tap of the blur [texels]
 constexpr float plain_margin = 0.06F, soft_margin = 0.2F;      // around what is flattened, of its half
 constexpr float plain_rope_width = 1.5F, soft_rope_width = 3;  // [texels]

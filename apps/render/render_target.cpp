@@ -67,7 +67,7 @@ RenderTarget::RenderTarget(int width, int height, int samples) : width_(width), 
   glBindFramebuffer(GL_FRAMEBUFFER, plain_.id());
   attach(plain_color_, GL_COLOR_ATTACHMENT0, GL_RGBA8, width, height, 1);
   check_complete(width, height);
-  resolve_.emplace(shaders::screen_vertex, "", resolve_program(factor_, samples_));
+  if (factor_ * samples_ > 1) resolve_.emplace(shaders::screen_vertex, "", resolve_program(factor_, samples_));
 }
 
 void RenderTarget::begin() const {
@@ -76,6 +76,13 @@ void RenderTarget::begin() const {
 }
 
 void RenderTarget::resolve() const {
+  if (!resolve_) {
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, sampled_.id());
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, plain_.id());
+    glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glBindFramebuffer(GL_FRAMEBUFFER, plain_.id());
+    return;
+  }
   glBindFramebuffer(GL_FRAMEBUFFER, plain_.id());
   glViewport(0, 0, width_, height_);
   const GLenum kind = samples_ > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D;

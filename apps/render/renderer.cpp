@@ -266,12 +266,35 @@ void Renderer::draw_planes(const pliant::ViewSettings& appearance, const DrawOpt
     if (has_planes) glEnable(GL_DEPTH_TEST);
     if (planes.size() > 1) glEnable(GL_BLEND);
     floor_shadow_.bind(GL_TEXTURE0);
-    const ColliderPainter::PlaneLook look{
-        middle, extent, background_of(appearance), has_shadow ? shadow_darkness : 0, planes.size() == 1, size_};
+    const ColliderPainter::PlaneLook look{middle,
+                                          extent,
+                                          background_of(appearance),
+                                          has_shadow ? shadow_darkness : 0,
+                                          planes.size() == 1,
+                                          size_,
+                                          dark_area(plane.place, has_shadow ? &area : nullptr, options)};
     colliders_.draw_plane(plane, look, area, projected, light, light_);
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_BLEND);
   }
+}
+
+/// The part of the picture in which a floor is not in all light.
+PictureArea Renderer::dark_area(const Mat4f& floor, const ShadowArea* shadow, const DrawOptions& options) const {
+  PictureArea area{Vec2f::Ones(), Vec2f::Zero()};
+  if (light_.has_occlusion()) area = light_.area();
+  if (shadow == nullptr) return area;
+  const Mat4f camera = projection(options).camera * floor;
+  for (const int corner : {0, 1, 2, 3}) {
+    const Vec2f side((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1);
+    const Vec2f at_corner = shadow->middle + shadow->reach.cwiseProduct(side);
+    const Vec4f seen = camera * Vec4f(at_corner.x(), at_corner.y(), 0, 1);
+    if (!(seen.w() > options.viewpoint.near)) return {};  // the camera is above it
+    const Vec2f at = (seen.head<2>() / seen.w()).array() / 2 + 0.5F;
+    area.low = area.low.cwiseMin(at.cwiseMax(0));
+    area.high = area.high.cwiseMax(at.cwiseMin(1));
+  }
+  return area;
 }
 
 ShadowArea Renderer::draw_shadow(const Mat4f& to_floor, const Vec3f& light_in_space, pliant::Quality quality) {

@@ -49,6 +49,7 @@ class Renderer {
   ShadowArea draw_shadow(const Mat4f& to_floor, const Vec3f& light, pliant::Quality quality);
   Projection projection(const DrawOptions& options) const;
   void draw_light_maps(const pliant::ViewSettings& appearance, const DrawOptions& options);
+  PictureArea dark_area(const Mat4f& floor, const ShadowArea* shadow, const DrawOptions& options) const;
   PictureArea area_of(const DrawOptions& options, float reach) const;
   void draw_depths(float setback) const;
   void draw_floor_depths(const pliant::ViewSettings& appearance, const DrawOptions& options) const;

@@ -123,7 +123,7 @@ SceneLight::SceneLight()
 
 void SceneLight::begin(const Vec3f& eye, const Vec3f& to_light, float pixel) {
   eye_ = eye;
-  pixel_ = static_cast<int>(std::lround(pixel));
+  of_picture_ = 1 / pixel;
   to_light_ = to_light;
   has_shadows_ = has_occlusion_ = false;
 }
@@ -247,7 +247,7 @@ void SceneLight::find_screen_light(const Mat4f& projection, const Mat4f& view) c
 }
 
 void SceneLight::set_floor(const Program& program, const Vec2f& picture) const {
-  program.set("pixel", pixel_);
+  program.set("of_picture", of_picture_);
   program.set("screen_light", 1);
   program.set("to_screen", Vec2f(picture.cwiseInverse()));
   bind(GL_TEXTURE1, screen_light_);
@@ -255,7 +255,7 @@ void SceneLight::set_floor(const Program& program, const Vec2f& picture) const {
 }
 
 void SceneLight::set(const Program& program) const {
-  program.set("pixel", pixel_);
+  program.set("of_picture", of_picture_);
   program.set("eye", eye_);
   program.set("light", to_light_);
   program.set("screen_light", 1);

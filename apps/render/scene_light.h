@@ -49,6 +49,8 @@ class SceneLight {
   bool has_occlusion() const { return has_occlusion_; }
   /// Sets the uniforms of shaders::lighting in a program that is in use, and binds textures 1 and 2.
   void set(const Program& program) const;
+  /// Where floors may see less of the sky.
+  const PictureArea& area() const { return area_; }
   /// Sets those of shaders::plane_fragment that tell what it sees of the sky, and binds texture 1. picture: its size
   /// [pixels].
   void set_floor(const Program& program, const Vec2f& picture) const;
@@ -61,8 +63,8 @@ class SceneLight {
   Vec3f eye_ = Vec3f::Zero(), to_light_ = Vec3f::UnitZ();
   bool has_shadows_ = false, has_occlusion_ = false;
   Mat4f to_shadow_map_ = Mat4f::Identity();
-  float texel_ = 1;  // of the shadow map [m]
-  int pixel_ = 1;
+  float texel_ = 1;             // of the shadow map [m]
+  float of_picture_ = 1;        // pixels of the picture for one drawn
   int width_ = 0, height_ = 0;  // of the depths [pixels]; what is seen of the sky is found at half of that
   Vec2f screen_scale_ = {1, 1};
   PictureArea area_;

@@ -88,7 +88,8 @@ uniform sampler2D mask, screen_light;
 uniform vec2 to_screen;           // from pixels drawn to 0 to 1 in the picture
 out vec4 color;
 void main() {
-  float light = 1.0 - darkness * textureLod(mask, (on_plane - middle) / reach / 2.0 + 0.5, 0.0).r;
+  float light = 1.0;
+  if (has_shadows) light -= darkness * textureLod(mask, (on_plane - middle) / reach / 2.0 + 0.5, 0.0).r;
   if (has_occlusion) light *= 0.4 + 0.6 * textureLod(screen_light, to_screen * gl_FragCoord.xy, 0.0).r;
   float share = is_last ? opacity : 1.0;
   color = vec4(dithered(mix(background, tone, share) * light), is_last ? 1.0 : opacity);

@@ -6,12 +6,17 @@ namespace pliant_render::shaders {
 // Colors are rounded to bytes; before that they are moved by less than half a step up or down, in a pattern of 4 by 4
 // pixels of the picture, so that slow gradients have no bands. What is a byte to begin with stays as it is.
 const std::string_view dithering = R"(
-uniform int pixel;  // drawn for one of the picture, along a side
+uniform float of_picture;  // pixels of the picture for one drawn, along a side
 
+// Of 2 by 2 pixels: 0, 1/2 and 3/4, 1/4.
+float order(vec2 at) {
+  at = floor(at);
+  return fract(0.5 * at.x + 0.75 * at.y * at.y);
+}
 vec3 dithered(vec3 color) {
-  const float order[16] = float[](0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5);
-  ivec2 at = (ivec2(gl_FragCoord.xy) / pixel) & 3;
-  return color + (order[at.x + 4 * at.y] - 7.5) * (0.05 / 255.0);
+  vec2 at = of_picture * gl_FragCoord.xy;
+  at -= 4.0 * floor(0.25 * at);  // so that squares stay exact
+  return color + (16.0 * order(at) + 4.0 * order(0.5 * at) - 7.5) * (0.05 / 255.0);
 }
 )";
 

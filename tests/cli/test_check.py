@@ -147,7 +147,7 @@ class Check(unittest.TestCase):
         picture.write_bytes(b"\x89PNG\r\n\x1a\n\0\0")
         for command in ("check", "run"):
             message = self.pliant(command, picture, expect=2).stderr
-            self.assertIn(f"{picture}: it seems to be a PNG picture, and no scene; give a scene (.json) or a mesh (", message)
+            self.assertIn(f"{picture}: this looks like a PNG picture, not a scene; give a scene (.json) or a mesh (", message)
 
     def test_who_touches_whom_and_how(self):
         scene = self.contact_scene({"distance": 0.01, "friction": 0.5, "self": False, "ignores": ["pole", "skin"]})

@@ -1,4 +1,4 @@
-// A file that is no scene is told to be none, and what it seems to be.
+// For a file that is not a scene, the error says what it looks like.
 #include <string>
 
 #include <doctest/doctest.h>
@@ -46,7 +46,7 @@ TEST_CASE("pictures, documents and texts are told to be no scene, with what can 
     const auto file = folder.write(kind.name, kind.bytes);
     const std::string message = message_of(file);
     CAPTURE(message);
-    CHECK(message.starts_with(file.string() + ": it seems to be "));
+    CHECK(message.starts_with(file.string() + ": this looks like "));
     CHECK(message.find(kind.what) != message.npos);
     for (const char* ending : {"(.json)", ".obj", ".msh", "(.pliant)", "(.session)"}) {
       CHECK(message.find(ending) != message.npos);

@@ -68,7 +68,7 @@ void refuse_foreign_file(const std::filesystem::path& file, std::string_view byt
   }
   fail_at(
       file.string(), "",
-      fmt::format("it seems to be {}, and no scene; give a scene (.json) or a mesh ({}); the window takes checkpoints "
+      fmt::format("this looks like {}, not a scene; give a scene (.json) or a mesh ({}); the window takes checkpoints "
                   "(.pliant) and recorded sessions (.session) too",
                   kind_of(bytes), meshes));
 }
