@@ -26,22 +26,6 @@ namespace fs = std::filesystem;
 using pliant::Outcome;
 using pliant::Scene;
 
-std::unique_ptr<pliant::FrameWriter> make_frame_writer(const Scene& scene, const fs::path& folder, std::int64_t kept) {
-  switch (scene.output.format) {
-    case pliant::FrameFormat::npy:
-      return pliant::make_npy_writer(folder, scene.simulation.state().vertex_count(), kept);
-    case pliant::FrameFormat::pc2:
-      return pliant::make_pc2_writer(folder, scene.simulation.state().vertex_count(), kept);
-    case pliant::FrameFormat::obj:
-      return pliant::make_obj_writer(folder, scene.simulation.bodies(), kept);
-    case pliant::FrameFormat::ply:
-      return pliant::make_ply_writer(folder, scene.simulation.bodies(), kept);
-    case pliant::FrameFormat::none:
-      break;
-  }
-  return nullptr;
-}
-
 /// Prints each warning once, when it has come.
 class Warnings {
  public:
@@ -221,7 +205,8 @@ int record_scene(Scene& scene, const fs::path& folder, pliant::RunInfo info, con
   std::optional<pliant::Recorder> recorder;
   const auto open = [&] {
     const std::int64_t kept = info.resumed_from ? *info.resumed_from / scene.output.every + 1 : 0;
-    recorder.emplace(folder, make_frame_writer(scene, folder, kept), scene.output.every, scene.group_names, kept,
+    recorder.emplace(folder, pliant::make_frame_writer(info.frame_format, folder, scene.simulation, kept),
+                     scene.output.every, scene.group_names, kept,
                      pliant::ContactColumns{scene.collider_names, scene.has_surfaces});
     info.frames = recorder->frame_count();
   };

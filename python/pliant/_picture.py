@@ -15,7 +15,8 @@ from ._error import Error
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ._simulation import Scene, Simulation
+    from ._scene import Scene
+    from ._simulation import Simulation
 
     Array = NDArray[np.float64]
 

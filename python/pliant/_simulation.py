@@ -1,12 +1,10 @@
-"""The simulation and the scenes, over the compiled module."""
+"""The simulation, over the compiled module."""
 from __future__ import annotations
 
-import json
 import os
-import tempfile
 from dataclasses import dataclass
 from types import TracebackType
-from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple, Type, Union, overload
+from typing import TYPE_CHECKING, Any, Dict, List, Mapping, Optional, Sequence, Tuple, Type, Union, overload
 
 import numpy as np
 
@@ -239,6 +237,33 @@ class Simulation:
         """Other positions [m] and velocities [m/s] of all vertices, m x 3 each."""
         self._made.set_state(positions, velocities)
 
+    @overload
+    def save_state(self) -> bytes: ...
+    @overload
+    def save_state(self, path: Union[str, "os.PathLike[str]"]) -> None: ...
+
+    def save_state(self, path: Union[str, "os.PathLike[str]", None] = None) -> Optional[bytes]:
+        """Writes the state to a file; without a path, returns its bytes. Scenes have Scene.save.
+
+        It has positions, velocities, time, stiffnesses, targets, where colliders are and what friction remembers: not
+        what bodies, constraints, forces and settings are.
+        """
+        if path is None:
+            return bytes(self._made.state_bytes())
+        self._made.write_state(os.fspath(path))
+        return None
+
+    def restore_state(self, saved: Union[str, "os.PathLike[str]", bytes]) -> None:
+        """Goes on from a saved state, of a file or bytes: the steps that follow have the same bits.
+
+        The simulation has the same bodies, constraints and colliders, added in the same order; forces and settings are
+        as they are now. When this raises, nothing has changed.
+        """
+        if isinstance(saved, bytes):
+            self._made.restore_bytes(saved)
+        else:
+            self._made.restore_state(os.fspath(saved))
+
     @property
     def settings(self) -> Dict[str, Any]:
         """All settings as they are now."""
@@ -263,6 +288,15 @@ class Simulation:
     def step(self) -> StepReport:
         """Takes one step, without the interpreter's lock. Ctrl-C raises KeyboardInterrupt, with the state as before."""
         return StepReport(**self._made.step())
+
+    def record(self, folder: Union[str, "os.PathLike[str]"], *, every: int = 1, format: str = "npy",
+               name: str = "simulation") -> "Recording":
+        """Begins a run to files, with the state at hand, for `pliant render`, `plot` and `convert`.
+
+        The folder gets frames (``format``: npy, pc2, obj, ply or none), measurements.csv, mesh.obj and run.json, of
+        every so many steps. ``with simulation.record("rope") as run:``, and in it ``run.step()``.
+        """
+        return Recording(_pliant.Recording(self._made, os.fspath(folder), format, every, name))
 
     @property
     def positions(self) -> Array:
@@ -371,105 +405,19 @@ class Simulation:
                 f"{len(self._made.groups())} groups, {self.time:.6g} s>")
 
 
-class Scene:
-    """A scene that was read, with its events; a context in which it is run."""
+class Recording:
+    """A run of a simulation to files: a context that ends it."""
 
     def __init__(self, made: Any) -> None:
         self._made = made
-        self.simulation = Simulation._of(made.simulation)
 
-    def __enter__(self) -> "Scene":
+    def step(self) -> StepReport:
+        """Takes a step and records it. When this raises, the run has ended, with what was recorded whole."""
+        return StepReport(**self._made.step())
+
+    def __enter__(self) -> "Recording":
         return self
 
     def __exit__(self, kind: Optional[Type[BaseException]], error: Optional[BaseException],
                  trace: Optional[TracebackType]) -> None:
-        return None
-
-    @property
-    def name(self) -> str:
-        return self._made.name
-
-    @property
-    def description(self) -> str:
-        return self._made.description
-
-    @property
-    def steps(self) -> int:
-        """That the scene asks for."""
-        return self._made.steps
-
-    @property
-    def warnings(self) -> List[str]:
-        return self._made.warnings
-
-    def step(self) -> None:
-        """Lets the events act that are due, and takes one step. When this raises, nothing has changed."""
-        self._made.step()
-
-    def run(self, *, steps: Optional[int] = None, out: Union[str, "os.PathLike[str]", None] = None) -> None:
-        """Takes so many steps, by default up to the last one of the scene, without the interpreter's lock.
-
-        ``out``: the folder for frames, measurements.csv, run.json and a checkpoint, as `pliant run` writes them; a run
-        that is recorded begins at the present state. Ctrl-C ends it with what was recorded whole.
-        """
-        left = max(0, self.steps - self.simulation.steps_taken) if steps is None else steps
-        if left < 0:
-            raise Error(f"run: steps: {left} is out of range; give a number from 0 up")
-        self._made.run("" if out is None else os.fspath(out), left)
-
-    @overload
-    def save(self) -> bytes: ...
-    @overload
-    def save(self, path: Union[str, "os.PathLike[str]"]) -> None: ...
-
-    def save(self, path: Union[str, "os.PathLike[str]", None] = None) -> Optional[bytes]:
-        """Writes a checkpoint to a file; without a path, returns its bytes."""
-        if path is not None:
-            self._made.save(os.fspath(path))
-            return None
-        with tempfile.TemporaryDirectory() as folder:
-            place = os.path.join(folder, "checkpoint.pliant")
-            self._made.save(place)
-            with open(place, "rb") as file:
-                return file.read()
-
-    def picture(self, *, size: Tuple[int, int] = (640, 400), color: str = "none", program: str = "pliant") -> Picture:
-        """What it looks like now, with the view of the scene; see Simulation.picture.
-
-        ``color`` may be "energy" as well.
-        """
-        return picture_of(self.simulation, SCENE_NAMES, self, size, color, program)
-
-    def _repr_mimebundle_(self, **_: Any) -> Dict[str, Any]:
-        return {"text/plain": repr(self), **self.picture()._repr_mimebundle_()}
-
-    def __repr__(self) -> str:
-        return f"<pliant.Scene {self.name!r}: step {self.simulation.steps_taken} of {self.steps}>"
-
-
-def _changes(set: Optional[Mapping[str, Any]], overrides: Mapping[str, Any]) -> Iterator[str]:
-    for name, value in overrides.items():
-        field = "settings." + name if name != "steps" else name
-        yield f"{field}={json.dumps(value)}"
-    for path, value in (set or {}).items():
-        yield f"{path}={json.dumps(value)}"
-
-
-def open_scene(scene: Union[str, "os.PathLike[str]", Mapping[str, Any]], *, set: Optional[Mapping[str, Any]] = None,
-               **overrides: Any) -> Scene:
-    """Opens a scene: a built-in one by its name, a file, a mesh by itself, or a dictionary as scene files have it.
-
-    Settings by keyword, such as ``iterations=20``, and ``steps``, take the place of the scene's own; ``set`` changes
-    anything else by its path: ``{"bodies[curtain].constraints[bend].stiffness": 1e-3}``.
-    """
-    changes = list(_changes(set, overrides))
-    if isinstance(scene, Mapping):
-        return Scene(_pliant.parse_scene(json.dumps(scene), os.getcwd(), changes))
-    return Scene(_pliant.open_scene(os.fspath(scene), changes))
-
-
-def load_checkpoint(saved: Union[str, "os.PathLike[str]", bytes]) -> Scene:
-    """The scene as it was when it was saved, from a file or from bytes: the steps that follow have the same bits."""
-    if isinstance(saved, bytes):
-        return Scene(_pliant.resume_bytes(saved))
-    return Scene(_pliant.resume(os.fspath(saved)))
+        self._made.end(error is None, "" if error is None else f"{type(error).__name__}: {error}")

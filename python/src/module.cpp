@@ -29,5 +29,6 @@ PYBIND11_MODULE(_pliant, module) {
   pliant_python::bind_types(module);
   pliant_python::bind_meshes(module);
   pliant_python::bind_simulation(module);
+  pliant_python::bind_recordings(module);
   pliant_python::bind_scenes(module);
 }

@@ -16,24 +16,6 @@ py::array_t<double> array_of(std::span<const Real> numbers) {
   return py::array_t<double>(static_cast<py::ssize_t>(numbers.size()), numbers.data());
 }
 
-py::dict report_of(const pliant::StepReport& report) {
-  py::dict result;
-  result["iterations"] = report.iterations;
-  result["backtracks"] = report.backtracks;
-  result["reached_tolerance"] = report.reached_tolerance;
-  result["residual"] = report.residual;
-  result["seconds_local"] = report.seconds_local;
-  result["seconds_global"] = report.seconds_global;
-  result["seconds_factor"] = report.seconds_factor;
-  result["seconds_total"] = report.seconds_total;
-  result["contacts"] = report.contact.contacts;
-  result["deepest"] = report.contact.deepest;
-  result["pairs"] = report.contact.pairs;
-  result["smallest_gap"] = report.contact.smallest_gap;
-  result["momentum_lost"] = to_python(report.contact.momentum_lost);
-  return result;
-}
-
 py::dict evaluation_of(const pliant::Evaluation& evaluation) {
   py::dict result;
   result["residual"] = evaluation.residual;
@@ -142,6 +124,24 @@ void bind_bodies(Class& simulation) {
 }
 
 }  // namespace
+
+py::dict report_of(const pliant::StepReport& report) {
+  py::dict result;
+  result["iterations"] = report.iterations;
+  result["backtracks"] = report.backtracks;
+  result["reached_tolerance"] = report.reached_tolerance;
+  result["residual"] = report.residual;
+  result["seconds_local"] = report.seconds_local;
+  result["seconds_global"] = report.seconds_global;
+  result["seconds_factor"] = report.seconds_factor;
+  result["seconds_total"] = report.seconds_total;
+  result["contacts"] = report.contact.contacts;
+  result["deepest"] = report.contact.deepest;
+  result["pairs"] = report.contact.pairs;
+  result["smallest_gap"] = report.contact.smallest_gap;
+  result["momentum_lost"] = to_python(report.contact.momentum_lost);
+  return result;
+}
 
 void bind_results(Class& simulation) {
   bind_energies(simulation);

@@ -34,10 +34,6 @@ void save(const SceneHandle& handle, const std::filesystem::path& path) {
   pliant::write_checkpoint(path, *handle.scene);
 }
 
-SceneHandle resume(const std::filesystem::path& path) {
-  return SceneHandle(pliant::read_checkpoint(path));
-}
-
 void bind_lists(py::module_& module) {
   module.def("scene_names", [] {
     std::vector<std::string> names;
@@ -67,7 +63,16 @@ void bind_scenes(py::module_& module) {
            [](SceneHandle& handle, const std::filesystem::path& folder, std::int64_t steps) {
              handle.simulation->run([&](auto&) { run_scene(*handle.scene, folder, steps); });
            })
-      .def("save", &save);
+      .def("save", &save)
+      .def("restore",
+           [](const SceneHandle& handle, const std::filesystem::path& path) {
+             handle.simulation->idle();
+             pliant::restore_checkpoint(*handle.scene, path);
+           })
+      .def("restore_bytes", [](const SceneHandle& handle, const py::bytes& bytes) {
+        handle.simulation->idle();
+        pliant::restore_checkpoint(*handle.scene, std::string_view(bytes), "checkpoint");
+      });
   module.def("open_scene", [](const std::string& name, const std::vector<std::string>& set) {
     return SceneHandle(open_scene(name, overrides_of(set)));
   });
@@ -75,9 +80,10 @@ void bind_scenes(py::module_& module) {
              [](const std::string& text, const std::filesystem::path& folder, const std::vector<std::string>& set) {
                return SceneHandle(pliant::parse_scene(text, folder, "scene", overrides_of(set)));
              });
-  module.def("resume", &resume);
-  module.def("resume_bytes", [](const py::bytes& bytes) {
-    return SceneHandle(pliant::parse_checkpoint(std::string(bytes), "checkpoint"));
+  module.def("open_checkpoint",
+             [](const std::filesystem::path& path) { return SceneHandle(pliant::open_checkpoint(path)); });
+  module.def("open_checkpoint_bytes", [](const py::bytes& bytes) {
+    return SceneHandle(pliant::open_checkpoint(std::string_view(bytes), "checkpoint"));
   });
 }
 

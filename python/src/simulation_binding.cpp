@@ -7,6 +7,7 @@
 #include "own_types.h"
 #include "pliant/simulation/carried_surface.h"
 #include "pliant/simulation/transaction.h"
+#include "pliant_io/checkpoint/state_file.h"
 #include "typed_options.h"
 
 namespace pliant_python {
@@ -94,6 +95,18 @@ Indices indices_in(const pliant::Simulation& simulation, BodyId body, const Indi
   return result;
 }
 
+void bind_state(py::class_<Handle, std::shared_ptr<Handle>>& simulation) {
+  simulation.def("state_bytes", [](Handle& handle) { return py::bytes(pliant::state_bytes(handle.idle())); })
+      .def("write_state",
+           [](Handle& handle, const std::filesystem::path& path) { pliant::write_state(path, handle.idle()); })
+      .def("restore_bytes",
+           [](Handle& handle, const py::bytes& bytes) {
+             pliant::restore_state(std::string_view(bytes), "state", handle.idle());
+           })
+      .def("restore_state",
+           [](Handle& handle, const std::filesystem::path& path) { pliant::restore_state(path, handle.idle()); });
+}
+
 void bind_own(py::class_<Handle, std::shared_ptr<Handle>>& simulation) {
   simulation.def("add_own_constraints", [](Handle& handle, Index body, const std::string& type, py::object project,
                                            const Indices& stencils, const Numbers& reduction, const Numbers& measure,
@@ -164,6 +177,7 @@ void bind_simulation(py::module_& module) {
         pliant::Simulation& made = handle.idle();
         made.set_contact(BodyId{body}, read_options(given, nullptr, made.contact(BodyId{body})));
       });
+  bind_state(simulation);
   bind_own(simulation);
   bind_changes(simulation);
   bind_results(simulation);

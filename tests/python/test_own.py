@@ -1,4 +1,7 @@
 """Constraints and forces that are written with NumPy, and what can be changed and asked for while a simulation runs."""
+import json
+import pathlib
+import tempfile
 import threading
 import unittest
 
@@ -316,6 +319,58 @@ class Changes(unittest.TestCase):
         simulation.set_contact(a, ignores=[b], friction=0.1)
         self.assertEqual(simulation.contact(a)["ignores"], [b])
         simulation.step()
+
+    def test_a_state_is_saved_and_restored(self):
+        def made():
+            return hung(lambda s, b, mesh: s.add(b, own_springs(mesh, 500)), integrator="bdf2")
+
+        simulation = made()
+        for _ in range(5):
+            simulation.step()
+        saved = simulation.save_state()
+        with tempfile.TemporaryDirectory() as folder:
+            simulation.save_state(pathlib.Path(folder) / "half.state")
+            self.assertEqual((pathlib.Path(folder) / "half.state").read_bytes(), saved)
+            again = [made(), made()]
+            seen = again[1].positions
+            again[1].step()
+            again[0].restore_state(saved)
+            again[1].restore_state(pathlib.Path(folder) / "half.state")
+        np.testing.assert_array_equal(seen, simulation.positions)  # the array follows
+        for each in (simulation, *again):
+            for _ in range(5):
+                each.step()
+        for each in again:
+            np.testing.assert_array_equal(each.positions, simulation.positions)
+            self.assertEqual(each.steps_taken, 10)
+        with self.assertRaisesRegex(pliant.Error, "cut"):
+            simulation.restore_state(saved[:100])
+        with self.assertRaisesRegex(pliant.Error, "where the simulation has"):
+            hung(lambda s, b, mesh: None, columns=4).restore_state(saved)
+
+    def test_a_run_is_recorded(self):
+        simulation = hung(lambda s, b, mesh: s.add(b, pliant.EdgeSpring(stiffness=500)))
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name) / "run"
+            with simulation.record(folder, every=2, name="sheet") as run:
+                for _ in range(6):
+                    report = run.step()
+            self.assertEqual(report.iterations, 10)
+            frames = np.load(folder / "frames.npy")
+            self.assertEqual(frames.shape, (4, 400, 3))
+            np.testing.assert_array_equal(frames[-1], simulation.positions)
+            info = json.loads((folder / "run.json").read_text())
+            self.assertEqual((info["outcome"], info["scene"]), ("ok", "sheet"))
+            with self.assertRaises(ZeroDivisionError), simulation.record(folder) as run:
+                run.step()
+                1 / 0
+            info = json.loads((folder / "run.json").read_text())
+            self.assertEqual(info["outcome"], "failed")
+            self.assertIn("ZeroDivisionError", info["error"])
+            for options in ({"format": "abc"}, {"every": 0}):
+                with self.assertRaisesRegex(pliant.Error, "^record: " + next(iter(options))):
+                    simulation.record(pathlib.Path(name) / "other", **options)
+            self.assertFalse((pathlib.Path(name) / "other").exists())
 
     def test_materials(self):
         for name in pliant.material_names():

@@ -74,6 +74,21 @@ class Scenes(unittest.TestCase):
         with self.assertRaisesRegex(pliant.Error, "checkpoint"):
             pliant.load_checkpoint(saved[:50])
 
+    def test_a_checkpoint_of_a_scene_with_additions(self):
+        def prepare(scene):
+            scene.simulation.add(scene.simulation.bodies[0], pliant.EdgeSpring(stiffness=30), name="own")
+
+        with pliant.open_scene("curtain_wind", steps=10) as scene:
+            prepare(scene)
+            scene.run(steps=4)
+            saved = scene.save()
+            scene.run()
+        with self.assertRaisesRegex(pliant.Error, "add again what the program had added"):
+            pliant.load_checkpoint(saved)
+        again = pliant.load_checkpoint(saved, prepare=prepare)
+        again.run()
+        np.testing.assert_array_equal(again.simulation.positions, scene.simulation.positions)
+
     def test_what_cannot_be_is_told(self):
         (self.path / "file").write_text("")
         for call, kind in [

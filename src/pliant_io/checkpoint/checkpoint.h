@@ -4,6 +4,8 @@
 //     write_checkpoint("curtain.pliant", scene);            // between two steps
 //     Scene scene = read_checkpoint("curtain.pliant");      // there, or on another day
 //     while (scene.simulation.state().step < scene.steps) scene.step();
+//
+// Simulations without a scene: state_file.h.
 #include <filesystem>
 #include <optional>
 
@@ -35,5 +37,14 @@ Scene read_checkpoint(const std::filesystem::path& path, const ResumeOptions& op
 
 /// The same for the bytes of such a file. `name` is what messages call it.
 Scene parse_checkpoint(std::string_view bytes, std::string_view name, const ResumeOptions& options = {});
+
+/// The scene as it was opened, before its first step: for a program that had added bodies, groups, forces or colliders
+/// to it by then. It adds the same again, in the same order, and then takes the scene to the moment of the checkpoint.
+Scene open_checkpoint(const std::filesystem::path& path, const ResumeOptions& options = {});
+/// @throws Error (input): another scene, or not what had been added. The scene is then of no use.
+void restore_checkpoint(Scene& scene, const std::filesystem::path& path);
+/// Both for the bytes of such a file.
+Scene open_checkpoint(std::string_view bytes, std::string_view name, const ResumeOptions& options = {});
+void restore_checkpoint(Scene& scene, std::string_view bytes, std::string_view name);
 
 }  // namespace pliant

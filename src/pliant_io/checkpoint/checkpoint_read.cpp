@@ -1,11 +1,9 @@
-#include <algorithm>
-#include <cmath>
-#include <cstring>
-
 #include "pliant/core/printable.h"
 #include "pliant_io/checkpoint/checkpoint.h"
 #include "pliant_io/checkpoint/detail/checkpoint_file.h"
 #include "pliant_io/checkpoint/detail/checkpoint_values.h"
+#include "pliant_io/checkpoint/detail/read_state.h"
+#include "pliant_io/checkpoint/detail/read_values.h"
 #include "pliant_io/files/crc32.h"
 #include "pliant_io/files/read_file.h"
 #include "pliant_io/scene/detail/json_values.h"
@@ -17,34 +15,6 @@ namespace pliant {
 namespace fs = std::filesystem;
 
 namespace {
-
-std::string read_bytes(const Node& node) {
-  if (!node.is_bytes()) node.fail_type("a string of bytes");
-  return std::string(node.bytes());
-}
-
-/// Numbers written as bytes, into all of `numbers`.
-void read_numbers(const Node& node, std::span<Real> numbers) {
-  if (!node.is_bytes() || node.bytes().size() != numbers.size_bytes()) {
-    node.fail(fmt::format("the list has another length than the scene of this checkpoint makes; {} numbers belong here",
-                          numbers.size()));
-  }
-  if (!numbers.empty()) std::memcpy(numbers.data(), node.bytes().data(), numbers.size_bytes());
-  if (std::ranges::all_of(numbers, [](Real x) { return std::isfinite(x); })) return;
-  node.fail("a number is not finite; take another checkpoint");
-}
-
-Real read_real(const Node& node) {
-  Real number = 0;
-  read(node, number);
-  return number;
-}
-
-template <class Visitor>
-void for_each(const Node& list, Visitor&& visitor) {
-  list.require_list();
-  for (std::size_t i = 0; i < list.size(); ++i) visitor(list[i]);
-}
 
 SceneSource read_source(const Node& node) {
   SceneSource source;
@@ -165,10 +135,6 @@ TimelineState::Motion read_motion(const Node& node) {
   return motion;
 }
 
-void read_rotation(const Node& node, Quaternion& rotation) {
-  read_numbers(node, {rotation.coeffs().data(), 4});
-}
-
 TimelineState read_timeline(const Node& node) {
   TimelineState timeline;
   for_each(node.require("applied"), [&](const Node& event) { read(event, timeline.applied.emplace_back()); });
@@ -193,161 +159,6 @@ TimelineState read_timeline(const Node& node) {
   return timeline;
 }
 
-void restore_groups(const Node& list, const Simulation& simulation) {
-  list.require_list(simulation.groups().size(), "(one a group)");
-  std::size_t i = 0;
-  for (const auto& [id, group] : simulation.groups()) {
-    const Node node = list[i++];
-    if (read_bytes(node.require("name")) != group.name) {
-      node.fail(fmt::format("the scene has the group '{}' here; take another checkpoint", printable(group.name)));
-    }
-    const Node batches = node.require("batches");
-    batches.require_list(group.set.batches.size(), "(one a batch)");
-    for (std::size_t p = 0; p < group.set.batches.size(); ++p) {
-      ConstraintGroup& batch = *group.set.batches[p];
-      read_numbers(batches[p].require("parameters"), batch.parameters());
-      const Node stiffness = batches[p].require("stiffness");
-      stiffness.locate([&] { batch.set_stiffness(read_real(stiffness)); });
-    }
-  }
-}
-
-void read_rows(const Node& node, Positions& positions, Positions& velocities) {
-  for (const auto& [key, rows] : {std::pair{"positions", &positions}, {"velocities", &velocities}}) {
-    read_numbers(node.require(key), {rows->data(), static_cast<std::size_t>(rows->size())});
-  }
-}
-
-Pose read_pose(const Node& node) {
-  Pose pose;
-  read_numbers(node.require("position"), {pose.position.data(), 3});
-  read_rotation(node.require("rotation"), pose.rotation);
-  return pose;
-}
-
-/// What friction remembers, of so many contacts as the list of vertices has.
-std::vector<ContactMemory> read_memory(const Node& node) {
-  const Node vertices = node.require("vertices");
-  const Node touched = node.require("touched");
-  vertices.require_list();
-  touched.require_list(vertices.size(), "(one a contact)");
-  std::vector<Real> numbers(4 * vertices.size());
-  read_numbers(node.require("anchors_and_loads"), numbers);
-  std::vector<ContactMemory> memory(vertices.size());
-  for (std::size_t i = 0; i < memory.size(); ++i) {
-    read(vertices[i], memory[i].vertex);
-    read(touched[i], memory[i].collider);
-    memory[i].anchor = {numbers[4 * i], numbers[4 * i + 1], numbers[4 * i + 2]};
-    memory[i].load = numbers[4 * i + 3];
-  }
-  return memory;
-}
-
-/// What friction remembers of pairs of surfaces.
-std::vector<PairMemory> read_pairs(const Node& node) {
-  const Node features = node.require("pairs");
-  features.require_list();
-  if (features.size() % 3 != 0) features.fail("has no three numbers for each pair; take another checkpoint");
-  std::vector<PairMemory> pairs(features.size() / 3);
-  std::vector<Real> slides(features.size());
-  read_numbers(node.require("slides"), slides);
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    Index kind = 0;
-    read(features[3 * i], kind);
-    if (kind < 0 || kind > static_cast<Index>(PairKind::vertex_edge)) {
-      features.fail(fmt::format("has the kind {}; take another checkpoint", kind));
-    }
-    pairs[i].kind = static_cast<PairKind>(kind);
-    read(features[3 * i + 1], pairs[i].features[0]);
-    read(features[3 * i + 2], pairs[i].features[1]);
-    pairs[i].slide = {slides[3 * i], slides[3 * i + 1], slides[3 * i + 2]};
-  }
-  return pairs;
-}
-
-/// A list of so many numbers for each thing; calls visit(numbers) with those of one.
-template <std::size_t count, class Visit>
-void for_each_of(const Node& list, Visit&& visit) {
-  list.require_list();
-  if (list.size() % count != 0) list.fail(fmt::format("has no {} numbers for each; take another checkpoint", count));
-  for (std::size_t i = 0; i < list.size(); i += count) {
-    std::array<Index, count> numbers{};
-    for (std::size_t j = 0; j < count; ++j) read(list[i + j], numbers[j]);
-    visit(numbers);
-  }
-}
-
-LetGoState read_let_go(const Node& node) {
-  LetGoState let_go;
-  read(node.require("is_known"), let_go.is_known);
-  for_each_of<3>(node.require("pairs"), [&](const auto& numbers) {
-    let_go.pairs.push_back({{numbers[0], numbers[1]}, numbers[2] != 0});
-  });
-  for_each_of<2>(node.require("reduced"), [&](const auto& numbers) {
-    let_go.reduced.push_back({numbers[0], numbers[1], 0});
-  });
-  std::vector<Real> shares(let_go.reduced.size());
-  read_numbers(node.require("shares"), shares);
-  for (std::size_t i = 0; i < shares.size(); ++i) let_go.reduced[i].share = shares[i];
-  for_each_of<2>(node.require("held_up"), [&](const auto& numbers) {
-    let_go.held_up.push_back({numbers[0], numbers[1]});
-  });
-  return let_go;
-}
-
-/// Whether colliders and contacts are those of the simulation, Simulation::restore() says.
-ContactState read_contact(const Node& node, const State& fresh) {
-  constexpr Index most_light_steps = 1000;
-  ContactState contact;
-  for_each(node.require("colliders"), [&](const Node& entry) {
-    ColliderState& collider = contact.colliders.emplace_back();
-    read(entry.require("collider"), collider.collider);
-    collider.pose = read_pose(entry.require("pose"));
-    if (const auto target = entry.find("target")) collider.target = read_pose(*target);
-  });
-  contact.memory = read_memory(node);
-  contact.pairs = read_pairs(node);
-  if (const auto let_go = node.find("let_go")) contact.let_go = read_let_go(*let_go);
-  const auto read_of_vertices = [&](const Node& entry, std::vector<Real>& numbers) {
-    if (!entry.is_bytes() || !entry.bytes().empty()) numbers.resize(fresh.masses.size());
-    read_numbers(entry, numbers);
-  };
-  read_of_vertices(node.require("stiffening"), contact.stiffening);
-  read_of_vertices(node.require("in_factor"), contact.in_factor);
-  if (const auto energies = node.find("energies")) read_of_vertices(*energies, contact.energies);
-  read(node.require("light_steps"), contact.light_steps);
-  if (contact.light_steps < 0 || contact.light_steps > most_light_steps) {
-    node.require("light_steps").fail(fmt::format("{} is out of range; take another checkpoint", contact.light_steps));
-  }
-  return contact;
-}
-
-State read_state(const Node& node, const State& fresh) {
-  State state = fresh;
-  read(node.require("step"), state.step);
-  if (state.step < 0 || state.step > max_steps) {
-    node.require("step").fail(fmt::format("{} is out of range; take another checkpoint", state.step));
-  }
-  state.time = read_real(node.require("time"));
-  state.time_excess = read_real(node.require("time_excess"));
-  read_rows(node, state.positions, state.velocities);
-  if (const auto previous = node.find("previous")) {
-    state.previous_time_step = read_real(previous->require("time_step"));
-    for (Positions* rows : {&state.previous_positions, &state.previous_velocities}) rows->resizeLike(state.positions);
-    read_rows(*previous, state.previous_positions, state.previous_velocities);
-  }
-  if (const auto iterations = node.find("iterations")) {
-    read(*iterations, state.iterations);
-    if (state.iterations < 1) iterations->fail("not 1 or more; take another checkpoint");
-  }
-  if (const auto contact = node.find("contact")) state.contact = read_contact(*contact, fresh);
-  if (const auto surplus = node.find("energy_surplus")) {
-    state.energy_surplus.resize(state.masses.size());
-    read_numbers(*surplus, state.energy_surplus);
-  }
-  return state;
-}
-
 /// Where the scene's contact does not say whether surfaces touch, they did not in those days.
 void keep_old_contact(SceneSource& source) {
   SceneFiles files;
@@ -358,49 +169,102 @@ void keep_old_contact(SceneSource& source) {
   }
 }
 
-/// `folder` is where the checkpoint is; empty: not known.
-Scene restore_scene(std::string_view bytes, std::string_view name, const fs::path& folder,
-                    const ResumeOptions& options) {
-  const Origin origin{std::string(name)};
-  const Unsealed unsealed = unseal(bytes, name);
-  const Document document(parse_cbor(unsealed.content, name), {&origin});
-  const Node root(document);
-  SceneSource source = read_source(root.require("source"));
-  if (options.steps) source.overrides.steps = options.steps;
-  if (options.threads) source.overrides.threads = options.threads;
-  const Node files = root.require("files");
-  const RunMove move = read_move(root, folder);
-  const bool has_moved = check_files(files, move);
-  if (has_moved) move_folders(source, move);
-  Scene scene = root.require("source").locate([&] {
-    if (unsealed.has_old_contact) keep_old_contact(source);
-    return parse_scene(std::move(source));
-  });
-  if (has_moved) check_files_read(files, scene);
-
-  Simulation& simulation = scene.simulation;
-  const Node timeline = root.require("timeline");
-  const TimelineState timeline_state = read_timeline(timeline);
-  timeline.locate([&] { scene.timeline.replay(simulation, timeline_state); });
-  restore_groups(root.require("groups"), simulation);
-  const Node node = root.require("state");
-  const State state = read_state(node, simulation.state());
-  node.locate([&] { simulation.restore(state); });
-  if (scene.steps < simulation.state().step) {
-    fail_input(fmt::format("{}: {} steps in all were asked for, but {} have been taken; ask for more", name,
-                           scene.steps, simulation.state().step));
+/// The content of a checkpoint.
+class Content {
+ public:
+  /// `folder` is where the checkpoint is; empty: not known.
+  Content(std::string_view bytes, std::string_view name, const fs::path& folder)
+      : origin_{std::string(name)},
+        unsealed_(unseal(bytes, name)),
+        document_(parse_cbor(unsealed_.content, name), {&origin_}),
+        folder_(folder) {
+    if (!root().has("source")) {
+      fail_input(
+          fmt::format("{}: the state of a simulation without a scene; make the simulation as the program did, and "
+                      "restore the state there",
+                      printable_place(origin_.name)));
+    }
   }
+
+  Node root() const { return Node(document_); }
+
+  /// The scene at its start.
+  Scene open(const ResumeOptions& options) const {
+    SceneSource source = read_source(root().require("source"));
+    if (options.steps) source.overrides.steps = options.steps;
+    if (options.threads) source.overrides.threads = options.threads;
+    const Node files = root().require("files");
+    const RunMove move = read_move(root(), folder_);
+    const bool has_moved = check_files(files, move);
+    if (has_moved) move_folders(source, move);
+    Scene scene = root().require("source").locate([&] {
+      if (unsealed_.has_old_contact) keep_old_contact(source);
+      return parse_scene(std::move(source));
+    });
+    if (has_moved) check_files_read(files, scene);
+    return scene;
+  }
+
+  /// Takes it to the moment of the checkpoint.
+  void restore(Scene& scene) const {
+    Simulation& simulation = scene.simulation;
+    const Node timeline = root().require("timeline");
+    const TimelineState timeline_state = read_timeline(timeline);
+    timeline.locate([&] { scene.timeline.replay(simulation, timeline_state); });
+    set_numbers(read_groups(root().require("groups"), simulation));
+    const Node node = root().require("state");
+    const State state = read_state(node, simulation.state());
+    node.locate([&] { simulation.restore(state); });
+    if (scene.steps < simulation.state().step) {
+      fail_input(fmt::format("{}: {} steps in all were asked for, but {} have been taken; ask for more", origin_.name,
+                             scene.steps, simulation.state().step));
+    }
+  }
+
+ private:
+  Origin origin_;
+  Unsealed unsealed_;
+  Document document_;
+  fs::path folder_;
+};
+
+Scene resumed(const Content& content, const ResumeOptions& options) {
+  Scene scene = content.open(options);
+  content.restore(scene);
   return scene;
+}
+
+/// Calls use(content) of a checkpoint in a file.
+template <class Use>
+auto with_content(const fs::path& path, Use&& use) {
+  const std::string bytes = read_file(path);
+  return use(Content(bytes, path.string(), absolute_path(path).parent_path()));
 }
 
 }  // namespace
 
 Scene parse_checkpoint(std::string_view bytes, std::string_view name, const ResumeOptions& options) {
-  return restore_scene(bytes, name, {}, options);
+  return resumed(Content(bytes, name, {}), options);
 }
 
 Scene read_checkpoint(const fs::path& path, const ResumeOptions& options) {
-  return restore_scene(read_file(path), path.string(), absolute_path(path).parent_path(), options);
+  return with_content(path, [&](const Content& content) { return resumed(content, options); });
+}
+
+Scene open_checkpoint(const fs::path& path, const ResumeOptions& options) {
+  return with_content(path, [&](const Content& content) { return content.open(options); });
+}
+
+void restore_checkpoint(Scene& scene, const fs::path& path) {
+  with_content(path, [&](const Content& content) { content.restore(scene); });
+}
+
+Scene open_checkpoint(std::string_view bytes, std::string_view name, const ResumeOptions& options) {
+  return Content(bytes, name, {}).open(options);
+}
+
+void restore_checkpoint(Scene& scene, std::string_view bytes, std::string_view name) {
+  Content(bytes, name, {}).restore(scene);
 }
 
 }  // namespace pliant

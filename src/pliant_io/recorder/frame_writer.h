@@ -42,4 +42,9 @@ std::unique_ptr<FrameWriter> make_obj_writer(const std::filesystem::path& folder
 std::unique_ptr<FrameWriter> make_ply_writer(const std::filesystem::path& folder, std::span<const Body> bodies,
                                              std::int64_t kept_frames = 0);
 
+/// One of these by the name of its format, as run.json has it: "npy", "pc2", "obj" or "ply"; null for "none".
+/// @throws Error (input): no such format
+std::unique_ptr<FrameWriter> make_frame_writer(std::string_view format, const std::filesystem::path& folder,
+                                               const Simulation& simulation, std::int64_t kept_frames = 0);
+
 }  // namespace pliant

@@ -58,4 +58,14 @@ std::unique_ptr<FrameWriter> make_ply_writer(const std::filesystem::path& folder
   return std::make_unique<MeshFrames>(folder, "ply", one_mesh_of_run(bodies), kept_frames);
 }
 
+std::unique_ptr<FrameWriter> make_frame_writer(std::string_view format, const std::filesystem::path& folder,
+                                               const Simulation& simulation, std::int64_t kept_frames) {
+  if (format == "npy") return make_npy_writer(folder, simulation.state().vertex_count(), kept_frames);
+  if (format == "pc2") return make_pc2_writer(folder, simulation.state().vertex_count(), kept_frames);
+  if (format == "obj") return make_obj_writer(folder, simulation.bodies(), kept_frames);
+  if (format == "ply") return make_ply_writer(folder, simulation.bodies(), kept_frames);
+  if (format == "none") return nullptr;
+  fail_input("no frames in the format '" + printable(format) + "'; give npy, pc2, obj, ply or none");
+}
+
 }  // namespace pliant
