@@ -6,7 +6,7 @@ import pliant
 # [record]
 def made() -> pliant.Simulation:
     simulation = pliant.Simulation(integrator="bdf2", iterations=30)
-    rope = simulation.add_body(pliant.chain(links=30), line_density=0.1)
+    rope = simulation.add_body(pliant.chain(links=30, direction=(1, 0, 0)), line_density=0.1)
     simulation.add(rope, pliant.EdgeSpring(stiffness=1e4))
     simulation.add(rope, pliant.Position(on=[0]))
     simulation.add(pliant.Gravity())

@@ -66,7 +66,7 @@ class Attachment(ConstraintOptions):
     def __init__(self, *, on: Selection = ..., to: BodyId = ..., to_on: Selection = ..., mode: Literal["nearest_vertex", "nearest_face", "seam", "seam_by_length"] = ..., direction: Literal["nearest", "opposite"] = ..., stiffness: Values = ..., length: float = ..., keep_distance: bool = ..., closing_time: float = ...) -> None: ...
 
 def bar(*, cells: Sequence[int] = ..., size: Sequence[float] = ..., cut: Literal["five", "six"] = ...) -> Mesh:
-    """A mesh.
+    """A box of tetrahedra with a corner at the origin.
 
     Options:
         cells: along x, y, z, default (10, 2, 2)
@@ -117,7 +117,7 @@ class CapsuleCollider(ColliderOptions):
     def __init__(self, *, from_: Vector = ..., to: Vector = ..., radius: float = ..., velocity: Vector = ..., angular_velocity: Vector = ..., surface_velocity: Vector = ..., friction: Values = ...) -> None: ...
 
 def capsule(*, segments: int = ..., radius: float = ..., height: float = ..., top_radius: float = ...) -> Mesh:
-    """A mesh.
+    """The hull of two balls, one about the origin, the other above it: a closed surface.
 
     Options:
         segments: vertices around the axis, default 24
@@ -127,7 +127,7 @@ def capsule(*, segments: int = ..., radius: float = ..., height: float = ..., to
     """
 
 def chain(*, links: int = ..., length: float = ..., direction: Vector = ...) -> Mesh:
-    """A mesh.
+    """A line of edges that begins at the origin.
 
     Options:
         links: edges; vertices are one more, default 10
@@ -136,7 +136,7 @@ def chain(*, links: int = ..., length: float = ..., direction: Vector = ...) -> 
     """
 
 def cylinder(*, segments: int = ..., rows: int = ..., radius: float = ..., height: float = ..., top_radius: float = ..., caps: Literal["open", "closed"] = ...) -> Mesh:
-    """A mesh.
+    """A surface about the z axis, from z = 0 up.
 
     Options:
         segments: vertices around the axis, default 24
@@ -208,7 +208,7 @@ class Gravity(ForceOptions):
     def __init__(self, *, acceleration: Vector = ...) -> None: ...
 
 def grid(*, columns: int = ..., rows: int = ..., size: Sequence[float] = ..., plane: Literal["xy", "xz", "yz"] = ..., diagonals: Literal["forward", "backward", "alternating", "crossed"] = ...) -> Mesh:
-    """A mesh.
+    """A rectangle of triangles with a corner at the origin, row 0 along the first axis; vertex (i, j) is j·columns + i.
 
     Options:
         columns: vertices along the first axis, default 11
@@ -265,7 +265,7 @@ class MouseSpring(ForceOptions):
     def __init__(self, *, vertices: Selection = ..., anchor: Vector = ..., stiffness: float = ..., rest_length: float = ...) -> None: ...
 
 def net(*, columns: int = ..., rows: int = ..., size: Sequence[float] = ..., plane: Literal["xy", "xz", "yz"] = ..., diagonals: Literal["none", "both"] = ...) -> Mesh:
-    """A mesh.
+    """Knots and cords: the vertices of a grid, with edges alone as elements.
 
     Options:
         columns: knots along the first axis, default 11
@@ -288,7 +288,7 @@ class OnPlane(ConstraintOptions):
     def __init__(self, *, on: Selection = ..., stencils: Stencils = ..., stiffness: Values = ..., normal: Points = ..., origin: Points = ...) -> None: ...
 
 def panel(*, columns: int = ..., rows: int = ..., bottom: Points = ..., top: Points = ..., left: Points = ..., right: Points = ..., diagonals: Literal["forward", "backward", "alternating", "crossed"] = ...) -> Mesh:
-    """A mesh.
+    """A piece of cloth between four sides, which may be curved: a panel of a dress, a gore of a canopy, a sail.
 
     Options:
         columns: vertices along the bottom and the top, default 21
@@ -301,7 +301,7 @@ def panel(*, columns: int = ..., rows: int = ..., bottom: Points = ..., top: Poi
     """
 
 def pillow(*, columns: int = ..., rows: int = ..., size: Sequence[float] = ..., plane: Literal["xy", "xz", "yz"] = ..., gap: float = ...) -> Mesh:
-    """A mesh.
+    """Two flat faces sewn together at their border: a closed surface with outward normals.
 
     Options:
         columns: vertices of a face along the first axis, default 17
@@ -361,7 +361,7 @@ class SphereCollider(ColliderOptions):
     def __init__(self, *, center: Vector = ..., radius: float = ..., velocity: Vector = ..., angular_velocity: Vector = ..., surface_velocity: Vector = ..., friction: Values = ...) -> None: ...
 
 def sphere(*, subdivisions: int = ..., radius: float = ...) -> Mesh:
-    """A mesh.
+    """A closed surface about the origin.
 
     Options:
         subdivisions: 0 is the icosahedron; each more cuts every triangle into four, default 3
@@ -425,7 +425,7 @@ class TetrahedronVolume(ConstraintOptions):
     def __init__(self, *, on: Selection = ..., stencils: Stencils = ..., stiffness: Values = ..., min_volume: Values = ..., max_volume: Values = ...) -> None: ...
 
 def torus(*, major_segments: int = ..., minor_segments: int = ..., major_radius: float = ..., minor_radius: float = ...) -> Mesh:
-    """A mesh.
+    """A closed surface about the z axis.
 
     Options:
         major_segments: vertices around the axis, default 48
@@ -492,7 +492,7 @@ class TriangleStvk(ConstraintOptions):
     def __init__(self, *, on: Selection = ..., stencils: Stencils = ..., stiffness: Values = ..., poisson_ratio: float = ...) -> None: ...
 
 def tube(*, points: Points = ..., segments: int = ..., rows: int = ..., radius: float = ..., ends: Literal["open", "closed", "joined"] = ..., inside: Literal["hollow", "solid"] = ...) -> Mesh:
-    """A mesh.
+    """A tube around a smooth curve through given points: a hose, a cord, a ring, a knot.
 
     Options:
         points: which its curve goes through: two or more, of a ring three; default: from the origin 1 m up [m], default [(0.0, 0.0, 0.0), (0.0, 0.0, 1.0)]

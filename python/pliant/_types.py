@@ -82,9 +82,8 @@ def option_lines(fields: List[Dict[str, Any]]) -> str:
 
 def doc_of(described: Dict[str, Any]) -> str:
     kind = described["kind"]
-    head = {"shape": "A mesh.", "settings": "Settings."}.get(kind, f"{kind.capitalize()} `{described['scene_name']}`.")
-    if described["summary"]:
-        head += f" {described['summary']}"
+    head = {"shape": "", "settings": "Settings."}.get(kind, f"{kind.capitalize()} `{described['scene_name']}`.")
+    head = f"{head} {described['summary']}".strip()
     return f"{head}\n\nOptions:\n{option_lines(described['fields'])}\n"
 
 

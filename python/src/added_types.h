@@ -10,6 +10,7 @@ class ShapeType final : public TypedOptions<Options> {
  public:
   std::string kind() const override { return "shape"; }
   std::string scene_name() const override { return std::string(Options::shape); }
+  std::string summary() const override { return std::string(Options::summary); }
   pliant::Mesh mesh(const py::dict& given) const override { return make_shape(read_options<Options>(given, nullptr)); }
 };
 

@@ -1,5 +1,7 @@
 """Every type of the lists, and every option of each, by name."""
 import inspect
+import os
+import pathlib
 import unittest
 
 import numpy as np
@@ -112,6 +114,15 @@ class Options(unittest.TestCase):
                 make()
             self.assertEqual(caught.exception.kind, "input")
             self.assertNotIn("\n", str(caught.exception))
+
+    def test_shapes_say_what_they_are(self):
+        page = (pathlib.Path(os.environ["PLIANT_SOURCE_DIR"]) / "docs/scenes/bodies.md").read_text(encoding="utf-8")
+        shapes = [described["scene_name"] for described in pliant.TYPES.values() if described["kind"] == "shape"]
+        self.assertIn("grid", shapes)
+        for shape in shapes:
+            first = getattr(pliant, shape).__doc__.splitlines()[0]
+            self.assertTrue(first)
+            self.assertIn(f"### `{shape}`\n\n{first}", page)
 
     def test_selections_are_those_of_scenes_or_masks(self):
         simulation = pliant.Simulation()

@@ -15,6 +15,7 @@ constexpr std::array<std::string_view, 2> choice_names(TetrahedronCut) {
 
 struct BarOptions {
   static constexpr std::string_view shape = "bar";
+  static constexpr std::string_view summary = "A box of tetrahedra with a corner at the origin.";
 
   std::array<Index, 3> cells{10, 2, 2};      ///< cubes along x, y, z, each ≥ 1
   std::array<Real, 3> size{1, 0.2, 0.2};     ///< extent along x, y, z [m], > 0

@@ -6,6 +6,7 @@ namespace pliant {
 
 struct ChainOptions {
   static constexpr std::string_view shape = "chain";
+  static constexpr std::string_view summary = "A line of edges that begins at the origin.";
 
   Index links = 10;          ///< edges, ≥ 1; vertices are one more
   Real length = 1;           ///< of the whole chain [m], > 0

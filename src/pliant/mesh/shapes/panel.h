@@ -8,6 +8,8 @@ namespace pliant {
 
 struct PanelOptions {
   static constexpr std::string_view shape = "panel";
+  static constexpr std::string_view summary =
+      "A piece of cloth between four sides, which may be curved: a panel of a dress, a gore of a canopy, a sail.";
 
   Index columns = 21;  ///< vertices along the bottom and the top, ≥ 2
   Index rows = 21;     ///< vertices along the left and the right, ≥ 2

@@ -24,6 +24,9 @@ constexpr std::array<std::string_view, 4> choice_names(Diagonals) {
 
 struct GridOptions {
   static constexpr std::string_view shape = "grid";
+  static constexpr std::string_view summary =
+      "A rectangle of triangles with a corner at the origin, row 0 along the first axis; vertex (i, j) is j·columns + "
+      "i.";
 
   Index columns = 11;                        ///< vertices along the first axis, ≥ 2
   Index rows = 11;                           ///< vertices along the second axis, ≥ 2
@@ -61,6 +64,7 @@ constexpr std::array<std::string_view, 2> choice_names(NetDiagonals) {
 
 struct NetOptions {
   static constexpr std::string_view shape = "net";
+  static constexpr std::string_view summary = "Knots and cords: the vertices of a grid, with edges alone as elements.";
 
   Index columns = 11;                           ///< knots along the first axis, ≥ 2
   Index rows = 11;                              ///< knots along the second axis, ≥ 2
@@ -86,6 +90,8 @@ Mesh net(const NetOptions& options);
 
 struct PillowOptions {
   static constexpr std::string_view shape = "pillow";
+  static constexpr std::string_view summary =
+      "Two flat faces sewn together at their border: a closed surface with outward normals.";
 
   Index columns = 17;                  ///< vertices of a face along the first axis, ≥ 3
   Index rows = 17;                     ///< vertices of a face along the second axis, ≥ 3

@@ -7,6 +7,7 @@ namespace pliant {
 
 struct TorusOptions {
   static constexpr std::string_view shape = "torus";
+  static constexpr std::string_view summary = "A closed surface about the z axis.";
 
   Index major_segments = 48;  ///< vertices around the axis, ≥ 3
   Index minor_segments = 24;  ///< vertices around the tube, ≥ 3
@@ -30,6 +31,7 @@ Mesh torus(const TorusOptions& options);
 
 struct SphereOptions {
   static constexpr std::string_view shape = "sphere";
+  static constexpr std::string_view summary = "A closed surface about the origin.";
 
   Index subdivisions = 3;  ///< 0 to 11: 0 is the icosahedron; each more cuts every triangle into four
   Real radius = 0.5;       ///< of the sphere through the vertices [m], > 0
@@ -53,6 +55,7 @@ constexpr std::array<std::string_view, 2> choice_names(Caps) {
 
 struct CylinderOptions {
   static constexpr std::string_view shape = "cylinder";
+  static constexpr std::string_view summary = "A surface about the z axis, from z = 0 up.";
 
   Index segments = 24;     ///< vertices around the axis, ≥ 3
   Index rows = 11;         ///< vertices along the axis, ≥ 2
@@ -80,6 +83,8 @@ Mesh cylinder(const CylinderOptions& options);
 
 struct CapsuleOptions {
   static constexpr std::string_view shape = "capsule";
+  static constexpr std::string_view summary =
+      "The hull of two balls, one about the origin, the other above it: a closed surface.";
 
   Index segments = 24;  ///< vertices around the axis, ≥ 3
   Real radius = 0.1;    ///< of the ball at the lower end [m], > 0

@@ -19,6 +19,8 @@ constexpr std::array<std::string_view, 2> choice_names(TubeInside) {
 
 struct TubeOptions {
   static constexpr std::string_view shape = "tube";
+  static constexpr std::string_view summary =
+      "A tube around a smooth curve through given points: a hose, a cord, a ring, a knot.";
 
   /// Which the curve goes through, in this order [m]: two or more, three or more where it is joined
   Points points{std::vector<Vec3>{Vec3(0, 0, 0), Vec3(0, 0, 1)}};

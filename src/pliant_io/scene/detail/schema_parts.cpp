@@ -36,7 +36,9 @@ SchemaJson closed_reference(std::string_view definition, SchemaJson more = Schem
 template <class Options>
 SchemaJson shape_schema() {
   const SchemaJson properties = {{"shape", {{"const", Options::shape}}}};
-  return open_object_schema(joined(properties, options_properties<Options>()), {"shape"});
+  SchemaJson schema = open_object_schema(joined(properties, options_properties<Options>()), {"shape"});
+  schema["description"] = Options::summary;
+  return schema;
 }
 
 template <class... Options>
