@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""Compares what two builds of scene_bits left, scene by scene.
+"""Compares what builds of scene_bits left, scene by scene.
 
-  tests/web/compare_bits.py FOLDER OTHER   prints a table in Markdown: the largest distance between the places of a
-                                           vertex, after the first step and after the last, in parts of the scene's size
+  tests/portable/compare_bits.py FOLDER OTHER...   prints a table in Markdown: the largest distance between the places
+                                                   of a vertex in FOLDER and each other, after the first step and after
+                                                   the last, in parts of the scene's size; "equal" are equal bits
 """
 import array
 import sys
@@ -31,18 +32,29 @@ def difference(a, b):
 
 
 def main():
-    if len(sys.argv) != 3:
+    if len(sys.argv) < 3 or sys.argv[1].startswith("-"):
         sys.exit(__doc__)
-    folder, other = map(Path, sys.argv[1:])
+    folder, *others = map(Path, sys.argv[1:])
     names = sorted(path.stem for path in folder.glob("*.bits"))
-    if names != sorted(path.stem for path in other.glob("*.bits")) or not names:
-        sys.exit(f"compare_bits.py: {folder} and {other} do not have the same scenes")
-    print("| scene | vertices | first step | last step |\n|---|---|---|---|")
+    for other in others:
+        if names != sorted(path.stem for path in other.glob("*.bits")) or not names:
+            sys.exit(f"compare_bits.py: {folder} and {other} do not have the same scenes")
+    print("| scene | vertices |" + "".join(f" {other.name}: first step | last step |" for other in others))
+    print("|---|---|" + "---|---|" * len(others))
+    equal = [[0, 0] for _ in others]
     for name in names:
-        (first, last), (other_first, other_last) = (read(f / f"{name}.bits") for f in (folder, other))
-        if len(last) != len(other_last):
-            sys.exit(f"compare_bits.py: {name} does not have the same vertices in both")
-        print(f"| {name} | {len(last) // 3} | {difference(first, other_first)} | {difference(last, other_last)} |")
+        one = read(folder / f"{name}.bits")
+        cells = []
+        for other, counts in zip(others, equal):
+            another = read(other / f"{name}.bits")
+            if len(one[1]) != len(another[1]):
+                sys.exit(f"compare_bits.py: {name} does not have the same vertices in {folder} and {other}")
+            for moment in range(2):
+                cells.append(difference(one[moment], another[moment]))
+                counts[moment] += cells[-1] == "equal"
+        print(f"| {name} | {len(one[1]) // 3} | {' | '.join(cells)} |")
+    counts = [f"{count} of {len(names)}" for pair in equal for count in pair]
+    print(f"| equal | | {' | '.join(counts)} |")
 
 
 if __name__ == "__main__":

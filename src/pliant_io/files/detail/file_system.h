@@ -35,6 +35,9 @@ class InputFile {
   std::uint64_t size_ = 0;
 };
 
+/// std::fopen for any letters that names may have. @returns null, with the reason in errno
+std::FILE* open_stream(const std::filesystem::path& path, const char* mode);
+
 /// Makes a file that was not there and locks it until it is closed. @returns why not; std::errc::file_exists: the name
 /// is taken
 std::error_code create_locked_file(const std::filesystem::path& path, std::FILE*& file);

@@ -60,6 +60,10 @@ void InputFile::close() {
   if (is_open()) ::close(static_cast<int>(std::exchange(handle_, none)));
 }
 
+std::FILE* open_stream(const fs::path& path, const char* mode) {
+  return std::fopen(path.c_str(), mode);
+}
+
 std::error_code create_locked_file(const fs::path& path, std::FILE*& file) {
   const int descriptor = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
   if (descriptor < 0) return last_error();

@@ -1,9 +1,10 @@
-// A file or folder is locked by what its handle does not share: nobody else gets a handle that may remove it.
+// A file or folder is locked by what its handle does not share: nobody else gets one that writes to it. By its name it
+// may still be renamed and removed.
 #include <algorithm>
 #include <cerrno>
-#include <cstddef>
+#include <cstring>
+#include <string>
 #include <utility>
-#include <vector>
 
 #include <windows.h>
 // after windows.h
@@ -18,10 +19,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// As the number that other systems have for it, so that messages are the same.
 std::error_code last_error() {
-  const DWORD error = GetLastError();
-  if (error == ERROR_FILE_EXISTS || error == ERROR_ALREADY_EXISTS) return std::make_error_code(std::errc::file_exists);
-  return {static_cast<int>(error), std::system_category()};
+  const std::error_code error(static_cast<int>(GetLastError()), std::system_category());
+  const std::error_condition condition = error.default_error_condition();
+  const bool is_known = condition.category() == std::generic_category();
+  return is_known ? std::error_code(condition.value(), std::generic_category()) : error;
 }
 
 std::intptr_t number_of(HANDLE handle) {
@@ -49,17 +52,9 @@ bool remove_open(HANDLE handle) {
   return SetFileInformationByHandle(handle, FileDispositionInfo, &removal, sizeof(removal)) != 0;
 }
 
-/// By its handle, so that the lock holds until it has the name.
-std::error_code rename_open(HANDLE handle, const fs::path& to) {
-  const std::wstring name = fs::absolute(to).wstring();
-  const std::size_t bytes = name.size() * sizeof(wchar_t);
-  std::vector<std::max_align_t> room(1 + (sizeof(FILE_RENAME_INFO) + bytes) / sizeof(std::max_align_t));
-  auto* info = reinterpret_cast<FILE_RENAME_INFO*>(room.data());  // NOLINT: as the system wants it
-  info->ReplaceIfExists = TRUE;
-  info->FileNameLength = static_cast<DWORD>(bytes);
-  std::copy(name.begin(), name.end(), info->FileName);
-  const auto size = static_cast<DWORD>(sizeof(FILE_RENAME_INFO) + bytes);
-  return SetFileInformationByHandle(handle, FileRenameInfo, info, size) != 0 ? std::error_code() : last_error();
+std::error_code renamed(const fs::path& from, const fs::path& to) {
+  const DWORD flags = MOVEFILE_REPLACE_EXISTING | MOVEFILE_WRITE_THROUGH;
+  return MoveFileExW(from.c_str(), to.c_str(), flags) != 0 ? std::error_code() : last_error();
 }
 
 }  // namespace
@@ -84,7 +79,8 @@ std::size_t InputFile::read(std::uint64_t offset, char* into, std::size_t count,
   place.OffsetHigh = static_cast<DWORD>(offset >> 32U);
   constexpr std::size_t most = std::size_t{1} << 30U;  // a call takes fewer than 2^32
   DWORD done = 0;
-  const bool is_read = ReadFile(handle_of(handle_), into, static_cast<DWORD>(std::min(count, most)), &done, &place) != 0;
+  const bool is_read =
+      ReadFile(handle_of(handle_), into, static_cast<DWORD>(std::min(count, most)), &done, &place) != 0;
   error = is_read || GetLastError() == ERROR_HANDLE_EOF ? std::error_code() : last_error();
   return error ? 0 : done;
 }
@@ -93,9 +89,14 @@ void InputFile::close() {
   if (is_open()) CloseHandle(handle_of(std::exchange(handle_, none)));
 }
 
+std::FILE* open_stream(const fs::path& path, const char* mode) {
+  const std::wstring wide(mode, mode + std::strlen(mode));
+  return _wfopen(path.c_str(), wide.c_str());
+}
+
 std::error_code create_locked_file(const fs::path& path, std::FILE*& file) {
-  HANDLE handle = CreateFileW(path.c_str(), GENERIC_WRITE | DELETE, FILE_SHARE_READ, nullptr, CREATE_NEW,
-                              FILE_ATTRIBUTE_NORMAL, nullptr);
+  HANDLE handle = CreateFileW(path.c_str(), GENERIC_WRITE | DELETE, FILE_SHARE_READ | FILE_SHARE_DELETE, nullptr,
+                              CREATE_NEW, FILE_ATTRIBUTE_NORMAL, nullptr);
   if (handle == INVALID_HANDLE_VALUE) return last_error();
   const int descriptor = _open_osfhandle(number_of(handle), _O_WRONLY | _O_BINARY);
   file = descriptor < 0 ? nullptr : _fdopen(descriptor, "wb");
@@ -111,11 +112,11 @@ void close_and_remove(std::FILE* file, const fs::path& /*path*/) {
   std::fclose(file);
 }
 
-std::error_code close_and_rename(std::FILE* file, const fs::path& /*from*/, const fs::path& to) {
+std::error_code close_and_rename(std::FILE* file, const fs::path& from, const fs::path& to) {
   // A loss of power might keep the name and lose the bytes.
   std::error_code error;
   if (FlushFileBuffers(handle_of(file)) == 0) error = last_error();
-  if (!error) error = rename_open(handle_of(file), to);
+  if (!error) error = renamed(from, to);
   if (error) remove_open(handle_of(file));
   if (std::fclose(file) != 0 && !error) error = {errno, std::generic_category()};
   return error;
@@ -132,8 +133,10 @@ bool remove_unlocked_file(const fs::path& path) {
 
 bool LockedFolder::lock(const fs::path& folder) {
   release();
-  HANDLE handle = CreateFileW(folder.c_str(), DELETE | FILE_READ_ATTRIBUTES, FILE_SHARE_READ | FILE_SHARE_WRITE, nullptr,
-                              OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS | FILE_FLAG_OPEN_REPARSE_POINT, nullptr);
+  HANDLE handle =
+      CreateFileW(folder.c_str(), FILE_ADD_FILE | FILE_READ_ATTRIBUTES, FILE_SHARE_READ | FILE_SHARE_DELETE, nullptr,
+                  OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS | FILE_FLAG_OPEN_REPARSE_POINT, nullptr);
+
   if (handle == INVALID_HANDLE_VALUE) return false;
   BY_HANDLE_FILE_INFORMATION info = {};
   constexpr DWORD looked_at = FILE_ATTRIBUTE_DIRECTORY | FILE_ATTRIBUTE_REPARSE_POINT;
@@ -148,19 +151,15 @@ bool LockedFolder::lock(const fs::path& folder) {
 }
 
 std::error_code LockedFolder::rename(const fs::path& to) {
-  const std::error_code error = rename_open(handle_of(handle_), to);
+  const std::error_code error = renamed(folder_, to);
   if (!error) release();
   return error;
 }
 
 void LockedFolder::remove() {
   std::error_code ignored;
-  for (fs::directory_iterator entry(folder_, ignored), end; !ignored && entry != end; entry.increment(ignored)) {
-    std::error_code kept;
-    fs::remove_all(entry->path(), kept);
-  }
-  release();  // the folder itself is removed by its name, which the lock does not allow
-  fs::remove(folder_, ignored);
+  fs::remove_all(folder_, ignored);
+  release();
 }
 
 void LockedFolder::release() {
