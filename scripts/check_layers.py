@@ -63,6 +63,14 @@ THIRD_PARTY = {
 }
 IN_PUBLIC_HEADERS = ["Eigen/"]
 
+# Headers of one operating system, and the files of src/ and apps/ that may include them: by their folder, or by the end
+# of their name.
+SYSTEM_HEADERS = re.compile(
+    r"(arpa|linux|net|netinet|sys)/.+|(aio|csignal|dirent|dlfcn|execinfo|fcntl|glob|grp|io|langinfo|link|malloc|mqueue"
+    r"|netdb|poll|pthread|pwd|sched|semaphore|shlobj|signal|spawn|strings|syslog|termios|unistd|wait|windows|winsock2)(\.h)?")
+SYSTEM_FOLDERS = ["apps/system"]
+SYSTEM_SOURCES = ("_posix.cpp", "_windows.cpp")
+
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
 
 
@@ -123,6 +131,15 @@ def third_party_offence(file, name, is_public_header):
     return None
 
 
+def system_offence(file, name):
+    """What is wrong with `file`, a path below the root, including <name> of an operating system."""
+    is_checked = file.startswith(("src/", "apps/")) and SYSTEM_HEADERS.fullmatch(name)
+    if not is_checked or is_allowed(file, SYSTEM_FOLDERS) or file.endswith(SYSTEM_SOURCES):
+        return None
+    return (f"<{name}> is of one operating system; it belongs behind an interface, in {', '.join(SYSTEM_FOLDERS)} or a "
+            f"source {' or '.join(SYSTEM_SOURCES)}")
+
+
 def file_offences(root, path):
     """Yields (line number, message) for one source or header."""
     file = path.relative_to(root).as_posix()
@@ -151,7 +168,7 @@ def file_offences(root, path):
         elif in_library and parts[1] == "pliant" and name in FILE_HEADERS:
             message = f"the algorithm must not read or write files: <{name}>"
         else:
-            message = third_party_offence(file, name, is_public_header)
+            message = system_offence(file, name) or third_party_offence(file, name, is_public_header)
         if message:
             yield number, message
 
@@ -229,6 +246,13 @@ SELF_TEST = [
     ("src/pliant_io/files/a.cpp", '"pliant_io/mesh/b.h"', True),
     ("src/pliant_io/pliant_io.h", '"pliant_io/scene/b.h"', False),
     ("src/pliant_io/export/a.cpp", '"pliant_io/checkpoint/b.h"', True),
+    ("src/pliant/core/a.cpp", "<unistd.h>", True),
+    ("src/pliant_io/files/a.cpp", "<sys/stat.h>", True),
+    ("src/pliant_io/files/detail/a_posix.cpp", "<fcntl.h>", False),
+    ("src/pliant_io/files/detail/a_windows.cpp", "<windows.h>", False),
+    ("apps/cli/a.cpp", "<csignal>", True),
+    ("apps/system/a.cpp", "<sys/resource.h>", False),
+    ("tests/cli/a.cpp", "<sys/wait.h>", False),
 ]
 
 

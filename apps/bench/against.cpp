@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include "bench/timing.h"
 #include "pliant/core/error.h"
@@ -15,6 +14,7 @@
 #include "pliant/core/stopwatch.h"
 #include "pliant_io/scene/scene.h"
 #include "system/child_process.h"
+#include "system/temporary_folder.h"
 
 namespace pliant_bench {
 namespace {
@@ -25,24 +25,6 @@ namespace fs = std::filesystem;
 
 constexpr double seconds_of_run = 1;  // of the long one, about
 constexpr int usual_repeats = 9;
-
-/// A folder that goes with this object.
-class Folder {
- public:
-  Folder() : path_(fs::temp_directory_path() / fmt::format("pliant-against-{}", getpid())) {
-    fs::create_directories(path_);
-  }
-  ~Folder() {
-    std::error_code error;
-    fs::remove_all(path_, error);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
 
 /// Runs one program once [s].
 double seconds_of(const std::string& program, const fs::path& folder, std::int64_t steps) {
@@ -137,7 +119,7 @@ AgainstResult measure_against(const AgainstTask& task, const std::string& other,
                               std::optional<int> repeats) {
   Json json = Json::parse(task.scene);
   json["settings"]["threads"] = threads;
-  const Folder folder;
+  const pliant_system::TemporaryFolder folder("pliant-against");
   std::ofstream(folder.path() / "scene.json") << json.dump(1);
   const auto lengths = lengths_of_runs(steps_of_run(json.dump()));
   const std::int64_t few = lengths.first, many = lengths.second;

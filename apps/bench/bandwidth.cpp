@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "bench/system.h"
 #include "pliant/core/stopwatch.h"
+#include "system/machine.h"
+#include "system/memory.h"
 
 namespace pliant_bench {
 namespace {
@@ -83,13 +84,13 @@ double ReadProbe::seconds() {
 }
 
 std::vector<Level> measure_levels() {
-  const std::int64_t l2 = cache_bytes(2) > 0 ? cache_bytes(2) : usual_l2;
-  const std::int64_t l3 = std::max(l2, cache_bytes(3) > 0 ? cache_bytes(3) : usual_l3);
+  const std::int64_t l2 = pliant_system::cache_bytes(2) > 0 ? pliant_system::cache_bytes(2) : usual_l2;
+  const std::int64_t l3 = std::max(l2, pliant_system::cache_bytes(3) > 0 ? pliant_system::cache_bytes(3) : usual_l3);
   std::vector<Level> levels;
   levels.push_back({"L2", l2, l2 / 2, read_speed(l2 / 2)});
   levels.push_back({"L3", l3, l3 / 2, read_speed(l3 / 2)});
   const std::int64_t wanted = memory_times_cache * l3;
-  if (wanted <= largest_buffer && wanted <= free_memory_bytes() / 3) {
+  if (wanted <= largest_buffer && wanted <= pliant_system::free_memory_bytes() / 3) {
     levels.push_back({"memory", 0, wanted, read_speed(wanted)});
   }
   return levels;

@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
-#include "bench/system.h"
 #include "pliant/core/error.h"
 #include "pliant/core/stopwatch.h"
 #include "pliant/solver/global/global_step.h"
+#include "system/memory.h"
 
 namespace pliant_bench {
 namespace {
@@ -90,7 +90,7 @@ class BaselineMaker {
 
   void add_solve(const std::string& name, std::unique_ptr<Solve> (*make)(const LowerMatrix&)) {
     const Index rows = reference_.matrix.size();
-    const PeakMemory peak;
+    const pliant_system::PeakMemory peak;
     const Stopwatch watch;
     std::unique_ptr<Solve> solve = make(reference_.matrix);
     const double set_up = watch.seconds();
@@ -102,7 +102,7 @@ class BaselineMaker {
   }
 
   void add_textbook(const std::string& name, GlobalForm form) {
-    const PeakMemory peak;
+    const pliant_system::PeakMemory peak;
     const Stopwatch watch;
     auto baseline = std::make_unique<TextbookBaseline>(reference_.simulation, form);
     baseline->result = {name, "iteration", {}, 0, watch.seconds(), peak.bytes()};

@@ -1,28 +1,30 @@
 #include "bench/bench.h"
 
 #include <algorithm>
+#include <ctime>
 #include <thread>
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include "bench/against.h"
 #include "bench/bandwidth.h"
 #include "bench/measure.h"
 #include "bench/solves.h"
-#include "bench/system.h"
 #include "bench/time_to_error.h"
 #include "pliant/core/version.h"
 #include "pliant/solver/global/factorization/triangular_solve.h"
+#include "system/machine.h"
 
 namespace pliant_bench {
 Machine this_machine() {
-  return {processor_name(),
+  return {pliant_system::processor_name(),
           std::max(1U, std::thread::hardware_concurrency()),
           std::string(pliant::compiler),
           eigen_version(),
           cholmod_version(),
           pliant::fastest_triangular_solve<float>().instruction_set,
-          utc_date()};
+          fmt::format("{:%Y-%m-%d %H:%M}", fmt::gmtime(std::time(nullptr)))};  // UTC
 }
 
 bool BenchOptions::has(BaselineKind kind) const {

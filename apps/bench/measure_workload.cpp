@@ -4,9 +4,9 @@
 #include "bench/bandwidth.h"
 #include "bench/baselines.h"
 #include "bench/measure.h"
-#include "bench/system.h"
 #include "bench/traffic.h"
 #include "pliant/core/stopwatch.h"
+#include "system/memory.h"
 
 namespace pliant_bench {
 namespace {
@@ -55,7 +55,7 @@ SolverSettings with_threads(SolverSettings settings, int threads) {
 
 /// Builds and takes the first step; the simulation then stands at its start again.
 Runner set_up(const Workload& workload, const SolverSettings& settings, SetUpResult& result) {
-  const PeakMemory peak;
+  const pliant_system::PeakMemory peak;
   Stopwatch watch;
   Mesh mesh = make_mesh(workload);
   result.mesh = watch.lap();

@@ -13,11 +13,11 @@
 #include "bench/solves.h"
 #include "choice_option.h"
 #include "commands.h"
-#include "interrupts.h"
 #include "pliant/core/printable.h"
 #include "pliant_io/files/atomic_file.h"
 #include "pliant_io/scene/nearest_names.h"
 #include "scene_options.h"
+#include "system/interrupts.h"
 #include "terminal.h"
 
 namespace pliant_cli {
@@ -119,7 +119,7 @@ void end_show() {
 }
 
 void run(const BenchArguments& arguments) {
-  end_at_interrupts();
+  pliant_system::end_at_interrupts();
   const BenchResult result = run_bench(check(arguments), show);
   end_show();
   const auto give = [](const std::string& file, const std::string& text) {

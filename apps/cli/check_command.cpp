@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <sys/resource.h>
 
 #include "commands.h"
 #include "crossing_texts.h"
@@ -20,6 +19,7 @@
 #include "pliant_io/recorder/run_info.h"
 #include "resting.h"
 #include "scene_options.h"
+#include "system/memory.h"
 #include "terminal.h"
 
 namespace pliant_cli {
@@ -38,13 +38,6 @@ struct CheckOptions : SceneArguments {
   bool is_still = false;  ///< take no steps
   bool as_scene = false;  ///< print the scene file made for a mesh, and nothing else
 };
-
-/// The most memory that this process has held so far [bytes].
-std::int64_t peak_memory() {
-  struct rusage usage = {};
-  getrusage(RUSAGE_SELF, &usage);
-  return std::int64_t{1024} * usage.ru_maxrss;
-}
 
 Real mass_of(const Body& body, const Simulation& simulation) {
   const auto masses = simulation.state().masses.begin() + body.first_vertex;
@@ -265,7 +258,7 @@ Json describe(Scene& scene) {
         {"precision", choice_names(info.precision)[static_cast<std::size_t>(info.precision)]},
         {"contraction", info.contraction},
         {"bytes", info.bytes},
-        {"peak_memory", peak_memory()}}},
+        {"peak_memory", pliant_system::peak_memory_bytes()}}},
       {"fastest_frequency",
        {{"rad_per_s", info.fastest_frequency},
         {"hz", info.fastest_frequency / (2 * std::numbers::pi)},

@@ -7,7 +7,6 @@
 #include "bench/bench.h"
 #include "commands.h"
 #include "experiments.h"
-#include "interrupts.h"
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
 #include "pliant/core/stopwatch.h"
@@ -17,6 +16,7 @@
 #include "render/offscreen_context.h"
 #include "report/report.h"
 #include "report_files.h"
+#include "system/interrupts.h"
 #include "terminal.h"
 
 namespace pliant_cli {
@@ -129,7 +129,7 @@ pliant_report::Chapter run_one(const Experiment& experiment, const ExperimentArg
   const pliant_experiments::ExperimentContext context(
       {draws, arguments.seed,
        [&](std::string_view what) { show(arguments, fmt::format("{}: {} ...", experiment.name, what)); },
-       was_interrupted});
+       pliant_system::was_interrupted});
   const pliant::Stopwatch watch;
   pliant_report::Chapter chapter = run_or_fail(experiment, context);
   chapter.name = experiment.name;
@@ -167,7 +167,7 @@ int run_experiments(const ExperimentArguments& arguments) {
   const std::vector<Experiment> chosen = choose(arguments.names);
   probe(arguments.out);
   const bool draws = can_draw(arguments);
-  catch_interrupts();
+  pliant_system::catch_interrupts();
   Report report;
   report.title = "Projective Dynamics: the experiments";
   report.introduction =

@@ -16,6 +16,8 @@
 #include "pliant/core/version.h"
 #include "pliant_io/scene/nearest_names.h"
 #include "program_text.h"
+#include "system/memory.h"
+#include "system/streams.h"
 #include "terminal.h"
 
 namespace {
@@ -185,8 +187,8 @@ int run_program(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  pliant_cli::guard_streams();
-  pliant_cli::limit_memory();
+  pliant_system::guard_streams();
+  pliant_system::limit_memory();
   try {
     return run_program(argc, argv);
   } catch (const pliant::Error& error) {

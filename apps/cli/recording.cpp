@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "commands.h"
-#include "interrupts.h"
 #include "motion_advice.h"
 #include "number_option.h"
 #include "pliant/core/printable.h"
@@ -17,6 +16,7 @@
 #include "pliant_io/recorder/recorder.h"
 #include "pliant_io/recorder/run_files.h"
 #include "progress.h"
+#include "system/interrupts.h"
 #include "terminal.h"
 
 namespace pliant_cli {
@@ -105,8 +105,8 @@ void simulate(Scene& scene, pliant::Recorder& recorder, const fs::path& checkpoi
   Warnings warnings;
   warnings.print(scene.simulation, progress);
   const std::int64_t every = options.checkpoint_every;
-  scene.simulation.set_stop(waits_no_longer);
-  while (step < scene.steps && !was_interrupted()) {
+  scene.simulation.set_stop(pliant_system::waits_no_longer);
+  while (step < scene.steps && !pliant_system::was_interrupted()) {
     const std::optional<pliant::StepReport> report = step_unless_given_up(scene, checkpoint);
     if (!report) break;
     count_missed(*report, scene.simulation.settings().tolerance, end.info.missed_tolerance);
@@ -226,7 +226,7 @@ int record_scene(Scene& scene, const fs::path& folder, pliant::RunInfo info, con
     end_failed_run(folder, info, scene.simulation);
     throw;
   }
-  const bool interrupted = was_interrupted() && scene.simulation.state().step < scene.steps;
+  const bool interrupted = pliant_system::was_interrupted() && scene.simulation.state().step < scene.steps;
   info.outcome = interrupted ? Outcome::interrupted : Outcome::ok;
   pliant::end_run(folder, info, scene.simulation);
   if (!options.quiet) print_summary(scene, end, folder);

@@ -10,7 +10,6 @@
 #include "appearance_options.h"
 #include "commands.h"
 #include "import_options.h"
-#include "interrupts.h"
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
 #include "pliant_io/checkpoint/checkpoint.h"
@@ -19,6 +18,7 @@
 #include "render/film_writer.h"
 #include "render/picture_maker.h"
 #include "session_film.h"
+#include "system/interrupts.h"
 #include "terminal.h"
 
 namespace pliant_cli {
@@ -101,7 +101,7 @@ Clip clip_of_session(const RenderArguments& arguments) {
   };
   return clip_from_session(arguments.scene, prepare, [&](std::int64_t step, std::int64_t steps) {
     if (step % 16 == 0) show(arguments, fmt::format("simulating: step {} of {}", step, steps));
-    return !was_interrupted();
+    return !pliant_system::was_interrupted();
   });
 }
 
@@ -115,10 +115,10 @@ Clip clip_of_scene(const RenderArguments& arguments) {
   apply_appearance(arguments, scene.view);
   if (is_checkpoint(arguments)) check_color_of_moment(scene);
   free_camera(arguments, scene.view.camera);
-  scene.simulation.set_stop(waits_no_longer);
+  scene.simulation.set_stop(pliant_system::waits_no_longer);
   return pliant_render::clip_from_scene(scene, steps_a_frame(scene, arguments.fps), [&](std::int64_t step) {
     if (step % 16 == 0) show(arguments, fmt::format("simulating: step {} of {}", step, scene.steps));
-    return !was_interrupted();
+    return !pliant_system::was_interrupted();
   });
 }
 
@@ -215,8 +215,9 @@ std::string write_sheet(const RenderArguments& arguments, const Clip& clip) {
   const auto cell = [columns](pliant::Index size) { return std::max(16, size / columns); };
   FrameDrawer drawer(arguments, clip, chosen, {cell(clip.appearance.size[0]), cell(clip.appearance.size[1])});
   std::vector<pliant_render::Image> images;
-  for (std::size_t i = 0; i < drawer.count() && !was_interrupted(); ++i) images.push_back(drawer.draw(i));
-  if (was_interrupted()) throw_nothing_written();
+  for (std::size_t i = 0; i < drawer.count() && !pliant_system::was_interrupted(); ++i)
+    images.push_back(drawer.draw(i));
+  if (pliant_system::was_interrupted()) throw_nothing_written();
   const int gap = std::max(2, clip.appearance.size[0] / 160);
   const pliant_render::Image sheet = contact_sheet(images, columns, gap, bytes_of(clip.appearance.background));
   write_png(arguments.out, sheet);
@@ -239,8 +240,8 @@ std::string write_film(const RenderArguments& arguments, const Clip& clip) {
   pliant_render::FilmWriter writer({arguments.out, clip.appearance.size[0], clip.appearance.size[1],
                                     static_cast<int>(arguments.fps), static_cast<int>(drawer.count())});
   std::size_t drawn = 0;
-  for (; drawn < drawer.count() && !was_interrupted(); ++drawn) writer.add(drawer.draw(drawn));
-  if (was_interrupted()) {
+  for (; drawn < drawer.count() && !pliant_system::was_interrupted(); ++drawn) writer.add(drawer.draw(drawn));
+  if (pliant_system::was_interrupted()) {
     const bool are_pictures = is_picture(arguments) || !writer.hint().empty();
     throw pliant::Error(pliant::ErrorKind::interrupted,
                         are_pictures ? fmt::format("{} of {} pictures were written", drawn, drawer.count())
@@ -284,13 +285,13 @@ std::string make(const RenderArguments& arguments) {
   const Clip clip = is_run                  ? clip_of_run(arguments)
                     : is_session(arguments) ? clip_of_session(arguments)
                                             : clip_of_scene(arguments);
-  if (was_interrupted()) throw_nothing_written();
+  if (pliant_system::was_interrupted()) throw_nothing_written();
   return arguments.sheet ? write_sheet(arguments, clip) : write_film(arguments, clip);
 }
 
 int render(const RenderArguments& arguments) {
   check(arguments);
-  catch_interrupts();
+  pliant_system::catch_interrupts();
   try {
     const std::string written = make(arguments);
     show(arguments, "");

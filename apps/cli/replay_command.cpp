@@ -7,12 +7,12 @@
 #include <fmt/format.h>
 
 #include "commands.h"
-#include "interrupts.h"
 #include "number_option.h"
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
 #include "progress.h"
 #include "session_film.h"
+#include "system/interrupts.h"
 #include "terminal.h"
 
 namespace pliant_cli {
@@ -30,9 +30,9 @@ struct ReplayArguments {
 bool run_to_end(pliant_viewer::Session& session, const ReplayArguments& arguments) {
   Progress progress(0, session.replayed().wanted_steps,
                     arguments.quiet ? Progress::Show::never : Progress::Show::on_terminal);
-  session.set_stop(waits_no_longer);
+  session.set_stop(pliant_system::waits_no_longer);
   while (session.is_replaying()) {
-    if (was_interrupted()) return false;
+    if (pliant_system::was_interrupted()) return false;
     try {
       const double residual = replay_step(session, arguments.file).residual;
       progress.update(session.replayed().steps, residual);
@@ -53,7 +53,7 @@ int replay(const ReplayArguments& arguments) {
     scene.simulation.set_settings(settings);
     return scene;
   });
-  catch_interrupts();
+  pliant_system::catch_interrupts();
   const std::size_t actions = record.actions.size();
   const std::string scene = record.scene;
   session.replay(std::move(record));

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "commands.h"
-#include "interrupts.h"
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
 #include "pliant_io/checkpoint/checkpoint.h"
@@ -15,6 +14,7 @@
 #include "recording.h"
 #include "scene_options.h"
 #include "system/folder_lock.h"
+#include "system/interrupts.h"
 
 namespace pliant_cli {
 namespace {
@@ -39,7 +39,7 @@ int resume_scene(const ResumeArguments& arguments) {
                     pliant::printable_place(checkpoint.string())));
   }
   pliant::Scene scene = pliant::read_checkpoint(checkpoint, arguments.options);
-  catch_interrupts();
+  pliant_system::catch_interrupts();
   pliant::RunInfo info = run_info(scene, scene.source.texts.front().name);
   pliant::refuse_links(arguments.folder, info.frame_format, pliant::RunStart::resumed);
   info.resumed_from = scene.simulation.state().step;

@@ -7,7 +7,6 @@
 
 #include "commands.h"
 #include "import_options.h"
-#include "interrupts.h"
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
 #include "pliant_io/recorder/recorder.h"
@@ -15,6 +14,7 @@
 #include "recording.h"
 #include "scene_options.h"
 #include "system/folder_lock.h"
+#include "system/interrupts.h"
 
 namespace pliant_cli {
 namespace {
@@ -53,7 +53,7 @@ int run_scene(const RunOptions& options) {
   pliant::Scene scene = open_scene(options);
   print_warnings(scene);
   const fs::path folder = options.out.empty() ? fs::path("out") / fs::path(options.scene).stem() : options.out;
-  catch_interrupts();
+  pliant_system::catch_interrupts();
   const pliant::RunInfo info = run_info(scene, options.scene);
   refuse_to_replace(files_read_by(scene, options.scene), folder, info.frame_format);
   pliant::make_run_folder(folder);

@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
-#include "interrupts.h"
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
 #include "render/collider_tracks.h"
+#include "system/interrupts.h"
 #include "terminal.h"
 
 namespace pliant_cli {
@@ -50,7 +50,7 @@ void visit_session(const std::filesystem::path& file, const SessionVisitor& visi
     if (visitor.prepare) visitor.prepare(scene);
     return scene;
   });
-  session.set_stop(waits_no_longer);
+  session.set_stop(pliant_system::waits_no_longer);
   const std::int64_t first = record.last_start(), steps = record.steps;
   bool has_visited = false;
   const auto visit = [&](std::int64_t since) {

@@ -8,7 +8,6 @@
 
 #include "commands.h"
 #include "import_options.h"
-#include "interrupts.h"
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
 #include "pliant_io/files/atomic_file.h"
@@ -19,6 +18,7 @@
 #include "sweep/sweep_report.h"
 #include "system/child_process.h"
 #include "system/folder_lock.h"
+#include "system/interrupts.h"
 #include "terminal.h"
 
 namespace pliant_cli {
@@ -107,7 +107,7 @@ SweepSetup check(const SweepArguments& arguments) {
   const auto open = [&](const pliant::SceneOverrides& overrides) {
     return open_scene(SceneArguments{arguments.scene, overrides, arguments.import});
   };
-  return check_sweep(options, open, [] { return !was_interrupted(); });
+  return check_sweep(options, open, [] { return !pliant_system::was_interrupted(); });
 }
 
 Sharing share(const SweepArguments& arguments, const SweepPlan& plan) {
@@ -155,7 +155,7 @@ int sweep_in_folder(const SweepArguments& arguments, SweepSetup setup, Earlier e
   {
     SweepProgress progress(arguments);
     SweepHooks hooks;
-    hooks.stop = was_interrupted;
+    hooks.stop = pliant_system::was_interrupted;
     hooks.show = [&progress](const SweepState& state) { progress.show(state); };
     hooks.tell_ended = [&progress, &plan](const SweepRun& run) { progress.tell(plan, run); };
     run_sweep(arguments.out, pliant_system::own_program(), share(arguments, plan), plan, hooks);
@@ -237,7 +237,7 @@ void refuse_useless_options(const SweepArguments& arguments) {
 
 int sweep(const SweepArguments& arguments) {
   refuse_useless_options(arguments);
-  catch_interrupts();
+  pliant_system::catch_interrupts();
   const Earlier earlier = arguments.restart ? Earlier::remove : Earlier::keep;
   try {
     SweepSetup setup = check(arguments);

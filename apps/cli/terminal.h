@@ -1,5 +1,5 @@
 #pragma once
-// What depends on the operating system: terminals, the three standard streams and memory.
+// What people read and answer on a terminal.
 #include <array>
 #include <optional>
 #include <string>
@@ -7,13 +7,6 @@
 
 namespace pliant_cli {
 
-/// To be called first. A closed standard stream becomes the null device, so that no file of a run takes its number and
-/// with it what is printed there; a reader that has gone and a file past its limit become errors of the write.
-void guard_streams();
-
-/// Lets no allocation go past the memory that is free now, so that a scene too large for this machine ends in
-/// std::bad_alloc, and not with the system killing this program or another.
-void limit_memory();
 /// Writes to the standard error; in color where it has some: labels such as "warning:", and lines of progress. What
 /// cannot be written there has nowhere else to go: it is dropped.
 void print_to_stderr(std::string_view text);

@@ -14,13 +14,13 @@
 #include "appearance_options.h"
 #include "commands.h"
 #include "import_options.h"
-#include "interrupts.h"
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
 #include "pliant_io/checkpoint/checkpoint.h"
 #include "pliant_io/scene/builtin_scenes.h"
 #include "render/scalar_fields.h"
 #include "sweep/measurement_table.h"
+#include "system/interrupts.h"
 #include "viewer/live_source.h"
 #include "viewer/playback.h"
 #include "viewer/recent_files.h"
@@ -247,7 +247,7 @@ int show(pliant_viewer::Window& window, Shown shown, bool chooses_scene) {
     window.set_title(shown.source->name() + " - Pliant");
     {
       pliant_viewer::Viewer viewer(window, *shown.source, std::move(options));
-      viewer.run(was_interrupted);
+      viewer.run(pliant_system::was_interrupted);
       film = viewer.finish_film();
     }
     if (!next && !film.empty()) fmt::print("{}\n", film);
@@ -255,7 +255,7 @@ int show(pliant_viewer::Window& window, Shown shown, bool chooses_scene) {
     shown = std::move(*next);
     if (!film.empty()) shown.greeting = film + (shown.greeting.empty() ? "" : "\n" + shown.greeting);
   }
-  return was_interrupted() ? exit_interrupted : 0;
+  return pliant_system::was_interrupted() ? exit_interrupted : 0;
 }
 
 int view_run(const ViewArguments& arguments) {
@@ -284,7 +284,7 @@ int view_scene(const ViewArguments& given) {
 
 int view(const ViewArguments& arguments) {
   check(arguments);
-  catch_interrupts();
+  pliant_system::catch_interrupts();
   pliant_viewer::limit_software_driver();
   pliant_viewer::Window::require_display();  // before anyone waits for a scene to be read
   if (is_session(arguments)) return view_session(arguments);

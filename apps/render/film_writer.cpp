@@ -9,14 +9,13 @@
 #include <utility>
 #include <vector>
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
 #include "pliant_io/files/atomic_file.h"
 #include "system/child_process.h"
+#include "system/nameless_file.h"
 
 namespace pliant_render {
 
@@ -164,14 +163,13 @@ std::string film_command(const FilmOptions& options, FilmFormat format) {
 
 // ---- system
 
-/// A file without a name on the disk of the target: it is gone with the last process that has it open, however that
-/// ends.
-pliant_system::Descriptor make_nameless_file(const fs::path& target) {
-  std::string name = target.string() + ".pliant.tmp-XXXXXX";
-  pliant_system::Descriptor file(mkostemp(name.data(), O_CLOEXEC));
-  if (file.number() < 0) fail_output(target, reason(errno) + "; choose another place or make room");
-  unlink(name.c_str());
-  return file;
+/// On the disk of the film that is to be.
+pliant_system::NamelessFile make_nameless_file(const fs::path& target) {
+  try {
+    return pliant_system::NamelessFile(target);
+  } catch (const std::system_error& error) {
+    fail_output(target, error.code().message() + "; choose another place or make room");
+  }
 }
 
 /// The last few lines, in one.
@@ -225,24 +223,28 @@ class FilmWriter::Ffmpeg {
     process_->end_input();
     const pliant_system::ProcessEnd end = process_->wait();
     if (end.signal != 0 || end.exit_code != 0) fail(end_text(end));
-    if (lseek(film_.number(), 0, SEEK_END) <= 0) fail("it wrote nothing");
     copy_to_target();
   }
 
  private:
   /// A copy rather than a rename: the atomic file follows links, refuses devices and has the usual permissions.
   void copy_to_target() {
-    pliant::AtomicFile target(out_);
     std::vector<char> part(std::size_t{1} << 20U);
-    for (off_t place = 0;;) {
-      const ssize_t size = pread(film_.number(), part.data(), part.size(), place);
-      if (size < 0 && errno == EINTR) continue;
-      if (size < 0) fail_output(out_, "the film that ffmpeg made cannot be read; make it once more");
-      if (size == 0) break;
-      target.write({part.data(), static_cast<std::size_t>(size)});
-      place += size;
+    std::uint64_t place = read_film(0, part);
+    if (place == 0) fail("it wrote nothing");
+    pliant::AtomicFile target(out_);
+    for (std::size_t size = place; size > 0; size = read_film(place, part), place += size) {
+      target.write({part.data(), size});
     }
     target.commit();
+  }
+
+  std::size_t read_film(std::uint64_t place, std::vector<char>& part) const {
+    try {
+      return film_.read(place, part);
+    } catch (const std::system_error&) {
+      fail_output(out_, "the film that ffmpeg made cannot be read; make it once more");
+    }
   }
 
   [[noreturn]] void fail(const std::string& what) const {
@@ -255,7 +257,7 @@ class FilmWriter::Ffmpeg {
   }
 
   fs::path out_;
-  pliant_system::Descriptor film_;
+  pliant_system::NamelessFile film_;
   std::optional<pliant_system::ChildProcess> process_;
 };
 

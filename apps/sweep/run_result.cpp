@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <csignal>
 #include <fstream>
 #include <numeric>
 #include <stdexcept>
@@ -291,8 +290,7 @@ RunResult result_of_noted_end(const fs::path& folder, const fs::path& output) {
   if (code == 0) return {};
   pliant_system::ProcessEnd end{code, 0};
   if (code > signal_base) end = {0, code - signal_base};
-  const bool is_interrupted = end.signal == SIGHUP || end.signal == SIGINT || end.signal == SIGTERM;
-  return is_interrupted ? RunResult{} : result_of_ended_run(folder, end, output);
+  return ended_by_interrupt(end) ? RunResult{} : result_of_ended_run(folder, end, output);
 }
 
 }  // namespace pliant_sweep

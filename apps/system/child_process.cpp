@@ -90,6 +90,10 @@ std::string end_text(const ProcessEnd& end) {
   return fmt::format("ended by signal {} ({})", end.signal, name != nullptr ? name : "unknown");
 }
 
+bool ended_by_interrupt(const ProcessEnd& end) {
+  return end.signal == SIGHUP || end.signal == SIGINT || end.signal == SIGTERM;
+}
+
 ChildProcess::ChildProcess(const ChildOptions& options) {
   // A socket rather than a pipe, since only send() can be told to raise no SIGPIPE.
   std::array<int, 2> ends = {-1, -1};

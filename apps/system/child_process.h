@@ -21,6 +21,9 @@ struct ProcessEnd {
 /// "exit code 2", "ended by signal 9 (Killed)".
 std::string end_text(const ProcessEnd& end);
 
+/// Whether that was by someone who wanted it to end: a terminal, a user, the system when it shuts down.
+bool ended_by_interrupt(const ProcessEnd& end);
+
 /// Whom an interrupt of the terminal reaches.
 enum class Interrupts { both, parent };
 

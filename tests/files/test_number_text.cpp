@@ -1,4 +1,5 @@
 #include <bit>
+#include <clocale>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -34,6 +35,22 @@ Read read(Reader reader, std::string_view text) {
   result.length = static_cast<std::size_t>(stop - text.data());
   result.error = error;
   return result;
+}
+
+TEST_CASE("the locale of a program does not matter") {
+  const std::string before = std::setlocale(LC_NUMERIC, nullptr);
+  bool has_comma = false;
+  for (const char* name : {"de_DE.UTF-8", "de_DE", "German_Germany.1252", "fr_FR.UTF-8"}) {
+    has_comma = std::setlocale(LC_NUMERIC, name) != nullptr && std::string(std::localeconv()->decimal_point) == ",";
+    if (has_comma) break;
+  }
+  if (!has_comma) MESSAGE("this system has no locale with a comma: only the usual one is tested");
+  for (const Reader reader : readers) CHECK(read(reader, "2.5,7").number == 2.5);
+  for (const Writer writer : writers) {
+    NumberText text{};
+    CHECK(std::string_view(text.data(), static_cast<std::size_t>(writer(text, 2.5) - text.data())) == "2.5");
+  }
+  std::setlocale(LC_NUMERIC, before.c_str());
 }
 
 TEST_CASE("a text becomes the double nearest to it, to where the number ends") {

@@ -12,14 +12,13 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include "pliant/core/stopwatch.h"
 #include "pliant/mesh/shapes.h"
 #include "pliant_io/files/atomic_file.h"
 #include "pliant_io/mesh/mesh_file.h"
+#include "system/memory.h"
+#include "system/temporary_folder.h"
 #ifdef PLIANT_HAS_TINYOBJLOADER
 #include <tiny_obj_loader.h>
 #endif
@@ -28,6 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace pliant;
+using pliant_system::peak_memory_bytes_of;
 
 constexpr Index side = 708;
 
@@ -52,19 +52,6 @@ void write_sheet(const fs::path& path, const Mesh& sheet, int digits, bool has_t
   write_file_atomically(path, text);
 }
 
-/// Peak resident set of a child process that does `act` [bytes].
-std::int64_t peak_memory(const std::function<void()>& act) {
-  const pid_t child = fork();
-  if (child == 0) {
-    act();
-    _exit(0);
-  }
-  int status = 0;
-  rusage usage{};
-  wait4(child, &status, 0, &usage);
-  return std::int64_t{usage.ru_maxrss} * 1024;
-}
-
 double median(std::vector<double> seconds) {
   std::ranges::sort(seconds);
   return seconds[seconds.size() / 2];
@@ -85,7 +72,7 @@ void read_with_tinyobjloader([[maybe_unused]] const std::string& path) {
 
 /// Bytes a vertex beyond those of a process that reads nothing.
 double memory_of_reading(const fs::path& path, Index vertices) {
-  const std::int64_t memory = peak_memory([&] { read_mesh(path); }) - peak_memory([] {});
+  const std::int64_t memory = peak_memory_bytes_of([&] { read_mesh(path); }) - peak_memory_bytes_of([] {});
   return static_cast<double>(memory) / vertices;
 }
 
@@ -108,11 +95,11 @@ void time_reading(const fs::path& path, int repeats, double memory) {
 
 int main(int argc, char** argv) {
   const int repeats = argc > 1 ? std::max(1, std::atoi(argv[1])) : 7;
-  const fs::path folder = fs::temp_directory_path() / fmt::format("pliant-bench-{}", getpid());
-  fs::create_directory(folder);
+  const pliant_system::TemporaryFolder temporary("pliant-bench");
+  const fs::path& folder = temporary.path();
   const std::vector<fs::path> files = {folder / "digits6.obj", folder / "digits9.obj", folder / "texture.obj",
                                        folder / "sheet.ply",   folder / "sheet.off",   folder / "sheet.stl"};
-  peak_memory([&] {  // in a child, which takes its memory with it
+  peak_memory_bytes_of([&] {  // in a child, which takes its memory with it
     const Mesh sheet = grid({.columns = side, .rows = side});
     write_sheet(files[0], sheet, 6, false);
     write_sheet(files[1], sheet, 9, false);
@@ -125,6 +112,5 @@ int main(int argc, char** argv) {
   std::vector<double> memory;
   for (const fs::path& file : files) memory.push_back(memory_of_reading(file, side * side));
   for (std::size_t f = 0; f < files.size(); ++f) time_reading(files[f], repeats, memory[f]);
-  fs::remove_all(folder);
   return 0;
 }

@@ -5,14 +5,11 @@
 #include <system_error>
 #include <utility>
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
+#include "pliant_io/files/detail/file_system.h"
 
 namespace pliant {
 
@@ -43,54 +40,18 @@ fs::path resolved(fs::path path, std::error_code& error) {
   return path;
 }
 
-/// Waits until the bytes are on the disk: a rename may get there before them, and a loss of power leave an empty file.
-std::error_code sync(std::FILE* file) {
-  while (fsync(fileno(file)) != 0) {
-    if (errno == EINVAL) break;  // a file system that has no such thing
-    if (errno != EINTR) return {errno, std::generic_category()};
-  }
-  return {};
-}
-
-/// Makes a temporary and locks it. @returns a descriptor, or -1 with the reason in errno
-int create_locked(const fs::path& path) {
-  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
-  if (file < 0) return -1;
-  // A process that removes leftovers may have come between. Not all file systems know locks.
-  const bool is_taken = flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-  struct stat status {};
-  if (!is_taken && fstat(file, &status) == 0 && status.st_nlink > 0) return file;
-  close(file);
-  errno = EEXIST;
-  return -1;
-}
-
-/// Removes a temporary that no process writes any longer. The lock is held meanwhile, so that the name stays that
-/// file's.
-bool remove_if_left(const fs::path& path) {
-  const int file = open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-  if (file < 0) return false;
-  struct stat opened {};
-  struct stat named {};
-  const bool is_left = flock(file, LOCK_EX | LOCK_NB) == 0 && fstat(file, &opened) == 0 && S_ISREG(opened.st_mode) &&
-                       lstat(path.c_str(), &named) == 0 && named.st_dev == opened.st_dev &&
-                       named.st_ino == opened.st_ino && unlink(path.c_str()) == 0;
-  close(file);
-  return is_left;
-}
-
 }  // namespace
 
 AtomicFile::AtomicFile(const fs::path& path) : path_(path) {
   std::error_code error;
   const fs::path target = resolved(path, error);
-  if (error) fail(error.value());
+  if (error) fail(error);
   path_ = target;
   std::error_code ignored;
   const fs::file_status status = fs::status(path_, ignored);
-  if (fs::is_directory(status)) fail(EISDIR);
+  if (fs::is_directory(status)) fail(std::make_error_code(std::errc::is_a_directory));
   // A rename would replace a device or a pipe, /dev/null for one, by a plain file.
-  if (fs::exists(status) && !fs::is_regular_file(status)) fail(EINVAL);
+  if (fs::exists(status) && !fs::is_regular_file(status)) fail(std::make_error_code(std::errc::invalid_argument));
   open_temporary();
 }
 
@@ -98,53 +59,34 @@ void AtomicFile::open_temporary() {
   for (int attempt = 0; attempt < max_attempts; ++attempt) {
     temporary_path_ = path_;
     temporary_path_ += fmt::format("{}{}", temporary_mark, attempt);
-    int file = create_locked(temporary_path_);
-    int error = errno;
-    if (file < 0 && error == EEXIST && remove_if_left(temporary_path_)) {
-      file = create_locked(temporary_path_);
-      error = errno;
+    std::error_code error = create_locked_file(temporary_path_, file_);
+    if (error == std::errc::file_exists && remove_unlocked_file(temporary_path_)) {
+      error = create_locked_file(temporary_path_, file_);
     }
-    if (file >= 0) {
-      file_ = fdopen(file, "wb");
-      if (file_ != nullptr) return;
-      close(file);
-      fail(ENOMEM);
-    }
-    if (error != EEXIST) fail(error);
+    if (!error) return;
+    if (error != std::errc::file_exists) fail(error);
   }
-  fail(EEXIST);
+  fail(std::make_error_code(std::errc::file_exists));
 }
 
 AtomicFile::~AtomicFile() {
-  if (file_ == nullptr) return;
-  std::error_code ignored;
-  fs::remove(temporary_path_, ignored);
-  std::fclose(file_);
+  if (file_ != nullptr) close_and_remove(file_, temporary_path_);
 }
 
 void AtomicFile::write(std::string_view bytes) {
-  if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail(errno);
+  if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail({errno, std::generic_category()});
 }
 
 void AtomicFile::commit() {
   // A full disk may show only when the last buffer is flushed or the file is closed.
-  if (std::fflush(file_) != 0) fail(errno);
-  std::FILE* file = std::exchange(file_, nullptr);
-  std::error_code error = sync(file);
-  const int lock = fcntl(fileno(file), F_DUPFD_CLOEXEC, 0);  // the temporary stays locked until it has its name
-  if (std::fclose(file) != 0 && !error) error = std::error_code(errno, std::generic_category());
-  if (!error) fs::rename(temporary_path_, path_, error);
-  if (lock >= 0) close(lock);
-  if (!error) return;
-  std::error_code ignored;
-  fs::remove(temporary_path_, ignored);
-  fail(error.value());
+  if (std::fflush(file_) != 0) fail({errno, std::generic_category()});
+  const std::error_code error = close_and_rename(std::exchange(file_, nullptr), temporary_path_, path_);
+  if (error) fail(error);
 }
 
-void AtomicFile::fail(int error_number) const {
-  throw Error(ErrorKind::output,
-              fmt::format("{}: cannot be written: {}; choose another place or make room",
-                          printable_place(path_.string()), std::generic_category().message(error_number)));
+void AtomicFile::fail(const std::error_code& error) const {
+  throw Error(ErrorKind::output, fmt::format("{}: cannot be written: {}; choose another place or make room",
+                                             printable_place(path_.string()), error.message()));
 }
 
 void write_file_atomically(const fs::path& path, std::string_view contents) {
@@ -159,7 +101,7 @@ void remove_leftovers(const fs::path& folder, const std::function<bool(std::stri
     const std::string name = entry->path().filename().string();
     const std::size_t mark = name.rfind(temporary_mark);
     if (mark == name.npos || !is_ours(std::string_view(name).substr(0, mark))) continue;
-    remove_if_left(entry->path());
+    remove_unlocked_file(entry->path());
   }
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <string_view>
+#include <system_error>
 
 namespace pliant {
 
@@ -28,7 +29,7 @@ class AtomicFile {
   void commit();
 
  private:
-  [[noreturn]] void fail(int error_number) const;
+  [[noreturn]] void fail(const std::error_code& error) const;
   void open_temporary();
 
   std::filesystem::path path_;

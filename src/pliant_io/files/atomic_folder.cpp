@@ -1,17 +1,14 @@
 #include "pliant_io/files/atomic_folder.h"
 
-#include <cerrno>
 #include <string>
 #include <system_error>
 #include <utility>
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
+#include "pliant_io/files/detail/file_system.h"
 
 namespace pliant {
 
@@ -27,18 +24,10 @@ fs::path with_mark(const fs::path& path, std::string_view mark) {
   return marked;
 }
 
-/// A descriptor that holds the lock of a folder, or -1 when another process has it. Not all file systems know locks.
-int lock_folder(const fs::path& folder) {
-  const int lock = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-  if (lock < 0 || flock(lock, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return lock;
-  close(lock);
-  return -1;
-}
-
 }  // namespace
 
 AtomicFolder::AtomicFolder(const fs::path& path, std::function<bool(std::string_view)> is_ours)
-    : path_(path), is_ours_(std::move(is_ours)) {
+    : path_(path), is_ours_(std::move(is_ours)), lock_(std::make_unique<LockedFolder>()) {
   std::error_code ignored;
   if (fs::exists(fs::symlink_status(path_, ignored))) check_replaceable(path_);
   make_temporary();
@@ -50,24 +39,18 @@ void AtomicFolder::make_temporary() {
     std::error_code error;
     if (!fs::create_directory(temporary_path_, error)) {
       if (error) fail(error.message());
-      const int left = lock_folder(temporary_path_);
-      if (left < 0) continue;
+      if (!lock_->lock(temporary_path_)) continue;
       check_replaceable(temporary_path_);
-      fs::remove_all(temporary_path_, error);
-      close(left);
+      lock_->remove();
       if (!fs::create_directory(temporary_path_, error)) continue;
     }
-    lock_ = lock_folder(temporary_path_);
-    if (lock_ >= 0) return;
+    if (lock_->lock(temporary_path_)) return;
   }
   fail("too many folders of this name are being written");
 }
 
 AtomicFolder::~AtomicFolder() {
-  if (lock_ < 0) return;
-  std::error_code ignored;
-  fs::remove_all(temporary_path_, ignored);
-  close(lock_);
+  if (lock_->is_locked()) lock_->remove();
 }
 
 void AtomicFolder::check_replaceable(const fs::path& folder) const {
@@ -93,13 +76,12 @@ void AtomicFolder::commit() {
     fs::rename(path_, aside, error);
     if (error) fail(error.message());
   }
-  fs::rename(temporary_path_, path_, error);
+  error = lock_->rename(path_);
   if (error) {
     std::error_code ignored;
     if (is_there) fs::rename(aside, path_, ignored);
     fail(error.message());
   }
-  close(std::exchange(lock_, -1));
   if (is_there) fs::remove_all(aside, error);
 }
 

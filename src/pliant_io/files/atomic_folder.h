@@ -2,9 +2,12 @@
 // Folders of files that belong together and are there as a whole or not at all.
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string_view>
 
 namespace pliant {
+
+class LockedFolder;
 
 /// A folder that takes its name only at commit(). Without it, it is removed and what stood under the name stays. While
 /// it is filled it is locked: one without a lock was left by a process that was killed, and the next writer removes it.
@@ -32,7 +35,7 @@ class AtomicFolder {
   std::filesystem::path path_;
   std::filesystem::path temporary_path_;
   std::function<bool(std::string_view)> is_ours_;
-  int lock_ = -1;
+  std::unique_ptr<LockedFolder> lock_;  ///< of the folder under its temporary name
 };
 
 }  // namespace pliant

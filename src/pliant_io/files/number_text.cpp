@@ -1,6 +1,7 @@
 #include "pliant_io/files/number_text.h"
 
 #include <algorithm>
+#include <clocale>
 #include <cmath>
 #include <cstdlib>
 #include <string>
@@ -54,6 +55,13 @@ std::size_t name_length(std::string_view text) {
   return close != text.npos && text[close] == ')' ? close + 1 : after;
 }
 
+/// strtod as it is in the C locale: what a program has set may have another sign than a point.
+Real strtod_with_points(std::string word) {
+  const std::size_t point = word.find('.');
+  if (point != word.npos) word.replace(point, 1, std::localeconv()->decimal_point);
+  return std::strtod(word.c_str(), nullptr);
+}
+
 }  // namespace
 
 namespace detail {
@@ -64,7 +72,7 @@ std::from_chars_result number_from_chars_by_strtod(const char* begin, const char
   const std::size_t length = digits > 0 ? digits : name_length(text);
   if (length == 0) return {begin, std::errc::invalid_argument};
   const std::string word(text.substr(0, length));  // strtod wants a zero behind it
-  const Real value = std::strtod(word.c_str(), nullptr);
+  const Real value = strtod_with_points(word);
   const std::string_view factor = std::string_view(word).substr(0, word.find_first_of("eE"));
   const bool is_too_small = value == 0 && digits > 0 && factor.find_first_of("123456789") != factor.npos;
   const bool is_too_large = std::isinf(value) && digits > 0;

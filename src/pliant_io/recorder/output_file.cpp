@@ -7,6 +7,7 @@
 
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
+#include "pliant_io/files/detail/file_system.h"
 
 namespace pliant {
 
@@ -26,7 +27,7 @@ void OutputFile::open(const char* mode) {
   std::error_code ignored;
   const std::filesystem::file_status status = std::filesystem::status(path_, ignored);
   if (std::filesystem::is_fifo(status)) fail(EINVAL);  // opening it would wait for a reader
-  file_.reset(std::fopen(path_.string().c_str(), mode));
+  file_.reset(open_stream(path_, mode));
   if (!file_) fail(errno);
 }
 

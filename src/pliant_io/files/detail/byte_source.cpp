@@ -1,73 +1,56 @@
 #include "pliant_io/files/detail/byte_source.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
 #include <system_error>
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
 
 namespace pliant {
 
+namespace fs = std::filesystem;
+
 namespace {
 
-std::string reason(int error_number) {
-  return std::generic_category().message(error_number);
-}
-
 /// Before a file is opened: opening alone may wait, or set a device going.
-void refuse_other_than_files(const ByteSource& source) {
-  struct stat status {};
-  if (stat(source.name().c_str(), &status) != 0) {
-    const bool is_missing = errno == ENOENT || errno == ENOTDIR || errno == ENAMETOOLONG;
-    if (is_missing) source.fail("no such file; check the path");
-    source.fail(fmt::format("cannot be read: {}; check its permissions", reason(errno)));
-  }
-  if (S_ISDIR(status.st_mode)) source.fail("is a directory; give the path of a file in it");
-  if (!S_ISREG(status.st_mode)) source.fail("is not a regular file; copy its contents to one");
+void refuse_other_than_files(const ByteSource& source, const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  const bool is_missing = status.type() == fs::file_type::not_found || error == std::errc::filename_too_long;
+  if (is_missing) source.fail("no such file; check the path");
+  if (error) source.fail(fmt::format("cannot be read: {}; check its permissions", error.message()));
+  if (fs::is_directory(status)) source.fail("is a directory; give the path of a file in it");
+  if (!fs::is_regular_file(status)) source.fail("is not a regular file; copy its contents to one");
 }
 
 }  // namespace
 
-ByteSource::ByteSource(const std::filesystem::path& path) : name_(path.string()) {
-  refuse_other_than_files(*this);
-  file_ = open(name_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (file_ < 0) fail("cannot be opened; check its permissions");
-  struct stat status {};
-  if (fstat(file_, &status) == 0 && S_ISREG(status.st_mode)) {
-    size_ = static_cast<std::uint64_t>(status.st_size);
-    return;
-  }
-  close(file_);
-  fail("is not a regular file; copy its contents to one");
-}
-
-ByteSource::~ByteSource() {
-  if (file_ >= 0) close(file_);
+ByteSource::ByteSource(const fs::path& path) : name_(path.string()) {
+  refuse_other_than_files(*this, path);
+  const std::error_code error = file_.open(path);
+  if (error == std::errc::not_supported) fail("is not a regular file; copy its contents to one");
+  if (error) fail("cannot be opened; check its permissions");
+  size_ = file_.size();
 }
 
 std::size_t ByteSource::read(std::uint64_t offset, char* into, std::size_t count) const {
   if (offset >= size_) return 0;
   const auto wanted = static_cast<std::size_t>(std::min<std::uint64_t>(count, size_ - offset));
-  if (file_ < 0) {
+  if (!file_.is_open()) {
     std::memcpy(into, bytes_.data() + offset, wanted);
     return wanted;
   }
-  std::size_t done = 0;
-  while (done < wanted) {
-    const ssize_t step = pread(file_, into + done, wanted - done, static_cast<off_t>(offset + done));
-    if (step < 0 && errno == EINTR) continue;
-    if (step < 0) fail(fmt::format("cannot be read: {}; copy the file to another place", reason(errno)));
+  for (std::size_t done = 0; done < wanted;) {
+    std::error_code error;
+    const std::size_t step = file_.read(offset + done, into + done, wanted - done, error);
+    if (error) fail(fmt::format("cannot be read: {}; copy the file to another place", error.message()));
     if (step == 0) fail("cannot be read to its end; try again when nothing writes to it");
-    done += static_cast<std::size_t>(step);
+    done += step;
   }
-  return done;
+  return wanted;
 }
 
 void ByteSource::fail(std::string_view message) const {

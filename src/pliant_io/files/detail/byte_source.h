@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "pliant_io/files/detail/file_system.h"
+
 namespace pliant {
 
 class ByteSource {
@@ -15,7 +17,6 @@ class ByteSource {
   /// A regular file. Anything else is refused, since a pipe or a device may never end.
   /// @throws Error (input) with the path: missing, a directory, not a regular file, not readable.
   explicit ByteSource(const std::filesystem::path& path);
-  ~ByteSource();
   ByteSource(const ByteSource&) = delete;
   ByteSource& operator=(const ByteSource&) = delete;
 
@@ -34,7 +35,7 @@ class ByteSource {
   std::string name_;
   std::string_view bytes_;
   std::uint64_t size_ = 0;
-  int file_ = -1;  ///< descriptor; -1 for bytes in memory
+  InputFile file_;  ///< not open for bytes in memory
 };
 
 }  // namespace pliant

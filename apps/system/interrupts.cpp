@@ -1,4 +1,4 @@
-#include "interrupts.h"
+#include "system/interrupts.h"
 
 #include <array>
 #include <atomic>
@@ -8,7 +8,7 @@
 
 #include "pliant/core/error.h"
 
-namespace pliant_cli {
+namespace pliant_system {
 namespace {
 
 constexpr std::array interrupts = {SIGINT, SIGTERM, SIGHUP, SIGXCPU};
@@ -67,4 +67,4 @@ bool waits_no_longer() {
   return patience_ended != 0;
 }
 
-}  // namespace pliant_cli
+}  // namespace pliant_system

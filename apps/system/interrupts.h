@@ -1,7 +1,7 @@
 #pragma once
 // What Ctrl-C, and a system that ends programs, do: at first only a flag, so that what is being written is finished.
 
-namespace pliant_cli {
+namespace pliant_system {
 
 /// From now on an interrupt ends the program at once, with the exit code of interrupts: nothing has to be finished.
 void end_at_interrupts();
@@ -13,4 +13,4 @@ bool was_interrupted();
 bool waits_no_longer();
 inline constexpr unsigned patience = 2;  // [s]
 
-}  // namespace pliant_cli
+}  // namespace pliant_system

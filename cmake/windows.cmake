@@ -1,0 +1,4 @@
+# What is special where GCC compiles for Windows. There it takes an inline function that it has compiled for the one
+# that is called, though the linker may choose that of another source, compiled with other options: what it knows of the
+# registers and the alignment of the stack from the one is wrong of the other, and loops end early. So it must not use it.
+add_compile_options(-fno-ipa-ra -fno-ipa-stack-alignment)
