@@ -1,14 +1,27 @@
-import { fileURLToPath } from 'node:url';
+import { fileURLToPath, pathToFileURL } from 'node:url';
 import { defineConfig } from 'vite';
+import { firstPictureFile, makeFirstPicture } from './page/first_picture';
 
 const here = (path) => fileURLToPath(new URL(path, import.meta.url));
+// The module that scripts/build_web.sh puts together.
+const module = here('../build/web/npm/index.mjs');
+
+/** What the page draws before the module is there, made by the module. */
+const firstPicture = {
+  name: 'first-picture',
+  apply: 'build',
+  async generateBundle() {
+    const { loadPliant } = await import(/* @vite-ignore */ pathToFileURL(module).href);
+    this.emitFile({ type: 'asset', fileName: firstPictureFile, source: makeFirstPicture(await loadPliant()) });
+  },
+};
 
 export default defineConfig({
   root: here('page'),
   // The page works in any folder of a server.
   base: './',
-  // The module that scripts/build_web.sh puts together.
-  resolve: { alias: { pliant: here('../build/web/npm/index.mjs') } },
+  plugins: [firstPicture],
+  resolve: { alias: { pliant: module } },
   server: { fs: { allow: [here('..')] } },
   worker: { format: 'es' },
   test: {

@@ -1,4 +1,5 @@
 // The JavaScript module. web/npm/index.d.ts has its types, and what each part of it does.
+#include <algorithm>
 #include <exception>
 #include <fstream>
 #include <memory>
@@ -7,11 +8,15 @@
 #include <utility>
 
 #include <emscripten/bind.h>
+#include <fmt/format.h>
 
 #include "arrays.h"
+#include "pliant/core/error.h"
 #include "pliant/core/version.h"
 #include "pliant/materials/material.h"
 #include "pliant_io/scene/builtin_scenes.h"
+#include "render/scalar_fields.h"
+#include "viewer/suggestions.h"
 #include "web_scene.h"
 
 namespace {
@@ -47,7 +52,8 @@ class Scene {
   const pliant::Simulation& simulation() { return session().simulation(); }
 
   val look(float aspect);
-  val frame();
+  /// With the values that colors show, but for `none`.
+  val frame(pliant::ColorBy color);
 
  private:
   WebScene scene_;
@@ -121,7 +127,16 @@ val pull_of(const std::optional<pliant_viewer::Pull>& pull, const pliant_web::Fr
   return result;
 }
 
-val Scene::frame() {
+pliant::ColorBy color_by(const std::string& name) {
+  const auto names = choice_names(pliant::ColorBy());
+  const auto found = std::ranges::find(names, name);
+  if (found == names.end()) {
+    pliant::fail_input("color: '" + name + "' is none of " + fmt::format("{}", fmt::join(names, ", ")));
+  }
+  return static_cast<pliant::ColorBy>(found - names.begin());
+}
+
+val Scene::frame(pliant::ColorBy color) {
   const pliant_web::Frame frame = scene_.frame(mesh_);
   std::vector<float> poses;
   val numbers = val::array();
@@ -139,6 +154,14 @@ val Scene::frame() {
   result.set("pins", array_of(frame.pins));
   result.set("ground", frame.ground);
   result.set("pull", pull_of(session().pull(), frame));
+  result.set("values", val::null());
+  if (color == pliant::ColorBy::none) return result;
+  const pliant_web::Values shown = scene_.values(mesh_, color);
+  val values = val::object();
+  values.set("numbers", array_of(shown.values));
+  values.set("low", shown.range[0]);
+  values.set("high", shown.range[1]);
+  result.set("values", values);
   return result;
 }
 
@@ -275,6 +298,22 @@ std::string builtin_scene(const std::string& name) {
   });
 }
 
+val color_maps() {
+  val list = val::array();
+  const auto names = choice_names(pliant::ColorBy());
+  for (std::size_t i = 1; i < names.size(); ++i) {
+    const auto color = static_cast<pliant::ColorBy>(i);
+    const auto tones = pliant_render::color_map(color);
+    val map = val::object();
+    map.set("name", std::string(names[i]));
+    map.set("title", std::string(pliant_render::field_title(color)));
+    map.set("scale", pliant_render::field_scale(color));
+    map.set("tones", pliant_web::typed_array("Uint8Array", tones.front().data(), 3 * tones.size()));
+    list.call<void>("push", map);
+  }
+  return list;
+}
+
 val builtin_scenes() {
   return guarded([] {
     val list = val::array();
@@ -295,7 +334,11 @@ void bind_pictures(const SceneClass& scene) {
       .function(
           "look", +[](Scene& self, float aspect) { return guarded([&] { return self.look(aspect); }); })
       .function(
-          "frame", +[](Scene& self) { return guarded([&] { return self.frame(); }); })
+          "frame", +[](Scene& self) { return guarded([&] { return self.frame(pliant::ColorBy::none); }); })
+      .function(
+          "frame", +[](Scene& self, const std::string& color) {
+            return guarded([&] { return self.frame(color_by(color)); });
+          })
       .function(
           "name", +[](Scene& self) { return self.session().scene().name; })
       .function(
@@ -383,6 +426,7 @@ EMSCRIPTEN_BINDINGS(pliant) {
       "version", +[] { return std::string(pliant::version); });
   emscripten::function("builtinScenes", &builtin_scenes);
   emscripten::function("builtinScene", &builtin_scene);
+  emscripten::function("colorMaps", &color_maps);
   emscripten::function("openScene", &open_scene, allow_raw_pointers());
   emscripten::function("openMesh", &open_mesh, allow_raw_pointers());
   emscripten::function("writeFile", &write_file);

@@ -6,6 +6,7 @@
 #include "pliant_io/scene/mesh_scene.h"
 #include "render/camera_path.h"
 #include "render/choose_direction.h"
+#include "render/scalar_fields.h"
 
 namespace pliant_web {
 namespace {
@@ -112,6 +113,15 @@ Frame WebScene::frame(const RenderMesh& mesh) {
   frame.ground = view_.ground_height ? static_cast<float>(*view_.ground_height) : ground_.value_or(0);
   for (const std::uint32_t vertex : mesh.copies) frame.positions.push_back(Vec3f(frame.positions[vertex]));
   return frame;
+}
+
+Values WebScene::values(const RenderMesh& mesh, pliant::ColorBy color) {
+  Values result;
+  result.values = pliant_render::capture_frame(session_.simulation(), mesh, color, surfaces_).content.values;
+  const float largest = pliant_render::field_range(color, result.values)[1];
+  result.range = range_.update(color, largest, pliant_viewer::Clock::now());
+  for (const std::uint32_t vertex : mesh.copies) result.values.push_back(float(result.values[vertex]));
+  return result;
 }
 
 void WebScene::restart(bool keep_changes) {

@@ -9,6 +9,7 @@
 
 #include "pliant_io/mesh/mesh_file.h"
 #include "render/capture.h"
+#include "viewer/auto_range.h"
 #include "viewer/session.h"
 
 namespace pliant_web {
@@ -36,6 +37,12 @@ struct Frame {
   float ground = 0;                 ///< height of the floor that is drawn [m]
 };
 
+/// What colors show.
+struct Values {
+  std::vector<float> values;   ///< one per corner
+  std::array<float, 2> range;  ///< what the first and the last color of the map stand for
+};
+
 class WebScene {
  public:
   /// Of a scene's text; paths in it start at `folder`.
@@ -51,6 +58,7 @@ class WebScene {
   Look look(float aspect) const;
   /// Of now; `mesh` is that of the look.
   Frame frame(const pliant_render::RenderMesh& mesh);
+  Values values(const pliant_render::RenderMesh& mesh, pliant::ColorBy color);
   void restart(bool keep_changes);
 
   /// The scene with all changes as a text that of_text() reads.
@@ -63,6 +71,7 @@ class WebScene {
   pliant_viewer::Session session_;
   pliant::ViewSettings view_;
   pliant_render::ColliderSurfaces surfaces_;
+  pliant_viewer::AutoRange range_;
   std::optional<float> ground_;  // the lowest so far
 };
 

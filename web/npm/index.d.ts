@@ -84,6 +84,19 @@ export interface Frame {
   ground: number;
   /** The point that is pulled at and the end of the spring [m]; null: nothing is pulled at. */
   pull: { from: Vec3; to: Vec3 } | null;
+  /** Of each corner, what was asked to be shown as color; the ends of its color map. */
+  values: { numbers: Float32Array; low: number; high: number } | null;
+}
+
+/** What colors can show: `stretch`, `energy`, `speed`, `gap`, `contact_force`. */
+export interface ColorMap {
+  name: string;
+  /** With the unit. */
+  title: string;
+  /** What values are multiplied by for that unit. */
+  scale: number;
+  /** From the lowest value to the highest: red, green and blue of each (sRGB). */
+  tones: Uint8Array;
 }
 
 /** A number, choice, vector or flag among the options of the solver, a constraint, a force, a collider or contact. */
@@ -114,8 +127,8 @@ export interface BodyMaterial {
 export interface Scene {
   /** For a picture of this width over height. Must be asked for anew when `rebuilds` has changed, or after a restart. */
   look(aspect: number): SceneLook;
-  /** Of now, with the corners of the last look. */
-  frame(): Frame;
+  /** Of now, with the corners of the last look. color: with the values of that color map; `none` is the default. */
+  frame(color?: string): Frame;
   name(): string;
   description(): string;
   /** On the last step or change; empty for none. */
@@ -167,6 +180,7 @@ export interface Scene {
 export interface Pliant {
   version(): string;
   builtinScenes(): { name: string; description: string }[];
+  colorMaps(): ColorMap[];
   /** The text of one of them. */
   builtinScene(name: string): string;
   /** Of the text of a scene file. name: what messages call it. Files that it names are looked for in `folder`. */

@@ -2,17 +2,19 @@
 import type { Client, Listeners } from './client';
 import { byId } from './dom';
 import { download, readFiles, sourceOf } from './files';
+import type { FirstPicture } from './first_picture';
 import { firstScene, sourceOfName } from './gallery';
 import { Hands } from './hands';
 import { Loading } from './loading';
 import { Messages } from './messages';
 import { Panel } from './panel';
-import type { PanelState, Report, SceneSource, UpAxis, Viewpoint } from './protocol';
+import type { PanelState, Report, SceneSource, Statistics, UpAxis, Viewpoint } from './protocol';
 import { SceneList } from './scene_list';
 import { hashOf, longestLink, readHash } from './share';
 import { addWind } from './scene_text';
 import { recall, store } from './storage';
 import { Stage } from './view/stage';
+import { ViewSection } from './view_section';
 
 type Of<T extends Report['type']> = Extract<Report, { type: T }>;
 
@@ -30,6 +32,9 @@ interface PageState {
   pictures: number;
 }
 
+/** [ms] */
+const rateInterval = 250;
+
 const narrow = window.matchMedia('(max-width: 640px)');
 const darkScheme = window.matchMedia('(prefers-color-scheme: dark)');
 const hint = narrow.matches || window.matchMedia('(pointer: coarse)').matches
@@ -44,7 +49,10 @@ export class App {
   private readonly panelBox = byId('panel', HTMLElement);
   private readonly playButton = byId('play', HTMLButtonElement);
   private readonly listeners: Listeners = {
-    ready: (report) => this.scenes.fill(report.scenes),
+    ready: (report) => {
+      this.scenes.fill(report.scenes);
+      this.view.fill(report.colors);
+    },
     opened: (report) => this.opened(report),
     look: (report) => this.stage.show(report.look, true),
     frame: (report) => this.take(report),
@@ -53,7 +61,15 @@ export class App {
     error: (report) => this.failed(report),
   };
   private readonly hands = new Hands(this.canvas, this.stage, (command) => this.client.send(command), () => this.used());
-  private readonly panel = new Panel(this.panelBox, {
+  private readonly view = new ViewSection({
+    color: (map) => {
+      if (map !== null) this.stage.setColors(map);
+      this.color = map?.name ?? 'none';
+      this.client.send({ type: 'color', name: this.color });
+    },
+    wireframe: (on) => this.stage.setWireframe(on),
+  });
+  private readonly panel = new Panel(this.panelBox, this.view.element, {
     set: (key, value, goesOn) => this.client.send({ type: 'set', key, value, goesOn }),
     setMaterial: (body, material) => this.client.send({ type: 'setMaterial', body, material }),
     addWind: () => void this.guard(() => this.addWind()),
@@ -65,6 +81,8 @@ export class App {
                                 pins: [], panel: null, pictures: 0 };
 
   private hasOpened = false;
+  /** What colors show. */
+  private color = 'none';
   private source: SceneSource = sourceOfName(firstScene);
   /** What was asked for and has not come yet, by the number of the command. */
   private readonly opening = new Map<number, { source: SceneSource; hash: string | null }>();
@@ -75,9 +93,16 @@ export class App {
   /** Whether it goes on when the page is seen again. */
   private plays = true;
   private lastPicture = 0;
+  private rateAt = -Infinity;
   private pictures: number[] = [];
 
-  constructor(private readonly client: Client) {}
+  /** The first picture is shown, and nothing is open yet. */
+  private isFirstPicture = false;
+  /** A picture of the simulation has been drawn. */
+  private hasMoved = false;
+
+  /** first: what is drawn until the simulation is there. */
+  constructor(private readonly client: Client, private readonly first: Promise<FirstPicture | null>) {}
 
   start(): void {
     this.client.listen(this.listeners);
@@ -90,7 +115,10 @@ export class App {
     document.addEventListener('visibilitychange', () => this.rest());
     this.stage.onLost = () => this.messages.note('The picture was lost by the graphics driver; it comes back by itself.');
     window.addEventListener('hashchange', () => void this.guard(() => this.openAddress()));
-    void this.guard(() => this.openAddress());
+    void this.guard(async () => {
+      await this.openAddress();
+      await this.showFirst();
+    });
     requestAnimationFrame((now) => this.draw(now));
   }
 
@@ -114,6 +142,25 @@ export class App {
   }
 
   // ---- scenes
+
+  /** It can be looked at from all sides; what is done to its bodies begins with the simulation. */
+  private async showFirst(): Promise<void> {
+    const first = await this.first;
+    const isAskedFor = this.lastOpening === 1 && this.opening.get(1)?.source.name === first?.name;
+    if (first === null || this.hasOpened || !isAskedFor) return;
+    this.isFirstPicture = true;
+    this.stage.show(first.look, false);
+    this.stage.update(first.frame);
+    this.stage.canPick = false;
+    this.tell(first.name, first.description);
+  }
+
+  private tell(name: string, description: string): void {
+    const title = name.replaceAll('_', ' ');
+    byId('scene-name', HTMLSpanElement).textContent = title;
+    byId('description', HTMLParagraphElement).textContent = description;
+    document.title = `${title} · Pliant`;
+  }
 
   private async openAddress(): Promise<void> {
     let shared = null;
@@ -161,13 +208,13 @@ export class App {
     this.state.name = (source.kind === 'builtin' ? source.name : report.name) || 'scene';
     this.state.vertexCount = report.look.vertexCount;
     this.hands.cancel();
-    this.stage.show(report.look, false);
+    // Where the user has turned the first picture, it stays as it is.
+    this.stage.show(report.look, this.isFirstPicture && report.id === 1);
+    this.stage.canPick = true;
+    this.isFirstPicture = false;
     this.panel.reset();
     this.showPanel(report.panel);
-    const title = this.state.name.replaceAll('_', ' ');
-    byId('scene-name', HTMLSpanElement).textContent = title;
-    byId('description', HTMLParagraphElement).textContent = report.description;
-    document.title = `${title} · Pliant`;
+    this.tell(this.state.name, report.description);
     for (const warning of report.warnings) this.messages.note(warning);
     if (recall('used') === null) this.showHint(hint);
     if (source.kind === 'mesh') this.offerUp(source);
@@ -228,16 +275,25 @@ export class App {
 
   private take(report: Of<'frame'>): void {
     this.stage.update(report.frame);
+    this.view.show(report.frame.values);
     this.hasNews = true;
     this.state.isPlaying = report.statistics.isPlaying;
     this.state.time = report.statistics.time;
     this.state.pins = [...report.frame.pins];
     this.state.isPulling = report.frame.pull !== null;
-    this.playButton.classList.toggle('paused', !this.state.isPlaying);
-    this.playButton.ariaLabel = this.state.isPlaying ? 'Pause' : 'Play';
+    this.showRate(report.statistics);
+  }
+
+  /** Not with every picture, since the page would be laid out and drawn anew for it. */
+  private showRate({ time, isPlaying, stepMilliseconds, speed }: Statistics): void {
+    const now = performance.now();
+    const isAsBefore = this.playButton.classList.contains('paused') !== isPlaying;
+    if (isPlaying && isAsBefore && now - this.rateAt < rateInterval) return;
+    this.rateAt = now;
+    this.playButton.classList.toggle('paused', !isPlaying);
+    this.playButton.ariaLabel = isPlaying ? 'Pause' : 'Play';
     this.playButton.title = `${this.playButton.ariaLabel} (Space)`;
-    const { time, stepMilliseconds, speed } = report.statistics;
-    const pace = !this.state.isPlaying ? 'paused' : speed > 0.97 ? 'real time' : `${speed.toFixed(2)} × real time`;
+    const pace = !isPlaying ? 'paused' : speed > 0.97 ? 'real time' : `${speed.toFixed(2)} × real time`;
     const text = `${time.toFixed(2)} s · ${pace}`;
     const rate = byId('rate', HTMLOutputElement);
     if (rate.value !== text) rate.value = text;
@@ -248,13 +304,20 @@ export class App {
     requestAnimationFrame((next) => this.draw(next));
     this.hands.flush();
     const hasDrawn = this.stage.draw();
+    if (hasDrawn && this.isFirstPicture && this.state.pictures === 0) this.countPicture(now);
     if (!this.hasNews) return;
     this.hasNews = false;
     this.client.send({ type: 'drawn' });
     if (!hasDrawn) return;
     if (now - this.lastPicture < 1000) this.stage.noteInterval(now - this.lastPicture);
     this.lastPicture = now;
+    this.countPicture(now);
+  }
+
+  private countPicture(now: number): void {
     if (this.state.pictures === 0) performance.mark('first picture');
+    if (!this.isFirstPicture && !this.hasMoved) performance.mark('simulation');
+    this.hasMoved = !this.isFirstPicture;
     this.state.pictures += 1;
     this.pictures = [...this.pictures.filter((at) => now - at < 1000), now];
   }
@@ -318,6 +381,7 @@ export class App {
   /** Ends what takes too long, and goes back to the scene before. */
   private giveUp(): void {
     this.client.renew();
+    this.client.send({ type: 'color', name: this.color });
     this.opening.clear();
     this.hands.cancel();
     if (this.hasOpened) this.open(this.source, null);
@@ -359,6 +423,8 @@ export class App {
       f: () => this.stage.frame(),
       o: () => this.scenes.show(),
       t: () => this.toggleTheme(),
+      c: () => this.view.nextColor(),
+      w: () => this.view.toggleWireframe(),
       p: () => this.showPanelBox(this.panelBox.hidden !== false),
       'ctrl z': () => this.client.send({ type: 'undo' }),
       'ctrl shift z': () => this.client.send({ type: 'redo' }),

@@ -35,7 +35,9 @@ export class Panel {
   /** Which sections stand open, from scene to scene. */
   private readonly open = new Map<string, boolean>([['Materials', true], ['Forces', true]]);
 
-  constructor(private readonly root: HTMLElement, private readonly actions: PanelActions) {}
+  /** view: what of the picture can be chosen, below the materials. */
+  constructor(private readonly root: HTMLElement, private readonly view: HTMLElement,
+              private readonly actions: PanelActions) {}
 
   show(state: PanelState): void {
     const shape = shapeOf(state);
@@ -58,6 +60,7 @@ export class Panel {
     this.materials.clear();
     const sections: HTMLElement[] = [];
     if (state.materials.length > 0) sections.push(this.materialSection(state.materials));
+    sections.push(this.view);
     for (const title of order) {
       const parameters = state.parameters.filter((each) => titleOf(each) === title);
       if (parameters.length > 0 || title === 'Forces') sections.push(this.parameterSection(title, parameters));

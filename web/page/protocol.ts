@@ -1,8 +1,8 @@
 // What the page and the worker that simulates say to each other. Arrays are transferred, not copied.
-import type { BodyMaterial, Frame, Parameter, SceneLook } from '../npm/index';
+import type { BodyMaterial, ColorMap, Frame, Parameter, SceneLook } from '../npm/index';
 
 export type {
-  BodyMaterial, ColliderLook, Frame, Parameter, SceneLook, Vec3, Viewpoint,
+  BodyMaterial, ColliderLook, ColorMap, Frame, Parameter, SceneLook, Vec3, Viewpoint,
 } from '../npm/index';
 
 /** A point of a body: three vertices, and the weight of each. */
@@ -44,6 +44,8 @@ export type Command =
   | { type: 'undo' }
   | { type: 'redo' }
   | { type: 'text'; id: number }
+  /** What colors show: the name of a color map, or `none`. */
+  | { type: 'color'; name: string }
   /** The frame that was sent last has been drawn: another one may come. */
   | { type: 'drawn' };
 
@@ -79,7 +81,7 @@ export interface PanelState {
 
 /** What the worker reports. */
 export type Report =
-  | { type: 'ready'; scenes: SceneEntry[] }
+  | { type: 'ready'; scenes: SceneEntry[]; colors: ColorMap[] }
   | { type: 'opened'; id: number; name: string; description: string; look: SceneLook; panel: PanelState; warnings: string[] }
   /** The bodies or colliders are others than before, of the same scene. */
   | { type: 'look'; look: SceneLook }

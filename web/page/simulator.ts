@@ -13,7 +13,7 @@ const panelInterval = 250;
 const mostSingleSteps = 2;
 
 function arraysOf(of: Frame | SceneLook): Transferable[] {
-  const lists: unknown[] = Object.values(of);
+  const lists: unknown[] = [...Object.values(of), 'values' in of ? of.values?.numbers : undefined];
   return lists.flatMap((list) => (ArrayBuffer.isView(list) ? [list.buffer as ArrayBuffer] : []));
 }
 
@@ -48,6 +48,8 @@ export class Simulator {
   private colliders: number[] = [];
   private rebuilds = 0;
   private note = '';
+  /** What colors show, from scene to scene. */
+  private color = 'none';
   private panelText = '';
   private panelAt = 0;
   /** Something has changed that the page has not been told. */
@@ -63,7 +65,7 @@ export class Simulator {
   /** scene: see Letter; without it the one that is open is meant. */
   command(command: Command, scene = this.id): void {
     try {
-      if (scene === this.id || command.type === 'open' || command.type === 'drawn' || command.type === 'play') this.act(command);
+      if (scene === this.id || command.type === 'open' || command.type === 'drawn' || command.type === 'play' || command.type === 'color') this.act(command);
       else if (command.type === 'text') throw new Error('another scene was opened in between');
     } catch (error) {
       const id = command.type === 'open' || command.type === 'text' ? { id: command.id } : {};
@@ -83,6 +85,10 @@ export class Simulator {
       case 'drawn':
         this.pageIsFree = true;
         return;
+      case 'color':
+        this.color = command.name;
+        this.isDirty = true;
+        return;
       case 'play':
         if (this.scene !== null) this.play(command.on);
         return;
@@ -98,7 +104,7 @@ export class Simulator {
     }
   }
 
-  private change(scene: Scene, command: Exclude<Command, Of<'open' | 'drawn' | 'play' | 'text' | 'step'>>): void {
+  private change(scene: Scene, command: Exclude<Command, Of<'open' | 'drawn' | 'color' | 'play' | 'text' | 'step'>>): void {
     switch (command.type) {
       case 'restart': return this.restart(scene, command.keeps);
       case 'grab': return scene.grab(command.point.vertices, command.point.weights, ...command.to, 0);
@@ -258,10 +264,10 @@ export class Simulator {
 
   private publish(scene: Scene): void {
     if (scene.rebuilds() !== this.rebuilds) this.sendLook(scene);
-    let frame = scene.frame();
+    let frame = scene.frame(this.color);
     if (!sameNumbers(frame.colliders, this.colliders)) {
       this.sendLook(scene);
-      frame = scene.frame();
+      frame = scene.frame(this.color);
     }
     const now = this.now();
     const rates = this.isPlaying ? this.meter.rates(now) : { ...this.meter.rates(now), stepsPerSecond: 0, speed: 0 };

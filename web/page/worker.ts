@@ -21,7 +21,7 @@ loadPliant().then(
     simulator = new Simulator(pliant, send);
     for (const { command, scene } of waiting) simulator.command(command, scene);
     // The list of scenes is not needed for the first picture, and takes as long as that.
-    setTimeout(() => send({ type: 'ready', scenes: pliant.builtinScenes() }), listDelay);
+    setTimeout(() => send({ type: 'ready', scenes: pliant.builtinScenes(), colors: pliant.colorMaps() }), listDelay);
   },
   (error: unknown) => send({ type: 'error', message: `this browser cannot run the simulation: ${String(error)}`, command: 'load' }),
 );

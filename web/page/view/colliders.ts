@@ -3,7 +3,7 @@ import { BufferAttribute, BufferGeometry, Group, Matrix4, Mesh, Quaternion, Vect
 import type { RawShaderMaterial } from 'three';
 import type { ColliderLook, Frame, Vec3 } from '../protocol';
 import { shadowMaterials } from './bodies';
-import { material, placed } from './layers';
+import { define, material, placed } from './layers';
 import type { Layers, SharedUniforms } from './layers';
 import { solidFragment, solidVertex } from './surface_shaders';
 import { Box } from './vectors';
@@ -43,6 +43,10 @@ export class Colliders {
 
   get solids(): PlacedCollider[] {
     return this.all.filter((each) => !each.look.isPlane && each.isThere);
+  }
+
+  set hasShadows(on: boolean) {
+    define(this.solid, 'SHADOWS', on);
   }
 
   show(looks: ColliderLook[]): void {

@@ -8,10 +8,11 @@ import { material, placed } from './layers';
 import type { Layers, SharedUniforms } from './layers';
 import { blurFragment, screenVertex } from './mark_shaders';
 
-const maskSize = 192;
+/** What the blur reaches over goes by a mask of this size [texels]. */
+const usualSize = 192;
 
 function mask(): WebGLRenderTarget {
-  return new WebGLRenderTarget(maskSize, maskSize, {
+  return new WebGLRenderTarget(usualSize, usualSize, {
     format: RedFormat, minFilter: LinearFilter, magFilter: LinearFilter, depthBuffer: false, generateMipmaps: false,
   });
 }
@@ -34,6 +35,7 @@ export class Blur {
 
   /** Texels of the mask that it moves by, across and up. */
   apply(renderer: WebGLRenderer, target: WebGLRenderTarget, across: number, up: number): void {
+    this.half.setSize(target.width, target.height);
     this.pass(renderer, target.texture, this.half, across, 0);
     this.pass(renderer, this.half.texture, target, 0, up);
   }
@@ -67,8 +69,9 @@ export class FloorShadow {
     return this.target.texture;
   }
 
-  draw(renderer: WebGLRenderer, layers: Layers, blur: Blur, place: Matrix4, light: Vector3, positions: Float32Array,
-       solids: PlacedCollider[]): void {
+  /** size: of the mask in texels. */
+  draw(renderer: WebGLRenderer, layers: Layers, blur: Blur, size: number, place: Matrix4, light: Vector3,
+       positions: Float32Array, solids: PlacedCollider[]): void {
     this.toFloor.copy(place).invert();
     this.light.copy(light).transformDirection(this.toFloor);
     this.findArea(positions, solids);
@@ -77,11 +80,12 @@ export class FloorShadow {
     floorLight.value.copy(this.light);
     middle.value.copy(this.middle);
     reach.value.copy(this.reach);
+    this.target.setSize(size, size);
     renderer.setRenderTarget(this.target);
     renderer.setClearColor(0, 0);
     renderer.render(layers.mask, blur.camera);
     // As wide in both directions on the floor, not in the mask.
-    const texel = (0.75 * Math.max(this.reach.x, this.reach.y)) / maskSize;
+    const texel = (0.75 * Math.max(this.reach.x, this.reach.y)) / usualSize;
     blur.apply(renderer, this.target, texel / this.reach.x, texel / this.reach.y);
   }
 

@@ -11,7 +11,7 @@ import type { Layers, SharedUniforms } from './layers';
 import { floorFragment, floorVertex } from './mark_shaders';
 import { Box, dot, subtract } from './vectors';
 
-const rings = 24, sectors = 48;
+const sectors = 24;
 /** Over a floor, for a shadow on it. */
 const leastSlopeOfLight = 0.05;
 
@@ -22,19 +22,14 @@ export interface FloorTones {
   shadow: number;
 }
 
-/** A disc about the middle, of rings that are wider farther out. */
+/** A disc about the middle; what fades on it is reckoned for each pixel. */
 function disc(): BufferGeometry {
-  const places: number[] = [];
+  const places: number[] = [0, 0, 0];
   const corners: number[] = [];
-  for (let ring = 0; ring <= rings; ++ring) {
-    const far = (ring / rings) ** 2;
-    for (let sector = 0; sector < sectors; ++sector) {
-      const angle = (2 * Math.PI * sector) / sectors;
-      places.push(far * Math.cos(angle), far * Math.sin(angle), far);
-      if (ring === rings) continue;
-      const a = ring * sectors + sector, b = ring * sectors + ((sector + 1) % sectors);
-      corners.push(a, a + sectors, b, b, a + sectors, b + sectors);
-    }
+  for (let sector = 0; sector < sectors; ++sector) {
+    const angle = (2 * Math.PI * sector) / sectors;
+    places.push(Math.cos(angle), Math.sin(angle), 0);
+    corners.push(0, sector + 1, ((sector + 1) % sectors) + 1);
   }
   const geometry = new BufferGeometry();
   geometry.setAttribute('position', new BufferAttribute(new Float32Array(places), 3));
@@ -94,10 +89,10 @@ class Floor {
     this.look.blending = isFirst ? NoBlending : CustomBlending;
   }
 
-  drawShadow(renderer: WebGLRenderer, layers: Layers, blur: Blur, positions: Float32Array,
+  drawShadow(renderer: WebGLRenderer, layers: Layers, blur: Blur, size: number, positions: Float32Array,
              solids: PlacedCollider[]): void {
     if (this.uniform('darkness').value === 0) return;
-    this.shadow.draw(renderer, layers, blur, this.place, this.shared.light.value, positions, solids);
+    this.shadow.draw(renderer, layers, blur, size, this.place, this.shared.light.value, positions, solids);
   }
 
   dispose(): void {
@@ -126,9 +121,11 @@ export class Floors {
     places.forEach((place, i) => this.floor(i).put(place, bounds, light, tones, isGround));
   }
 
-  drawShadows(renderer: WebGLRenderer, blur: Blur, positions: Float32Array, solids: PlacedCollider[]): void {
+  /** size: of each mask in texels. */
+  drawShadows(renderer: WebGLRenderer, blur: Blur, size: number, positions: Float32Array,
+              solids: PlacedCollider[]): void {
     for (const floor of this.all.slice(0, this.count)) {
-      floor.drawShadow(renderer, this.layers, blur, positions, solids);
+      floor.drawShadow(renderer, this.layers, blur, size, positions, solids);
     }
   }
 

@@ -102,18 +102,16 @@ in vec3 position;
 uniform mat4 place, viewMatrix, projectionMatrix;
 uniform vec2 center;
 uniform float extent, setback;
-out vec2 onFloor;
-out float opacity;
+out vec2 onFloor, onDisc;
 void main() {
+  onDisc = position.xy;
   onFloor = center + extent * position.xy;
-  opacity = 1.0 - smoothstep(0.12, 1.0, position.z);
   gl_Position = projectionMatrix * (viewMatrix * (place * vec4(onFloor, 0, 1)));
   gl_Position.z += setback * gl_Position.w;
 }`;
 
 export const floorFragment = `${precision}
-in vec2 onFloor;
-in float opacity;
+in vec2 onFloor, onDisc;
 uniform vec3 tone, background;
 uniform vec2 middle, reach;
 uniform float darkness;
@@ -121,6 +119,7 @@ uniform bool isFirst;  // it has nothing but the background behind it
 uniform sampler2D mask;
 out vec4 color;
 void main() {
+  float opacity = 1.0 - smoothstep(0.12, 1.0, length(onDisc));
   vec2 at = (onFloor - middle) / reach;
   float shadow = 0.0;
   if (darkness > 0.0 && max(abs(at.x), abs(at.y)) < 1.0) shadow = darkness * textureLod(mask, 0.5 * at + 0.5, 0.0).r;

@@ -1,6 +1,6 @@
 // Draws a scene with three.js: maps of shadows where something has moved, and the picture.
 import { Color, ColorManagement, LinearSRGBColorSpace, WebGLRenderer } from 'three';
-import type { Frame, SceneLook, Vec3 } from '../protocol';
+import type { ColorMap, Frame, SceneLook, Vec3 } from '../protocol';
 import { Bodies } from './bodies';
 import { Colliders, moved } from './colliders';
 import type { PlacedCollider } from './colliders';
@@ -123,6 +123,14 @@ export class Painter {
     this.needsShadows = true;
   }
 
+  setColors(map: ColorMap): void {
+    this.bodies.setColors(map);
+  }
+
+  setWireframe(on: boolean): void {
+    this.bodies.setWireframe(on);
+  }
+
   /** Points that are about as far out as the scene is. */
   outline(): Vec3[] {
     const count = this.positions.length / 3;
@@ -179,10 +187,11 @@ export class Painter {
     const light = this.shared.light.value.toArray();
     const level = this.quality.level;
     this.shared.taps.value = level.taps;
+    this.bodies.hasShadows = this.colliders.hasShadows = level.shadowMap > 0 && !bounds.isEmpty;
     this.shadowMap.draw(renderer, layers, camera.camera, level.shadowMap, bounds, light, this.setback);
     this.blur ??= new Blur(camera.camera);
     this.floors.update(this.colliders.planes, this.ground, bounds, light, this.floorTones(background));
-    this.floors.drawShadows(renderer, this.blur, this.positions, this.solids);
+    this.floors.drawShadows(renderer, this.blur, level.mask, this.positions, this.solids);
     this.needsShadows = false;
   }
 

@@ -8,13 +8,15 @@ export interface QualityLevel {
   shadowMap: number;
   /** Places of it that are looked up for a pixel. */
   taps: number;
+  /** Texels of the mask of the shadow on a floor. */
+  mask: number;
 }
 
 export const levels: readonly QualityLevel[] = [
-  { name: 'full', pixelRatio: 2, shadowMap: 2048, taps: 16 },
-  { name: 'medium', pixelRatio: 1, shadowMap: 1024, taps: 4 },
-  { name: 'low', pixelRatio: 1, shadowMap: 0, taps: 0 },
-  { name: 'lowest', pixelRatio: 0.5, shadowMap: 0, taps: 0 },
+  { name: 'full', pixelRatio: 2, shadowMap: 2048, taps: 16, mask: 192 },
+  { name: 'medium', pixelRatio: 1, shadowMap: 1024, taps: 4, mask: 192 },
+  { name: 'low', pixelRatio: 1, shadowMap: 0, taps: 0, mask: 128 },
+  { name: 'lowest', pixelRatio: 0.5, shadowMap: 0, taps: 0, mask: 128 },
 ];
 
 /** Intervals in the mean that decide, and the longest mean that is well [ms]. */

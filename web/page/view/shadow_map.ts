@@ -29,10 +29,7 @@ export class ShadowMap {
   /** size: of the map in texels; 0: there is none. */
   draw(renderer: WebGLRenderer, layers: Layers, camera: Camera, size: number, bounds: Box, light: Vec3,
        setback: number): void {
-    if (size === 0 || bounds.isEmpty) {
-      this.shared.taps.value = 0;
-      return;
-    }
+    if (size === 0 || bounds.isEmpty) return;
     const target = this.makeTarget(size);
     const radius = Math.max(1.05 * bounds.radius, 1e-3);
     const matrix = seenByLight(bounds.center, radius, light);

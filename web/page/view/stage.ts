@@ -1,5 +1,5 @@
 // The picture of a scene: what is drawn, from where, and what is under the mouse.
-import type { Frame, SceneLook, Vec3, Viewpoint } from '../protocol';
+import type { ColorMap, Frame, SceneLook, Vec3, Viewpoint } from '../protocol';
 import { CanvasSize } from './canvas_size';
 import { OrbitCamera } from './orbit_camera';
 import { Painter } from './painter';
@@ -13,6 +13,9 @@ export class Stage {
   /** The graphics driver has taken the picture away, and gives it back later. */
   onLost: (() => void) | null = null;
   onRestored: (() => void) | null = null;
+
+  /** Whether what is seen can be touched. */
+  canPick = true;
 
   private readonly painter: Painter;
   private readonly size: CanvasSize;
@@ -110,7 +113,7 @@ export class Stage {
 
   /** What is at a place, in CSS pixels. reach: around a pin, that counts as the pin. */
   pick(x: number, y: number, reach = 9): Picked | null {
-    if (this.look === null || this.frame_ === null) return null;
+    if (this.look === null || this.frame_ === null || !this.canPick) return null;
     this.takeSize();
     const { positions, pins } = this.frame_;
     return this.picker.pick(x, y, reach, this.look, positions, pins, this.painter.solids);
@@ -169,6 +172,16 @@ export class Stage {
   setDark(dark: boolean): void {
     this.painter.isDark = dark;
     this.hasNewFrame = this.isDirty = true;
+  }
+
+  /** Of the values that frames have. */
+  setColors(map: ColorMap): void {
+    this.painter.setColors(map);
+  }
+
+  setWireframe(on: boolean): void {
+    this.painter.setWireframe(on);
+    this.isDirty = true;
   }
 
   /** Lights up what would be grabbed. */
