@@ -8,12 +8,13 @@ from typing import List as _List
 
 from . import _pliant
 from ._error import Error
+from ._ids import BodyId, ColliderId, ForceId, GroupId
 from ._own import OwnConstraint, OwnForce
 from ._picture import Picture
 from ._pliant import Mesh
-from ._results import Evaluation, StepReport
+from ._results import Evaluation, StepError, StepReport
 from ._scene import Scene, load_checkpoint, open_scene
-from ._simulation import CLASSES, CONTACT_TYPE, BodyId, ColliderId, ForceId, GroupId, Recording, Simulation
+from ._simulation import CLASSES, CONTACT_TYPE, Recording, Simulation
 from ._types import TYPES, ColliderOptions, ConstraintOptions, ForceOptions, Options, PerVertex
 from ._types import make_shapes as _make_shapes
 from ._types import option_lines as _option_lines

@@ -4,6 +4,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Tuple
 
+from ._ids import BodyId
+
 
 @dataclass(frozen=True)
 class StepReport:
@@ -34,3 +36,17 @@ class Evaluation:
     outside: float
     contact: float
     objective: float
+
+
+@dataclass(frozen=True)
+class StepError:
+    """How far a step ends from where it would with a great many iterations, of the body in which that is farthest.
+
+    ``distance`` is the root of the mean square [m], ``acceleration`` what that is over the square of the time step
+    [m/s^2], ``share`` its share in gravity or in how strongly the step accelerates the body, if that is more.
+    """
+
+    body: BodyId
+    distance: float
+    acceleration: float
+    share: float

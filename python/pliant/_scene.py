@@ -9,6 +9,7 @@ from typing import Any, Callable, Dict, Iterator, List, Mapping, Optional, Tuple
 
 from . import _pliant
 from ._error import Error
+from ._lock import FolderLock
 from ._picture import Picture, picture_of
 from ._simulation import SCENE_NAMES, Simulation
 
@@ -52,12 +53,17 @@ class Scene:
         """Takes so many steps, by default up to the last one of the scene, without the interpreter's lock.
 
         ``out``: the folder for frames, measurements.csv, run.json and a checkpoint, as `pliant run` writes them; a run
-        that is recorded begins at the present state. Ctrl-C ends it with what was recorded whole.
+        that is recorded begins at the present state, and no other run gets its folder meanwhile. Ctrl-C ends it with what
+        was recorded whole.
         """
         left = max(0, self.steps - self.simulation.steps_taken) if steps is None else steps
         if left < 0:
             raise Error(f"run: steps: {left} is out of range; give a number from 0 up")
-        self._made.run("" if out is None else os.fspath(out), left)
+        if out is None:
+            self._made.run("", left)
+            return
+        with FolderLock(out):
+            self._made.run(os.fspath(out), left)
 
     @overload
     def save(self) -> bytes: ...

@@ -2,7 +2,6 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Dict, List, Mapping, Optional, Sequence, Tuple, Type, Union, overload
 
@@ -10,10 +9,12 @@ import numpy as np
 
 from . import _pliant
 from ._error import Error
+from ._ids import BodyId, ColliderId, ForceId, GroupId
+from ._lock import FolderLock
 from ._own import OwnConstraint, OwnForce
 from ._picture import Picture, picture_of
 from ._pliant import Mesh
-from ._results import Evaluation, StepReport
+from ._results import Evaluation, StepError, StepReport
 from ._types import TYPES, ColliderOptions, ConstraintOptions, ForceOptions, Options, make_classes
 
 if TYPE_CHECKING:
@@ -27,34 +28,6 @@ SCENE_NAMES = {name: described["scene_name"] for name, described in TYPES.items(
 
 CONTACT_TYPE = np.dtype([("vertex", "i4"), ("collider", "i4"), ("point", "f8", 3), ("normal", "f8", 3),
                          ("distance", "f8"), ("force", "f8", 3), ("friction_power", "f8")])
-
-
-@dataclass(frozen=True)
-class BodyId:
-    """A body of a simulation."""
-
-    _body: int
-
-
-@dataclass(frozen=True)
-class GroupId:
-    """A group of constraints of a simulation."""
-
-    _group: int
-
-
-@dataclass(frozen=True)
-class ForceId:
-    """A force of a simulation."""
-
-    _force: int
-
-
-@dataclass(frozen=True)
-class ColliderId:
-    """A collider of a simulation."""
-
-    _collider: int
 
 
 Id = Union[GroupId, ForceId, ColliderId]
@@ -296,7 +269,13 @@ class Simulation:
         The folder gets frames (``format``: npy, pc2, obj, ply or none), measurements.csv, mesh.obj and run.json, of
         every so many steps. ``with simulation.record("rope") as run:``, and in it ``run.step()``.
         """
-        return Recording(_pliant.Recording(self._made, os.fspath(folder), format, every, name))
+        _pliant.Recording.check(self._made, format, every)
+        lock = FolderLock(folder)
+        try:
+            return Recording(_pliant.Recording(self._made, os.fspath(folder), format, every, name), lock)
+        except BaseException:
+            lock.close()
+            raise
 
     @property
     def positions(self) -> Array:
@@ -349,6 +328,15 @@ class Simulation:
     def evaluate(self) -> Evaluation:
         """One more local step: how far the last step is from its end, and the energies."""
         return Evaluation(**self._made.evaluate())
+
+    def step_error(self) -> Optional[StepError]:
+        """How far the iterations leave the next step from its end, which is iterated to it on a copy: some steps' time.
+
+        None where there is nothing to tell. ``pliant run`` and ``check`` call a share of more than 0.5 far from
+        converged: give more iterations then, or less stiffness.
+        """
+        found = self._made.step_error()
+        return None if found is None else StepError(BodyId(found[0]), *found[1:])
 
     def elastic_energy(self, group: GroupId) -> float:
         """Of a group, at the last evaluate() [J]."""
@@ -406,10 +394,11 @@ class Simulation:
 
 
 class Recording:
-    """A run of a simulation to files: a context that ends it."""
+    """A run of a simulation to files: a context that ends it. No other run gets its folder meanwhile."""
 
-    def __init__(self, made: Any) -> None:
+    def __init__(self, made: Any, lock: FolderLock) -> None:
         self._made = made
+        self._lock = lock
 
     def step(self) -> StepReport:
         """Takes a step and records it. When this raises, the run has ended, with what was recorded whole."""
@@ -420,4 +409,7 @@ class Recording:
 
     def __exit__(self, kind: Optional[Type[BaseException]], error: Optional[BaseException],
                  trace: Optional[TracebackType]) -> None:
-        self._made.end(error is None, "" if error is None else f"{type(error).__name__}: {error}")
+        try:
+            self._made.end(error is None, "" if error is None else f"{type(error).__name__}: {error}")
+        finally:
+            self._lock.close()

@@ -40,15 +40,19 @@ struct OwnRun {
   }
 };
 
-std::unique_ptr<OwnRun> begin(const std::shared_ptr<Handle>& handle, const std::filesystem::path& folder,
-                              const std::string& format, std::int64_t every, const std::string& name) {
-  Simulation& simulation = handle->idle();
+/// To be called before the folder is made.
+void check(const Handle& handle, const std::string& format, std::int64_t every) {
   const auto formats = choice_names(pliant::FrameFormat{});
   if (std::ranges::find(formats, format) == formats.end()) {
     pliant::fail_input("record: format: '" + format + "'; give npy, pc2, obj, ply or none");
   }
   if (every < 1) pliant::fail_input("record: every: " + std::to_string(every) + " is out of range; give 1 or more");
-  if (simulation.bodies().empty()) pliant::fail_input("record: the simulation has no body; add one first");
+  if (handle.idle().bodies().empty()) pliant::fail_input("record: the simulation has no body; add one first");
+}
+
+std::unique_ptr<OwnRun> begin(const std::shared_ptr<Handle>& handle, const std::filesystem::path& folder,
+                              const std::string& format, std::int64_t every, const std::string& name) {
+  Simulation& simulation = handle->idle();
   RunInfo info;
   info.scene = name;
   info.source = "Python";
@@ -104,6 +108,7 @@ void Recording::end(const Simulation& simulation, const std::exception& error,
 void bind_recordings(py::module_& module) {
   py::class_<OwnRun>(module, "Recording")
       .def(py::init(&begin))
+      .def_static("check", &check)
       .def("step", [](OwnRun& run) { return report_of(run.step()); })
       .def("end", [](OwnRun& run, bool is_whole, const std::string& message) {
         run.recording.end(run.handle->idle(), is_whole ? Outcome::ok : Outcome::failed, message);

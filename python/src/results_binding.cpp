@@ -2,6 +2,7 @@
 #include <pybind11/stl.h>
 
 #include "bindings.h"
+#include "pliant/simulation/step_error.h"
 
 namespace pliant_python {
 namespace {
@@ -98,6 +99,14 @@ void bind_energies(Class& simulation) {
   simulation
       .def("evaluate",
            [](Handle& handle) { return evaluation_of(handle.run([](pliant::Simulation& s) { return s.evaluate(); })); })
+      .def("step_error",
+           [](Handle& handle) {
+             const std::optional<pliant::StepError> found =
+                 handle.run([](pliant::Simulation& s) { return pliant::find_step_error(s); });
+             if (!found) return py::object(py::none());
+             return py::object(
+                 py::make_tuple(static_cast<Index>(found->body), found->distance, found->acceleration, found->share));
+           })
       .def("elastic_energy",
            [](const Handle& handle, Index group) { return handle.now().elastic_energy(pliant::GroupId{group}); })
       .def("potential_energy",

@@ -1,6 +1,8 @@
 """Constraints and forces that are written with NumPy, and what can be changed and asked for while a simulation runs."""
 import json
+import os
 import pathlib
+import subprocess
 import tempfile
 import threading
 import unittest
@@ -371,6 +373,43 @@ class Changes(unittest.TestCase):
                 with self.assertRaisesRegex(pliant.Error, "^record: " + next(iter(options))):
                     simulation.record(pathlib.Path(name) / "other", **options)
             self.assertFalse((pathlib.Path(name) / "other").exists())
+
+    def test_a_folder_has_one_run_at_a_time(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name) / "run"
+            first, second = (hung(lambda s, b, mesh: s.add(b, pliant.EdgeSpring())) for _ in range(2))
+            scene = pliant.open_scene("curtain", steps=2)
+            with first.record(folder) as run:
+                run.step()
+                for begin in (lambda: second.record(folder), lambda: scene.run(out=folder)):
+                    with self.assertRaisesRegex(pliant.Error, f"process {os.getpid()} .* writes here") as caught:
+                        begin()
+                    self.assertEqual(caught.exception.kind, "output")
+                other = subprocess.run([os.environ["PLIANT"], "run", "curtain", "--steps", "2", "--out", folder],
+                                       capture_output=True, text=True)
+                self.assertEqual(other.returncode, 1)
+                self.assertIn(f"process {os.getpid()} ", other.stderr)
+                run.step()
+            self.assertEqual(len(np.load(folder / "frames.npy")), 3)
+            scene.run(out=folder)
+            self.assertFalse((folder / ".pliant-lock").exists())
+            self.assertEqual(json.loads((folder / "run.json").read_text())["scene"], "curtain")
+
+    def test_how_far_a_step_ends_from_its_end(self):
+        shares = []
+        for iterations in (2, 200):
+            simulation = pliant.Simulation(iterations=iterations, acceleration="lbfgs")
+            body = simulation.add_body(pliant.grid(columns=20, rows=20), material="cotton")
+            simulation.add(body, pliant.Position(on="corners"))
+            simulation.add(pliant.Gravity())
+            for _ in range(10):
+                simulation.step()
+            before = simulation.positions.copy()
+            error = simulation.step_error()
+            np.testing.assert_array_equal(simulation.positions, before)
+            self.assertEqual(error.body, body)
+            shares.append(error.share)
+        self.assertGreater(shares[0], 10 * shares[1])
 
     def test_materials(self):
         for name in pliant.material_names():

@@ -10,9 +10,10 @@
 #include "pliant_io/scene/detail/scene_files.h"
 
 namespace pliant {
-namespace {
 
 using Json = nlohmann::json;
+
+namespace {
 
 /// Paths that hold in whatever folder the run is taken up.
 Json absolute_bytes(const std::filesystem::path& path) {
