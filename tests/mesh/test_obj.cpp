@@ -31,7 +31,7 @@ std::string refusal(const std::string& text) {
   const TemporaryFolder folder;
   const fs::path file = folder.write("a.obj", text);
   const std::string message = error_of([&] { read_mesh(file); });
-  const std::string start = folder.path().string() + "/";
+  const std::string start = folder.prefix();
   return message.starts_with(start) ? message.substr(start.size()) : message;
 }
 

@@ -80,7 +80,7 @@ TEST_CASE("a loose vertex gets a thousandth of the mean mass, with a warning, or
   CHECK(points.warnings.empty());
 
   const pliant_tests::TemporaryFolder folder;
-  const std::string file = folder.write("a.obj", "v 0 0 0\nv 9 9 9\nv 1 0 0\nv 0 0 1\nf 1 3 4\n").string();
+  const std::string file = folder.write("a.obj", "v 0 0 0\nv 9 9 9\nv 1 0 0\nv 0 0 1\nf 1 3 4\n").generic_string();
   const Scene dropped = scene_of(R"({"file": ")" + file + R"(", "drop_loose": true})", R"({"total": 3})");
   CHECK(mesh_of(dropped).vertex_count() == 3);
   CHECK(dropped.simulation.state().masses == std::vector<Real>{1, 1, 1});
@@ -147,9 +147,9 @@ TEST_CASE("a missing file's error has its source, a file that is there none") {
   starts(refusal(R"({"file": "no/such.obj", "source": "ask\nAda"})"),
          "s.json: bodies[0].mesh.file: no/such.obj: no such file; ask Ada");
   const pliant_tests::TemporaryFolder folder;
-  const std::string file = folder.write("point.obj", "v 1 2 3\n").string();
+  const std::string file = folder.write("point.obj", "v 1 2 3\n").generic_string();
   CHECK(mesh_of(scene_of(R"({"file": ")" + file + R"(", "source": "here"})")).vertex_count() == 1);
-  starts(refusal(R"({"file": ")" + folder.path().string() + R"(", "source": "here"})"),
+  starts(refusal(R"({"file": ")" + folder.path().generic_string() + R"(", "source": "here"})"),
          "s.json: bodies[0].mesh.file: ");
 }
 

@@ -1,4 +1,5 @@
 // A scene can include others: what is merged, who wins, and which file an error names.
+#include <algorithm>
 #include <string>
 
 #include <doctest/doctest.h>
@@ -50,8 +51,9 @@ struct Files {
     } catch (const Error& error) {
       CHECK(error.kind() == ErrorKind::input);
       std::string message = error.what();
-      const std::string prefix = folder.path().string() + "/";
+      const std::string prefix = folder.prefix();
       for (std::size_t at = 0; (at = message.find(prefix, at)) != message.npos;) message.erase(at, prefix.size());
+      std::ranges::replace(message, '\\', '/');  // on Windows
       return message;
     }
     return "(no error)";

@@ -26,6 +26,8 @@ class TemporaryFolder {
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
+  /// What stands in front of the names of its files.
+  std::string prefix() const { return (path_ / "").string(); }
 
   std::filesystem::path write(std::string_view name, std::string_view contents) const {
     std::filesystem::path file = path_ / name;

@@ -35,6 +35,31 @@ struct RoundedSum {
   }
 };
 
+/// a = high + low, exactly, of at most 26 bits each (Shewchuk's theorem 17, by Dekker), for |a| up to 2^970.
+struct Halves {
+  Real high;
+  Real low;
+
+  explicit Halves(Real a) : high(0), low(0) {
+    constexpr Real factor = 134217729;  // 2^27 + 1
+    const Real shifted = factor * a;
+    high = shifted - (shifted - a);
+    low = a - high;
+  }
+};
+
+/// a · b = product + error, exactly (theorem 18, by Veltkamp). Not by std::fma, which rounds twice in mingw.
+struct RoundedProduct {
+  Real product;
+  Real error;
+
+  RoundedProduct(Real a, Real b) : product(a * b), error(0) {
+    const Halves x(a);
+    const Halves y(b);
+    error = x.low * y.low - (((product - x.high * y.high) - x.low * y.high) - x.high * y.low);
+  }
+};
+
 /// Adds one double to an expansion (theorem 10, GROW-EXPANSION, without zeros).
 template <std::size_t capacity>
 void grow(Expansion<capacity>& e, Real term) {
@@ -69,9 +94,9 @@ Expansion<2 * n * m> operator*(const Expansion<n>& a, const Expansion<m>& b) {
   Expansion<2 * n * m> result;
   for (std::size_t i = 0; i < a.count; ++i) {
     for (std::size_t j = 0; j < b.count; ++j) {
-      const Real product = a.terms[i] * b.terms[j];
-      grow(result, std::fma(a.terms[i], b.terms[j], -product));
-      grow(result, product);
+      const RoundedProduct rounded(a.terms[i], b.terms[j]);
+      grow(result, rounded.error);
+      grow(result, rounded.product);
     }
   }
   return result;

@@ -16,6 +16,16 @@ void relax() {
 #endif
 }
 
+/// Where the system has no call that waits for a number, the standard library of GCC before 13 may lose a wake between
+/// a look and the wait (its bug 106183), and sleep for ever: there the count is looked at from time to time.
+void sleep_while(const std::atomic<std::uint32_t>& value, std::uint32_t old) {
+#if defined(__GLIBCXX__) && !defined(_GLIBCXX_HAVE_PLATFORM_WAIT)
+  while (value.load() == old) std::this_thread::sleep_for(std::chrono::microseconds(50));
+#else
+  value.wait(old);
+#endif
+}
+
 }  // namespace
 
 std::uint32_t WaitedCount::wait_while(std::uint32_t old, Patience patience) {
@@ -33,7 +43,7 @@ std::uint32_t WaitedCount::wait_while(std::uint32_t old, Patience patience) {
   }
   // Whoever changes the value after this sees the flag, and whoever changed it before is seen by wait().
   is_asleep_.store(true);
-  value.wait(old);
+  sleep_while(value, old);
   is_asleep_.store(false);
   return value.load(std::memory_order_acquire);
 }

@@ -8,8 +8,8 @@
 
 namespace pliant {
 
-/// std::from_chars in its general format. With a standard library that lacks it, strtod as in the C locale gives the same
-/// bits: both give the double nearest to the text.
+/// std::from_chars in its general format. With a standard library that lacks it, strtod as in the C locale gives the
+/// same bits: both give the double nearest to the text.
 std::from_chars_result number_from_chars(const char* begin, const char* end, Real& number);
 
 /// Room for any number.

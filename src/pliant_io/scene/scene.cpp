@@ -219,7 +219,8 @@ Scene parse_scene(SceneSource source) {
   if (source.texts.empty()) fail_input("the scene has no text; give one");
   SceneFiles files;
   Scene scene;
-  scene.name = std::filesystem::path(source.texts[0].name).stem().string();
+  const std::string& name = source.texts[0].name;
+  scene.name = std::filesystem::path(std::u8string(name.begin(), name.end())).stem().string();
   {
     ResolvedScene resolved = resolve_scene(source, files);
     scene.warnings = std::move(resolved.warnings);
