@@ -1,6 +1,6 @@
 import { fileURLToPath, pathToFileURL } from 'node:url';
 import { defineConfig } from 'vite';
-import { firstPictureFile, makeFirstPicture } from './page/first_picture';
+import { firstPictureFile, makeFirstPicture } from './page/first_picture.ts';
 
 const here = (path) => fileURLToPath(new URL(path, import.meta.url));
 // The module that scripts/build_web.sh puts together.

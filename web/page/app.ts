@@ -303,11 +303,12 @@ export class App {
   private draw(now: number): void {
     requestAnimationFrame((next) => this.draw(next));
     this.hands.flush();
+    // Before it is drawn, so that the next frame is made meanwhile.
+    if (this.hasNews) this.client.send({ type: 'drawn' });
     const hasDrawn = this.stage.draw();
     if (hasDrawn && this.isFirstPicture && this.state.pictures === 0) this.countPicture(now);
     if (!this.hasNews) return;
     this.hasNews = false;
-    this.client.send({ type: 'drawn' });
     if (!hasDrawn) return;
     if (now - this.lastPicture < 1000) this.stage.noteInterval(now - this.lastPicture);
     this.lastPicture = now;

@@ -1,4 +1,5 @@
 // Numbers, texts, lists and arrays of numbers as one file: JSON that says where each array is, and the arrays behind it.
+// Of whole numbers the differences are stored: lists of corners become small when the file is compressed.
 
 const arrayTypes = { Float32Array, Uint32Array, Uint8Array } as const;
 type ArrayName = keyof typeof arrayTypes;
@@ -13,6 +14,15 @@ interface Place {
 const padded = (size: number): number => 4 * Math.ceil(size / 4);
 const isPlace = (value: unknown): value is Place => typeof value === 'object' && value !== null && 'array' in value;
 
+function differences(array: ArrayBufferView): ArrayBufferView {
+  return array instanceof Uint32Array ? array.map((number, i) => number - (array[i - 1] ?? 0)) : array;
+}
+
+function sums(array: InstanceType<(typeof arrayTypes)[ArrayName]>): ArrayBufferView {
+  if (array instanceof Uint32Array) array.forEach((difference, i) => (array[i] = (array[i - 1] ?? 0) + difference));
+  return array;
+}
+
 export function pack(value: unknown): Uint8Array<ArrayBuffer> {
   const arrays: { at: number; bytes: Uint8Array }[] = [];
   let size = 0;
@@ -21,7 +31,8 @@ export function pack(value: unknown): Uint8Array<ArrayBuffer> {
     const name = each.constructor.name as ArrayName;
     if (!(name in arrayTypes)) throw new Error(`pack: no file holds a ${name}`);
     const place: Place = { array: name, at: size, length: each.byteLength / arrayTypes[name].BYTES_PER_ELEMENT };
-    arrays.push({ at: size, bytes: new Uint8Array(each.buffer, each.byteOffset, each.byteLength) });
+    const stored = differences(each);
+    arrays.push({ at: size, bytes: new Uint8Array(stored.buffer, stored.byteOffset, stored.byteLength) });
     size += padded(each.byteLength);
     return place;
   });
@@ -40,5 +51,5 @@ export function unpack(file: ArrayBuffer): unknown {
   const begin = 4 + padded(length);
   const text = new TextDecoder().decode(new Uint8Array(file, 4, length));
   return JSON.parse(text, (_, each: unknown) =>
-    isPlace(each) ? new arrayTypes[each.array](file, begin + each.at, each.length) : each);
+    isPlace(each) ? sums(new arrayTypes[each.array](file, begin + each.at, each.length)) : each);
 }

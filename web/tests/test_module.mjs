@@ -23,6 +23,39 @@ const place = (scene, vertex) => [...scene.frame().positions.slice(3 * vertex, 3
 const near = (a, b, within) => assert.ok(a.every((x, i) => Math.abs(x - b[i]) <= within), `${a} is not ${b}`);
 
 const tests = {
+  async 'says what is missing where there are no vectors'() {
+    const { validate } = WebAssembly;
+    try {
+      WebAssembly.validate = () => false;
+      const { loadPliant: loadAgain } = await import(pathToFileURL(process.argv[2]));
+      await assert.rejects(loadAgain(), /no vectors of WebAssembly.*Chrome 95/);
+    } finally {
+      WebAssembly.validate = validate;
+    }
+  },
+
+  'colors show values of the corners'() {
+    const scene = open(drop);
+    assert.equal(scene.frame().values, null);
+    assert.equal(scene.frame('none').values, null);
+    steps(scene, 10);
+    const { numbers, low, high } = scene.frame('speed').values;
+    assert.equal(numbers.length, 16);
+    // All fall alike: v = g h n
+    const speed = 9.81 * scene.timeStep() * 10;
+    for (const number of numbers) assert.ok(Math.abs(number - speed) < 1e-4);
+    assert.ok(low === 0 && high >= speed && high < 10 * speed);
+    const stretch = scene.frame('stretch').values;
+    assert.equal(stretch.low, -stretch.high);
+    for (const number of stretch.numbers) assert.ok(Math.abs(number) < 1e-5);
+    assert.throws(() => scene.frame('taste'), /'taste' is none of none, stretch/);
+    const maps = pliant.colorMaps();
+    assert.deepEqual(maps.map((map) => map.name), ['stretch', 'energy', 'speed', 'gap', 'contact_force']);
+    for (const { tones, title } of maps) assert.ok(tones.length >= 6 && tones.length % 3 === 0 && title.includes('['));
+    for (const { name } of maps) assert.equal(scene.frame(name).values.numbers.length, 16);
+    scene.delete();
+  },
+
   'free fall is that of implicit Euler'() {
     const scene = open(drop);
     const before = scene.frame().positions;
@@ -186,6 +219,6 @@ const tests = {
 };
 
 for (const [name, test] of Object.entries(tests)) {
-  test();
+  await test();
   console.log(`ok: ${name}`);
 }

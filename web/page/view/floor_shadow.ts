@@ -8,11 +8,10 @@ import { material, placed } from './layers';
 import type { Layers, SharedUniforms } from './layers';
 import { blurFragment, screenVertex } from './mark_shaders';
 
-/** What the blur reaches over goes by a mask of this size [texels]. */
-const usualSize = 192;
+const firstSize = 192;
 
 function mask(): WebGLRenderTarget {
-  return new WebGLRenderTarget(usualSize, usualSize, {
+  return new WebGLRenderTarget(firstSize, firstSize, {
     format: RedFormat, minFilter: LinearFilter, magFilter: LinearFilter, depthBuffer: false, generateMipmaps: false,
   });
 }
@@ -85,7 +84,7 @@ export class FloorShadow {
     renderer.setClearColor(0, 0);
     renderer.render(layers.mask, blur.camera);
     // As wide in both directions on the floor, not in the mask.
-    const texel = (0.75 * Math.max(this.reach.x, this.reach.y)) / usualSize;
+    const texel = (0.75 * Math.max(this.reach.x, this.reach.y)) / size;
     blur.apply(renderer, this.target, texel / this.reach.x, texel / this.reach.y);
   }
 

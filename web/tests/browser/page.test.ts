@@ -47,6 +47,9 @@ async function difference(tab: Tab, a: Buffer, b: Buffer): Promise<number> {
   }, [a.toString('base64'), b.toString('base64')]);
 }
 
+/** The picture alone. */
+const bare = '#bar, #panel, #time, #hint, #messages, #loading { display: none !important }';
+
 const messagesOf = (tab: Tab): Promise<string> => tab.page.locator('#messages').innerText();
 
 describe.runIf(hasBrowser)('the page', () => {
@@ -65,6 +68,61 @@ describe.runIf(hasBrowser)('the page', () => {
     await tab.page.locator('#choose').click();
     await tab.page.waitForTimeout(300);
     expect(tab.requests.filter((each) => !each.startsWith(used.address) && !each.startsWith('blob:'))).toEqual([]);
+  });
+
+  it('shows the scene before the simulation is there, from where it stays', async () => {
+    const context = await used.browser.newContext({ viewport: { width: 1280, height: 720 } });
+    const page = await context.newPage();
+    let release = (): void => undefined;
+    const isAllowed = new Promise<void>((resolve) => (release = resolve));
+    await page.route('**/*.wasm', async (route) => {
+      await isAllowed;
+      await route.continue();
+    });
+    const errors: string[] = [];
+    page.on('pageerror', (error) => errors.push(String(error)));
+    const tab: Tab = { page, errors, requests: [], close: () => context.close() };
+    tabs.push(tab);
+    await page.goto(used.address);
+    await until(tab, () => globalThis.pliantPage?.state.pictures === 1);
+    expect(await page.title()).toContain('turning ball');
+    expect(await page.evaluate(() => globalThis.pliantPage.state.vertexCount)).toBe(0);
+    const viewpoint = await page.evaluate(() => globalThis.pliantPage.viewpoint());
+    const place = await placeOf(tab, 0);
+    const early = await page.locator('#picture').screenshot({ style: bare });
+    // Nothing can be pinned yet.
+    await page.mouse.click(place.x, place.y);
+    release();
+    await until(tab, () => globalThis.pliantPage.state.vertexCount > 0);
+    await stopAtStart(tab);
+    expect(await page.evaluate(() => globalThis.pliantPage.viewpoint())).toEqual(viewpoint);
+    expect(await placeOf(tab, 0)).toEqual(place);
+    expect(await pinsOf(tab)).toEqual([]);
+    const late = await page.locator('#picture').screenshot({ style: bare });
+    expect(await difference(tab, early, late)).toBeLessThan(0.3);
+  });
+
+  it('shows values as colors, and the edges of the triangles', async () => {
+    const tab = await open('#scene=flag');
+    await tab.page.waitForTimeout(1200);
+    await tab.page.locator('#play').click();
+    await until(tab, () => !globalThis.pliantPage.state.isPlaying);
+    const picture = (): Promise<Buffer> => tab.page.locator('#picture').screenshot();
+    const plain = await picture();
+    await tab.page.locator('#panel summary', { hasText: 'View' }).click();
+    await tab.page.locator('select[aria-label=Color] option').nth(5).waitFor({ state: 'attached' });
+    await tab.page.locator('select[aria-label=Color]').selectOption('stretch');
+    await tab.page.locator('#legend').waitFor({ state: 'visible' });
+    expect(await tab.page.locator('#legend').innerText()).toContain('stretch [%]');
+    await tab.page.waitForTimeout(300);
+    const colored = await picture();
+    expect(await difference(tab, plain, colored)).toBeGreaterThan(1);
+    await tab.page.locator('#picture').focus();
+    await tab.page.keyboard.press('w');
+    await tab.page.waitForTimeout(300);
+    expect(await difference(tab, colored, await picture())).toBeGreaterThan(0.5);
+    for (let i = 0; i < 5; ++i) await tab.page.keyboard.press('c');
+    await tab.page.locator('#legend').waitFor({ state: 'hidden' });
   });
 
   it('has less than 1.5 MB in all', async () => {
