@@ -54,6 +54,9 @@ endif()
 if(WIN32)
   list(APPEND PLIANT_LEFT_OUT
     files/test_posix_files)  # links, pipes and limits, which its file system does not have, or not for everyone
+  list(APPEND PLIANT_CASES_LEFT_OUT
+    # goes by a relative path to a folder for temporary files, which wine has on another drive
+    "a name means the file beside the scene that says it*")
 endif()
 
 list(JOIN PLIANT_LEFT_OUT "|" PLIANT_LEFT_OUT)
