@@ -5,10 +5,10 @@
 #include <memory>
 #include <numbers>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include <emscripten/bind.h>
-#include <fmt/format.h>
 
 #include "arrays.h"
 #include "pliant/core/error.h"
@@ -131,7 +131,9 @@ pliant::ColorBy color_by(const std::string& name) {
   const auto names = choice_names(pliant::ColorBy());
   const auto found = std::ranges::find(names, name);
   if (found == names.end()) {
-    pliant::fail_input("color: '" + name + "' is none of " + fmt::format("{}", fmt::join(names, ", ")));
+    std::string all;
+    for (const std::string_view each : names) all += (all.empty() ? "" : ", ") + std::string(each);
+    pliant::fail_input("color: '" + name + "' is none of " + all);
   }
   return static_cast<pliant::ColorBy>(found - names.begin());
 }
@@ -336,9 +338,8 @@ void bind_pictures(const SceneClass& scene) {
       .function(
           "frame", +[](Scene& self) { return guarded([&] { return self.frame(pliant::ColorBy::none); }); })
       .function(
-          "frame", +[](Scene& self, const std::string& color) {
-            return guarded([&] { return self.frame(color_by(color)); });
-          })
+          "frame",
+          +[](Scene& self, const std::string& color) { return guarded([&] { return self.frame(color_by(color)); }); })
       .function(
           "name", +[](Scene& self) { return self.session().scene().name; })
       .function(
