@@ -5,20 +5,21 @@ from typing import Any, Literal, Mapping, Optional, Sequence, Union
 from numpy.typing import ArrayLike
 
 from ._error import Error as Error
+from ._ids import BodyId as BodyId
+from ._ids import ColliderId as ColliderId
+from ._ids import ForceId as ForceId
+from ._ids import GroupId as GroupId
 from ._own import OwnConstraint as OwnConstraint
 from ._own import OwnForce as OwnForce
 from ._picture import Picture as Picture
 from ._pliant import Mesh as Mesh
 from ._results import Evaluation as Evaluation
+from ._results import StepError as StepError
 from ._results import StepReport as StepReport
 from ._scene import Scene as Scene
 from ._scene import load_checkpoint as load_checkpoint
 from ._scene import open_scene as open_scene
 from ._simulation import CONTACT_TYPE as CONTACT_TYPE
-from ._simulation import BodyId as BodyId
-from ._simulation import ColliderId as ColliderId
-from ._simulation import ForceId as ForceId
-from ._simulation import GroupId as GroupId
 from ._simulation import Recording as Recording
 from ._simulation import Simulation as _Simulation
 from ._types import TYPES as TYPES

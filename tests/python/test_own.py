@@ -387,7 +387,7 @@ class Changes(unittest.TestCase):
                     self.assertEqual(caught.exception.kind, "output")
                 other = subprocess.run([os.environ["PLIANT"], "run", "curtain", "--steps", "2", "--out", folder],
                                        capture_output=True, text=True)
-                self.assertEqual(other.returncode, 1)
+                self.assertEqual(other.returncode, 4)  # output
                 self.assertIn(f"process {os.getpid()} ", other.stderr)
                 run.step()
             self.assertEqual(len(np.load(folder / "frames.npy")), 3)
