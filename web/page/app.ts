@@ -34,6 +34,7 @@ interface PageState {
 
 /** [ms] */
 const rateInterval = 250;
+const longStep = 25;
 
 const narrow = window.matchMedia('(max-width: 640px)');
 const darkScheme = window.matchMedia('(prefers-color-scheme: dark)');
@@ -92,6 +93,8 @@ export class App {
   private hasNews = false;
   /** Whether it goes on when the page is seen again. */
   private plays = true;
+  /** The frame behind the one that has come last. */
+  private isAskedFor = false;
   private lastPicture = 0;
   private rateAt = -Infinity;
   private pictures: number[] = [];
@@ -277,6 +280,9 @@ export class App {
     this.stage.update(report.frame);
     this.view.show(report.frame.values);
     this.hasNews = true;
+    // Of long steps the next one is to be seen when it ends, not the one after it.
+    this.isAskedFor = report.statistics.stepMilliseconds > longStep;
+    if (this.isAskedFor) this.client.send({ type: 'drawn' });
     this.state.isPlaying = report.statistics.isPlaying;
     this.state.time = report.statistics.time;
     this.state.pins = [...report.frame.pins];
@@ -304,7 +310,7 @@ export class App {
     requestAnimationFrame((next) => this.draw(next));
     this.hands.flush();
     // Before it is drawn, so that the next frame is made meanwhile.
-    if (this.hasNews) this.client.send({ type: 'drawn' });
+    if (this.hasNews && !this.isAskedFor) this.client.send({ type: 'drawn' });
     const hasDrawn = this.stage.draw();
     if (hasDrawn && this.isFirstPicture && this.state.pictures === 0) this.countPicture(now);
     if (!this.hasNews) return;

@@ -144,7 +144,7 @@ describe.runIf(hasBrowser)('the page', () => {
     await tab.page.mouse.move(from.x - 60, from.y + 10, { steps: 4 });
     await tab.page.keyboard.press('Space');
     await tab.page.mouse.move(from.x - 120, from.y + 20, { steps: 10 });
-    await tab.page.waitForTimeout(1500);
+    await tab.page.waitForTimeout(3000);  // it swings for two seconds
     const held = await placeOf(tab, middle);
     expect(Math.hypot(held.x - (from.x - 120), held.y - (from.y + 20))).toBeLessThan(60);
     await tab.page.mouse.up();
