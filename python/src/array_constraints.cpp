@@ -97,7 +97,7 @@ ArrayConstraints::~ArrayConstraints() {
   const py::gil_scoped_acquire lock;  // it may be dropped on any thread
   project_ = {};
   fields_ = {};
-  room_ = {};
+  all_ = {};
 }
 
 py::array ArrayConstraints::new_z(Index count) const {
@@ -107,7 +107,8 @@ py::array ArrayConstraints::new_z(Index count) const {
 }
 
 /// Into z, which then cannot be written from Python.
-void ArrayConstraints::gather(const Positions& positions, Index begin, Index end, py::array& z) const {
+ArrayConstraints::Array ArrayConstraints::gather(const Positions& positions, Index begin, Index end,
+                                                 py::array z) const {
   const auto n = static_cast<std::size_t>(shape_.vertices);
   const auto rows = static_cast<std::size_t>(shape_.rows);
   const auto count = static_cast<std::size_t>(end - begin);
@@ -126,10 +127,11 @@ void ArrayConstraints::gather(const Positions& positions, Index begin, Index end
              : sum_up<0>(positions, stencils, n, row_of_A, out);
   }
   make_read_only(z);
+  return array_of(std::move(z));
 }
 
-ArrayConstraints::Array ArrayConstraints::call(const py::array& z, Index begin, Index end) const {
-  const py::object given = project_(z, fields_[py::slice(begin, end, 1)]);
+ArrayConstraints::Array ArrayConstraints::call(const Array& z, Index begin, Index end) const {
+  const py::object given = project_(z.owner, fields_[py::slice(begin, end, 1)]);
   const py::object p = readable(given);
   const py::object shape = py::make_tuple(end - begin, shape_.rows, 3);
   if (!p || !py::object(p.attr("shape")).equal(shape)) {
@@ -139,80 +141,56 @@ ArrayConstraints::Array ArrayConstraints::call(const py::array& z, Index begin, 
   return array_of(py::reinterpret_borrow<py::array>(p));
 }
 
-/// p − z, in the memory of z unless the function has kept that. `room`: for z, or empty.
-void ArrayConstraints::find_differences(const Positions& positions, Index begin, Index end, py::array& room) const {
-  if (room.size() == 0 || room.ref_count() > 1) room = new_z(end - begin);
-  gather(positions, begin, end, room);
-  const Array p = call(room, begin, end);
-  const Array z = array_of(room);
-  if (room.ref_count() > 2) room = new_z(end - begin);
-  const auto rows = static_cast<py::ssize_t>(shape_.rows);
-  const py::ssize_t count = end - begin;
-  auto* out = static_cast<Real*>(static_cast<void*>(py::detail::array_proxy(room.ptr())->data));
-  for (py::ssize_t axis = 0; axis < 3; ++axis) {
-    for (py::ssize_t row = 0; row < rows; ++row, out += count) {
-      const Real* from = z.data + row * z.steps[1] + axis * z.steps[2];
-      const Real* nearest = p.data + row * p.steps[1] + axis * p.steps[2];
-      if (p.steps[0] == 1) {
-        for (py::ssize_t i = 0; i < count; ++i) out[i] = nearest[i] - from[i];
-      } else {
-        for (py::ssize_t i = 0; i < count; ++i) out[i] = nearest[i * p.steps[0]] - from[i];
-      }
-    }
-  }
+ArrayConstraints::Projected ArrayConstraints::projected(const Positions& positions, Index begin, Index end) const {
+  Projected result{.z = gather(positions, begin, end, new_z(end - begin)), .p = {}, .begin = begin};
+  result.p = call(result.z, begin, end);
+  return result;
 }
 
 void ArrayConstraints::begin_local_step(const Positions& positions) {
   if (shape_.count == 0) return;
   const py::gil_scoped_acquire lock;
   begun_at_ = nullptr;
-  find_differences(positions, 0, shape_.count, room_);
+  all_.p = {};
+  py::object& z = all_.z.owner;
+  const bool is_free = z && z.ref_count() == 1;  // one that the function has kept stays as it is
+  all_.z =
+      gather(positions, 0, shape_.count, is_free ? py::reinterpret_steal<py::array>(z.release()) : new_z(shape_.count));
+  all_.p = call(all_.z, 0, shape_.count);
   begun_at_ = &positions;
 }
 
-/// Calls use(differences) with those of constraint `begin` and the following.
-template <class Use>
-Real ArrayConstraints::with_differences(const Positions& positions, Index begin, Index end, Use&& use) const {
-  if (begun_at_ == &positions) {
-    const auto rows = static_cast<py::ssize_t>(shape_.rows);
-    const auto count = static_cast<py::ssize_t>(shape_.count);
-    const auto* first = static_cast<const Real*>(room_.data());
-    return use(Array{.data = first + begin, .steps = {1, count, rows * count}});
-  }
-  const py::gil_scoped_acquire lock;
-  py::array room = new_z(end - begin);
-  find_differences(positions, begin, end, room);
-  return use(array_of(std::move(room)));
-}
-
 Real ArrayConstraints::project(const Positions& positions, std::span<Real> out, Index begin, Index end) const {
-  return with_differences(positions, begin, end,
-                          [&](const Array& differences) { return weigh(differences, out, begin, end); });
+  if (begun_at_ == &positions) return weigh(all_, out, begin, end);
+  const py::gil_scoped_acquire lock;
+  return weigh(projected(positions, begin, end), out, begin, end);
 }
 
 Real ArrayConstraints::project_to_forces(const Positions& positions, std::span<Real> out, Index begin,
                                          Index end) const {
-  return with_differences(positions, begin, end,
-                          [&](const Array& differences) { return pull(differences, out, begin, end); });
+  if (begun_at_ == &positions) return pull(all_, out, begin, end);
+  const py::gil_scoped_acquire lock;
+  return pull(projected(positions, begin, end), out, begin, end);
 }
 
 /// The rows w (p − z).
-Real ArrayConstraints::weigh(const Array& differences, std::span<Real> out, Index begin, Index end) const {
+Real ArrayConstraints::weigh(const Projected& projected, std::span<Real> out, Index begin, Index end) const {
+  const Array& z = projected.z;
+  const Array& p = projected.p;
   const auto rows = static_cast<py::ssize_t>(shape_.rows);
-  const py::ssize_t plane = differences.steps[2];
-  const Real* first = differences.data;
   Real energy = 0;
   Real* to = out.data();
-  for (Index i = begin; i < end; ++i, ++first) {
+  for (Index i = begin; i < end; ++i) {
     const Real weight = stiffness() * measure_[pliant::at(i)];
+    const Real* from = z.data + (i - projected.begin) * z.steps[0];
+    const Real* nearest = p.data + (i - projected.begin) * p.steps[0];
     Real squared = 0;
-    const Real* from = first;
-    for (py::ssize_t row = 0; row < rows; ++row, from += differences.steps[1], to += 3) {
-      const Real x = from[0];
-      const Real y = from[plane];
-      const Real z = from[2 * plane];
-      squared += x * x + y * y + z * z;
-      to[0] = weight * x, to[1] = weight * y, to[2] = weight * z;
+    for (py::ssize_t row = 0; row < rows; ++row, from += z.steps[1], nearest += p.steps[1], to += 3) {
+      const Real x = nearest[0] - from[0];
+      const Real y = nearest[p.steps[2]] - from[z.steps[2]];
+      const Real w = nearest[2 * p.steps[2]] - from[2 * z.steps[2]];
+      squared += x * x + y * y + w * w;
+      to[0] = weight * x, to[1] = weight * y, to[2] = weight * w;
     }
     energy += weight / 2 * squared;
   }
@@ -220,7 +198,7 @@ Real ArrayConstraints::weigh(const Array& differences, std::span<Real> out, Inde
 }
 
 /// The forces Aᵀ w (p − z).
-Real ArrayConstraints::pull(const Array& differences, std::span<Real> out, Index begin, Index end) const {
+Real ArrayConstraints::pull(const Projected& projected, std::span<Real> out, Index begin, Index end) const {
   const auto n = static_cast<std::size_t>(shape_.vertices);
   const auto rows = static_cast<std::size_t>(shape_.rows);
   std::array<Real, 3 * pliant::max_force_rows> room;
@@ -229,7 +207,7 @@ Real ArrayConstraints::pull(const Array& differences, std::span<Real> out, Index
   Real* to = out.data();
   Real energy = 0;
   for (Index i = begin; i < end; ++i, A += rows * n) {
-    energy += weigh({.data = differences.data + (i - begin), .steps = differences.steps}, slots, i, i + 1);
+    energy += weigh(projected, slots, i, i + 1);
     for (std::size_t j = 0; j < n; ++j, to += 3) {
       std::fill_n(to, 3, Real(0));
       for (std::size_t row = 0; row < rows; ++row) {

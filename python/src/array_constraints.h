@@ -34,23 +34,25 @@ class ArrayConstraints final : public pliant::ConstraintGroup {
 
  private:
   struct Array {
-    py::object owner{};
+    py::object owner;
     const pliant::Real* data = nullptr;
     std::array<py::ssize_t, 3> steps{};  // from one constraint, row and axis to the next
   };
+  struct Projected {
+    Array z;
+    Array p;
+    pliant::Index begin = 0;  // the first constraint of it
+  };
+
   static Array array_of(py::array array);
-  void gather(const pliant::Positions& positions, pliant::Index begin, pliant::Index end, py::array& z) const;
+  Array gather(const pliant::Positions& positions, pliant::Index begin, pliant::Index end, py::array z) const;
   py::array new_z(pliant::Index count) const;
-  Array call(const py::array& z, pliant::Index begin, pliant::Index end) const;
-  void find_differences(const pliant::Positions& positions, pliant::Index begin, pliant::Index end,
-                        py::array& room) const;
-  pliant::Real weigh(const Array& differences, std::span<pliant::Real> out, pliant::Index begin,
+  Array call(const Array& z, pliant::Index begin, pliant::Index end) const;
+  Projected projected(const pliant::Positions& positions, pliant::Index begin, pliant::Index end) const;
+  pliant::Real weigh(const Projected& projected, std::span<pliant::Real> out, pliant::Index begin,
                      pliant::Index end) const;
-  pliant::Real pull(const Array& differences, std::span<pliant::Real> out, pliant::Index begin,
+  pliant::Real pull(const Projected& projected, std::span<pliant::Real> out, pliant::Index begin,
                     pliant::Index end) const;
-  template <class Use>
-  pliant::Real with_differences(const pliant::Positions& positions, pliant::Index begin, pliant::Index end,
-                                Use&& use) const;
 
   std::string type_;
   py::object project_;
@@ -59,9 +61,9 @@ class ArrayConstraints final : public pliant::ConstraintGroup {
   std::vector<pliant::Real> reduction_;
   bool is_uniform_;  // the same reduction for all
   std::vector<pliant::Real> measure_;
-  py::object fields_;                            // (count, f), one column after the other
-  py::array room_;                               // of all constraints: z, and then p − z
-  const pliant::Positions* begun_at_ = nullptr;  // what these belong to; null outside of a local step
+  py::object fields_;  // (count, f), one column after the other
+  Projected all_;
+  const pliant::Positions* begun_at_ = nullptr;  // what all_ was projected from; null outside of a local step
 };
 
 }  // namespace pliant_python
