@@ -178,7 +178,7 @@ class Content {
         unsealed_(unseal(bytes, name)),
         document_(parse_cbor(unsealed_.content, name), {&origin_}),
         folder_(folder) {
-    if (!root().has("source")) {
+    if (root().has("bodies")) {
       fail_input(
           fmt::format("{}: the state of a simulation without a scene; make the simulation as the program did, and "
                       "restore the state there",
