@@ -11,7 +11,7 @@ tests=("$@")
 runtime="$(clang++ -print-file-name=libclang_rt.asan-x86_64.so 2>/dev/null || true)"
 standard_library="$(clang++ -print-file-name=libstdc++.so.6 2>/dev/null || true)"
 if [[ ! -e "$runtime" ]]; then
-  echo "test_python_asan.sh: not run; missing: clang libclang-rt-14-dev (apt-get install --no-install-recommends ...)" >&2
+  echo "test_python_asan.sh: not run; missing: clang libclang-rt-14-dev (apt-get install --no-install-recommends clang libclang-rt-14-dev)" >&2
   exit 77
 fi
 

@@ -25,6 +25,7 @@ class FolderLock:
 
     def __init__(self, folder: Union[str, "os.PathLike[str]"]) -> None:
         self._folder: Optional[int] = None
+        self._process = os.getpid()
         self._note = os.path.join(folder, NOTE)
         try:
             os.makedirs(folder, exist_ok=True)
@@ -46,10 +47,13 @@ class FolderLock:
     def close(self) -> None:
         if self._folder is None:
             return
-        try:
-            os.unlink(self._note)
-        except OSError:
-            pass
+        if os.getpid() == self._process:  # a process that was forked from it has no lock of its own to give up
+            try:
+                os.unlink(self._note)
+            except OSError:
+                pass
+            if fcntl is not None:
+                fcntl.flock(self._folder, fcntl.LOCK_UN)  # forked processes may have the folder open
         os.close(self._folder)
         self._folder = None
 
@@ -80,6 +84,13 @@ class FolderLock:
             with open(self._note, encoding="utf-8", errors="replace") as file:
                 process, command = file.read(4096).splitlines()[:2]
             printable = "".join(c if c.isprintable() else "?" for c in command)
-            return f"process {int(process)} ({printable[:300]})"
+            number = int(process)
         except (OSError, ValueError):
             return "another process"
+        try:
+            os.kill(number, 0)
+        except ProcessLookupError:
+            return f"what process {number} ({printable[:300]}) started still"
+        except (OSError, OverflowError):  # it is another user's
+            pass
+        return f"process {number} ({printable[:300]})"

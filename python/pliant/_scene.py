@@ -122,12 +122,14 @@ def load_checkpoint(saved: Union[str, "os.PathLike[str]", bytes], *,
 
     ``prepare`` is called with the scene at its start, and adds again what had been added to it.
     """
-    made = _pliant.open_checkpoint_bytes(saved) if isinstance(saved, bytes) else _pliant.open_checkpoint(os.fspath(saved))
+    if isinstance(saved, bytes):
+        content, name, folder = saved, "checkpoint", ""
+    else:
+        name = os.fspath(saved)
+        content, folder = _pliant.read_file(name), os.path.dirname(os.path.abspath(name))
+    made = _pliant.open_checkpoint(content, name, folder)
     scene = Scene(made)
     if prepare is not None:
         prepare(scene)
-    if isinstance(saved, bytes):
-        made.restore_bytes(saved)
-    else:
-        made.restore(os.fspath(saved))
+    made.restore(content, name)
     return scene

@@ -229,8 +229,8 @@ class Simulation:
     def restore_state(self, saved: Union[str, "os.PathLike[str]", bytes]) -> None:
         """Goes on from a saved state, of a file or bytes: the steps that follow have the same bits.
 
-        The simulation has the same bodies, constraints and colliders, added in the same order; forces and settings are
-        as they are now. When this raises, nothing has changed.
+        The simulation must have the same bodies, masses, constraints and colliders, added in the same order; forces and
+        settings are as they are now. When this raises, nothing has changed.
         """
         if isinstance(saved, bytes):
             self._made.restore_bytes(saved)
@@ -330,9 +330,10 @@ class Simulation:
         return Evaluation(**self._made.evaluate())
 
     def step_error(self) -> Optional[StepError]:
-        """How far the iterations leave the next step from its end, which is iterated to it on a copy: some steps' time.
+        """How far its iterations leave the next step from convergence: a trial of it takes up to 2,000 iterations.
 
-        None where there is nothing to tell. ``pliant run`` and ``check`` call a share of more than 0.5 far from
+        The state is as before then; what contacts(), evaluate() and objective_history() tell is of the trial. None
+        where there is nothing to tell. ``pliant run`` and ``check`` call a share of more than 0.5 far from
         converged: give more iterations then, or less stiffness.
         """
         found = self._made.step_error()
@@ -410,6 +411,11 @@ class Recording:
     def __exit__(self, kind: Optional[Type[BaseException]], error: Optional[BaseException],
                  trace: Optional[TracebackType]) -> None:
         try:
-            self._made.end(error is None, "" if error is None else f"{type(error).__name__}: {error}")
+            if error is None:
+                self._made.end("ok", "")
+            elif isinstance(error, KeyboardInterrupt):
+                self._made.end("interrupted", "")
+            else:
+                self._made.end("failed", f"{type(error).__name__}: {error}")
         finally:
             self._lock.close()

@@ -15,6 +15,10 @@ using pliant::RunInfo;
 using pliant::Simulation;
 
 Outcome outcome_of(const std::exception& error) {
+  if (const auto* raised = dynamic_cast<const py::error_already_set*>(&error)) {
+    const py::gil_scoped_acquire lock;
+    return raised->matches(PyExc_KeyboardInterrupt) ? Outcome::interrupted : Outcome::failed;
+  }
   const auto* known = dynamic_cast<const pliant::Error*>(&error);
   if (known == nullptr) return Outcome::failed;
   if (known->kind() == pliant::ErrorKind::diverged) return Outcome::diverged;
@@ -27,6 +31,7 @@ struct OwnRun {
   Recording recording;
 
   pliant::StepReport step() {
+    if (recording.has_ended()) pliant::fail_input("record: this run has ended; begin another one with record()");
     return handle->run([&](Simulation& simulation) {
       try {
         const pliant::StepReport report = simulation.step();
@@ -52,16 +57,17 @@ void check(const Handle& handle, const std::string& format, std::int64_t every) 
 
 std::unique_ptr<OwnRun> begin(const std::shared_ptr<Handle>& handle, const std::filesystem::path& folder,
                               const std::string& format, std::int64_t every, const std::string& name) {
-  Simulation& simulation = handle->idle();
   RunInfo info;
   info.scene = name;
   info.source = "Python";
   info.every = every;
   info.frame_format = format;
-  std::vector<std::string> colliders;
-  for (const auto& [id, record] : simulation.colliders()) colliders.push_back(simulation.name(id));
-  return std::make_unique<OwnRun>(OwnRun{handle, Recording(folder, info, simulation, simulation.group_names(),
-                                                           {colliders, simulation.contact().surfaces})});
+  return handle->run([&](Simulation& simulation) {
+    std::vector<std::string> colliders;
+    for (const auto& [id, record] : simulation.colliders()) colliders.push_back(simulation.name(id));
+    return std::make_unique<OwnRun>(OwnRun{handle, Recording(folder, info, simulation, simulation.group_names(),
+                                                             {colliders, simulation.contact().surfaces})});
+  });
 }
 
 }  // namespace
@@ -88,6 +94,7 @@ void Recording::end(const Simulation& simulation, Outcome outcome, const std::st
   if (recorder_) {
     info_.frames = recorder_->frame_count();
     info_.last_frame = recorder_->last_frame_checksum();
+    recorder_.reset();
   }
   info_.wanted_steps = std::max(info_.wanted_steps, simulation.state().step);
   info_.outcome = outcome;
@@ -100,8 +107,11 @@ void Recording::end(const Simulation& simulation, const std::exception& error,
   const Outcome outcome = outcome_of(error);
   try {
     if (save && outcome != Outcome::failed) save();
+  } catch (const std::exception&) {  // the first error is the one to tell
+  }
+  try {
     end(simulation, outcome, outcome == Outcome::interrupted ? "" : error.what());
-  } catch (const pliant::Error&) {  // it may meet the same full disk
+  } catch (const std::exception&) {  // it may meet the same full disk
   }
 }
 
@@ -110,8 +120,10 @@ void bind_recordings(py::module_& module) {
       .def(py::init(&begin))
       .def_static("check", &check)
       .def("step", [](OwnRun& run) { return report_of(run.step()); })
-      .def("end", [](OwnRun& run, bool is_whole, const std::string& message) {
-        run.recording.end(run.handle->idle(), is_whole ? Outcome::ok : Outcome::failed, message);
+      .def("end", [](OwnRun& run, const std::string& outcome, const std::string& message) {
+        const auto names = choice_names(Outcome{});
+        const auto found = std::ranges::find(names, outcome);
+        run.recording.end(run.handle->idle(), static_cast<Outcome>(found - names.begin()), message);
       });
 }
 

@@ -21,7 +21,8 @@ class Recording {
   void record(pliant::Simulation& simulation, const pliant::StepReport& report) {
     recorder_->record(simulation, report);
   }
-  /// Writes how it ended; the first call counts.
+  bool has_ended() const { return has_ended_; }
+  /// Writes how it ended, and closes the files; the first call counts.
   void end(const pliant::Simulation& simulation, pliant::Outcome outcome, const std::string& message = {});
   /// After an error, which is the one to tell. Before, unless a file could not be written, save() is called.
   void end(const pliant::Simulation& simulation, const std::exception& error,

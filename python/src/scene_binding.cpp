@@ -6,6 +6,7 @@
 #include "bindings.h"
 #include "pliant/materials/material.h"
 #include "pliant_io/checkpoint/checkpoint.h"
+#include "pliant_io/files/read_file.h"
 #include "pliant_io/scene/builtin_scenes.h"
 #include "pliant_io/scene/schema.h"
 #include "scene_run.h"
@@ -64,14 +65,9 @@ void bind_scenes(py::module_& module) {
              handle.simulation->run([&](auto&) { run_scene(*handle.scene, folder, steps); });
            })
       .def("save", &save)
-      .def("restore",
-           [](const SceneHandle& handle, const std::filesystem::path& path) {
-             handle.simulation->idle();
-             pliant::restore_checkpoint(*handle.scene, path);
-           })
-      .def("restore_bytes", [](const SceneHandle& handle, const py::bytes& bytes) {
-        handle.simulation->idle();
-        pliant::restore_checkpoint(*handle.scene, std::string_view(bytes), "checkpoint");
+      .def("restore", [](const SceneHandle& handle, const py::bytes& bytes, const std::string& name) {
+        const std::string_view content(bytes);
+        handle.simulation->run([&](auto&) { pliant::restore_checkpoint(*handle.scene, content, name); });
       });
   module.def("open_scene", [](const std::string& name, const std::vector<std::string>& set) {
     return SceneHandle(open_scene(name, overrides_of(set)));
@@ -80,11 +76,11 @@ void bind_scenes(py::module_& module) {
              [](const std::string& text, const std::filesystem::path& folder, const std::vector<std::string>& set) {
                return SceneHandle(pliant::parse_scene(text, folder, "scene", overrides_of(set)));
              });
+  module.def("read_file", [](const std::filesystem::path& path) { return py::bytes(pliant::read_file(path)); });
   module.def("open_checkpoint",
-             [](const std::filesystem::path& path) { return SceneHandle(pliant::open_checkpoint(path)); });
-  module.def("open_checkpoint_bytes", [](const py::bytes& bytes) {
-    return SceneHandle(pliant::open_checkpoint(std::string_view(bytes), "checkpoint"));
-  });
+             [](const py::bytes& bytes, const std::string& name, const std::filesystem::path& folder) {
+               return SceneHandle(pliant::open_checkpoint(std::string_view(bytes), name, folder));
+             });
 }
 
 }  // namespace pliant_python

@@ -96,15 +96,23 @@ Indices indices_in(const pliant::Simulation& simulation, BodyId body, const Indi
 }
 
 void bind_state(py::class_<Handle, std::shared_ptr<Handle>>& simulation) {
-  simulation.def("state_bytes", [](Handle& handle) { return py::bytes(pliant::state_bytes(handle.idle())); })
+  simulation
+      .def("state_bytes",
+           [](Handle& handle) {
+             return py::bytes(handle.run([](pliant::Simulation& made) { return pliant::state_bytes(made); }));
+           })
       .def("write_state",
-           [](Handle& handle, const std::filesystem::path& path) { pliant::write_state(path, handle.idle()); })
+           [](Handle& handle, const std::filesystem::path& path) {
+             handle.run([&](pliant::Simulation& made) { pliant::write_state(path, made); });
+           })
       .def("restore_bytes",
            [](Handle& handle, const py::bytes& bytes) {
-             pliant::restore_state(std::string_view(bytes), "state", handle.idle());
+             const std::string_view state(bytes);
+             handle.run([&](pliant::Simulation& made) { pliant::restore_state(state, "state", made); });
            })
-      .def("restore_state",
-           [](Handle& handle, const std::filesystem::path& path) { pliant::restore_state(path, handle.idle()); });
+      .def("restore_state", [](Handle& handle, const std::filesystem::path& path) {
+        handle.run([&](pliant::Simulation& made) { pliant::restore_state(path, made); });
+      });
 }
 
 void bind_own(py::class_<Handle, std::shared_ptr<Handle>>& simulation) {

@@ -369,6 +369,13 @@ class Changes(unittest.TestCase):
             info = json.loads((folder / "run.json").read_text())
             self.assertEqual(info["outcome"], "failed")
             self.assertIn("ZeroDivisionError", info["error"])
+            with self.assertRaisesRegex(pliant.Error, "this run has ended"):
+                run.step()
+            self.assertEqual(len(np.load(folder / "frames.npy")), 2)
+            with self.assertRaises(KeyboardInterrupt), simulation.record(folder) as run:
+                raise KeyboardInterrupt
+            info = json.loads((folder / "run.json").read_text())
+            self.assertEqual((info["outcome"], info.get("error", "")), ("interrupted", ""))
             for options in ({"format": "abc"}, {"every": 0}):
                 with self.assertRaisesRegex(pliant.Error, "^record: " + next(iter(options))):
                     simulation.record(pathlib.Path(name) / "other", **options)

@@ -90,6 +90,48 @@ TEST_CASE("state file: the steps that follow have the same bits") {
   CHECK(are_alike(again.simulation, made.simulation));
 }
 
+TEST_CASE("state file: the start is restored whatever has happened since") {
+  Made made = make();
+  made.simulation.set_contact({.distance = 0.01, .friction = 0.3, .surfaces = true});
+  const std::string start = state_bytes(made.simulation);
+  for (int i = 0; i < 8; ++i) made.simulation.step();
+  Made fresh = make();
+  fresh.simulation.set_contact({.distance = 0.01, .friction = 0.3, .surfaces = true});
+  restore_state(start, "start", made.simulation);
+  for (int i = 0; i < 8; ++i) {
+    made.simulation.step();
+    fresh.simulation.step();
+  }
+  CHECK(are_alike(made.simulation, fresh.simulation));
+}
+
+TEST_CASE("state file: the start of one without contact, with energy projection and automatic iterations") {
+  const auto bare = [] {
+    Simulation simulation(
+        {.integrator = Integrator::bdf2, .iterations = automatic_iterations, .energy_projection = 1, .threads = 1});
+    const BodyId sheet = simulation.add_body(grid({.columns = 9, .rows = 9}), Mass::area_density(0.3));
+    simulation.add(sheet, EdgeSpring{.stiffness = 500});
+    simulation.add(sheet, Position{.on = {0, 8}});
+    simulation.add(Gravity{});
+    return simulation;
+  };
+  Simulation moved = bare();
+  const std::string start = state_bytes(moved);
+  for (int i = 0; i < 12; ++i) moved.step();
+  restore_state(start, "start", moved);
+  CHECK(moved.state().previous_time_step == 0);
+  CHECK(moved.state().iterations == 0);
+  CHECK(moved.state().energy_surplus.empty());
+  Simulation fresh = bare();
+  for (int i = 0; i < 12; ++i) {
+    moved.step();
+    fresh.step();
+  }
+  CHECK(are_alike(moved, fresh));
+  moved.add(SphereCollider{.center = {0, 5, 0}, .radius = 0.1});
+  CHECK(refusal([&] { restore_state(start, "start", moved); }).find("its colliders are others") != std::string::npos);
+}
+
 TEST_CASE("state file: what does not fit is refused, and changes nothing") {
   Made made = make();
   go_on(made);
@@ -110,6 +152,10 @@ TEST_CASE("state file: what does not fit is refused, and changes nothing") {
   std::string spoilt = bytes;
   spoilt[bytes.size() / 2] ^= 1;
   CHECK(refused(spoilt, make()).find("damaged") != std::string::npos);
+  CHECK(refused("PLIANT", make()).find("simulate from the start") != std::string::npos);
+  Made heavier = make();
+  heavier.simulation.add_body(chain({.links = 1}), Mass::per_vertex(1));
+  CHECK(refused(bytes, std::move(heavier)).find("2 bodies, where the simulation has 3") != std::string::npos);
   Made without_ball = make();
   without_ball.simulation.remove(without_ball.ball);
   CHECK(!refused(bytes, std::move(without_ball)).empty());

@@ -19,7 +19,7 @@ void relax() {
 /// Where the system has no call that waits for a number, the standard library of GCC before 13 may lose a wake between
 /// a look and the wait (its bug 106183), and sleep for ever: there the count is looked at from time to time.
 void sleep_while(const std::atomic<std::uint32_t>& value, std::uint32_t old) {
-#if defined(__GLIBCXX__) && !defined(_GLIBCXX_HAVE_PLATFORM_WAIT)
+#if defined(__GLIBCXX__) && _GLIBCXX_RELEASE < 13 && !defined(_GLIBCXX_HAVE_PLATFORM_WAIT)
   while (value.load() == old) std::this_thread::sleep_for(std::chrono::microseconds(50));
 #else
   value.wait(old);

@@ -43,8 +43,9 @@ Scene parse_checkpoint(std::string_view bytes, std::string_view name, const Resu
 Scene open_checkpoint(const std::filesystem::path& path, const ResumeOptions& options = {});
 /// @throws Error (input): another scene, or not what had been added. The scene is then of no use.
 void restore_checkpoint(Scene& scene, const std::filesystem::path& path);
-/// Both for the bytes of such a file.
-Scene open_checkpoint(std::string_view bytes, std::string_view name, const ResumeOptions& options = {});
+/// Both for the bytes of such a file; `folder` is where that is, empty: nowhere.
+Scene open_checkpoint(std::string_view bytes, std::string_view name, const std::filesystem::path& folder = {},
+                      const ResumeOptions& options = {});
 void restore_checkpoint(Scene& scene, std::string_view bytes, std::string_view name);
 
 }  // namespace pliant

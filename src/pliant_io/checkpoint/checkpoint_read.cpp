@@ -259,8 +259,9 @@ void restore_checkpoint(Scene& scene, const fs::path& path) {
   with_content(path, [&](const Content& content) { content.restore(scene); });
 }
 
-Scene open_checkpoint(std::string_view bytes, std::string_view name, const ResumeOptions& options) {
-  return Content(bytes, name, {}).open(options);
+Scene open_checkpoint(std::string_view bytes, std::string_view name, const fs::path& folder,
+                      const ResumeOptions& options) {
+  return Content(bytes, name, folder.empty() ? folder : absolute_path(folder)).open(options);
 }
 
 void restore_checkpoint(Scene& scene, std::string_view bytes, std::string_view name) {

@@ -8,10 +8,44 @@
 #include "pliant_io/checkpoint/detail/write_state.h"
 #include "pliant_io/checkpoint/detail/write_values.h"
 #include "pliant_io/files/atomic_file.h"
+#include "pliant_io/files/crc32.h"
 #include "pliant_io/files/read_file.h"
 
 namespace pliant {
 namespace {
+
+constexpr FileWords words{"state", "`write_state` or `save_state`", "simulate from the start"};
+
+std::uint32_t masses_checksum(const Simulation& simulation) {
+  const std::vector<Real>& masses = simulation.state().masses;
+  return crc32({reinterpret_cast<const char*>(masses.data()), sizeof(Real) * masses.size()});
+}
+
+/// The types of all groups.
+nlohmann::json types_json(const Simulation& simulation) {
+  nlohmann::json types = nlohmann::json::array();
+  for (const auto& [id, group] : simulation.groups()) types.push_back(bytes_of(group.type));
+  return types;
+}
+
+void check_types(const Node& list, const Simulation& simulation) {
+  list.require_list(simulation.groups().size(), "(one a group)");
+  std::size_t i = 0;
+  for (const auto& [id, group] : simulation.groups()) {
+    const Node node = list[i++];
+    const std::string type = read_bytes(node);
+    if (type == group.type) continue;
+    node.fail(fmt::format("'{}', where the group '{}' of the simulation is '{}'; make it as the program did before",
+                          printable(type), printable(group.name), printable(group.type)));
+  }
+}
+
+void check_masses(const Node& node, const Simulation& simulation) {
+  std::int64_t sum = 0;
+  read(node, sum);
+  if (sum == masses_checksum(simulation)) return;
+  node.fail("the masses are others than those of the simulation; make its bodies as the program did before");
+}
 
 void check_bodies(const Node& list, std::span<const Body> bodies) {
   list.require_list();
@@ -41,6 +75,8 @@ std::string state_bytes(const Simulation& simulation) {
   const nlohmann::json content = {{"pliant", version},
                                   {"compiler", compiler},
                                   {"bodies", std::move(bodies)},
+                                  {"masses", masses_checksum(simulation)},
+                                  {"types", types_json(simulation)},
                                   {"state", state_json(simulation.state())},
                                   {"groups", groups_json(simulation)}};
   std::string bytes;
@@ -54,14 +90,16 @@ void write_state(const std::filesystem::path& path, const Simulation& simulation
 
 void restore_state(std::string_view bytes, std::string_view name, Simulation& simulation) {
   const Origin origin{std::string(name)};
-  const Unsealed unsealed = unseal(bytes, name);
+  const Unsealed unsealed = unseal(bytes, name, words);
   const Document document(parse_cbor(unsealed.content, name), {&origin});
   const Node root(document);
   if (root.has("source")) {
     fail_input(fmt::format("{}: a checkpoint of a scene; load it as one", printable_place(name)));
   }
   check_bodies(root.require("bodies"), simulation.bodies());
+  check_masses(root.require("masses"), simulation);
   const std::vector<BatchNumbers> numbers = read_groups(root.require("groups"), simulation);
+  check_types(root.require("types"), simulation);
   const Node node = root.require("state");
   const State state = read_state(node, simulation.state());
   node.locate([&] { simulation.restore(state); });

@@ -61,7 +61,10 @@ export class Bodies {
 
   /** Makes room for other bodies. */
   show(look: SceneLook): void {
+    // Both at once: with one of them the card forgets the positions, which the other has as well.
     this.geometry.dispose();
+    this.edges?.dispose();
+    this.edges = null;
     const count = look.vertexCount + look.copies.length;
     this.positions = changing(count);
     this.normals = changing(count);
@@ -121,7 +124,7 @@ export class Bodies {
 
   /** They share the corners of the triangles. */
   private makeEdges(): BufferGeometry {
-    this.edges?.dispose();
+    if (this.edges !== null) return this.edges;
     this.edges = new BufferGeometry();
     this.edges.setIndex(new BufferAttribute(this.edgeEnds, 1));
     this.edges.setAttribute('position', this.positions);

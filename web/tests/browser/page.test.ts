@@ -121,6 +121,18 @@ describe.runIf(hasBrowser)('the page', () => {
     await tab.page.keyboard.press('w');
     await tab.page.waitForTimeout(300);
     expect(await difference(tab, colored, await picture())).toBeGreaterThan(0.5);
+    // On for the third time, the surface still moves.
+    await tab.page.keyboard.press('w');
+    await tab.page.keyboard.press('w');
+    await tab.page.waitForTimeout(300);
+    await tab.page.keyboard.press('w');
+    await tab.page.waitForTimeout(300);
+    const still = await picture();
+    await tab.page.keyboard.press('Space');
+    await tab.page.waitForTimeout(800);
+    await tab.page.keyboard.press('Space');
+    await tab.page.waitForTimeout(300);
+    expect(await difference(tab, still, await picture())).toBeGreaterThan(0.5);
     for (let i = 0; i < 5; ++i) await tab.page.keyboard.press('c');
     await tab.page.locator('#legend').waitFor({ state: 'hidden' });
   });

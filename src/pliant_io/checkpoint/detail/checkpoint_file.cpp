@@ -51,14 +51,14 @@ std::string seal(std::string_view content) {
   return bytes.append(content);
 }
 
-Unsealed unseal(std::string_view bytes, std::string_view name) {
+Unsealed unseal(std::string_view bytes, std::string_view name, const FileWords& words) {
   const auto fail = [&](std::string_view what) { fail_input(fmt::format("{}: {}", name, what)); };
   if (!bytes.starts_with(magic.substr(0, bytes.size())) || bytes.empty()) {
-    fail("is not a checkpoint; give one that `pliant run` wrote, or run the scene from its start");
+    fail(fmt::format("is not a {}; give one that {} wrote, or {}", words.kind, words.writer, words.remedy));
   }
-  constexpr std::string_view remedy = "take an older checkpoint, or run the scene from its start";
+  const std::string remedy = fmt::format("take an older {}, or {}", words.kind, words.remedy);
   if (bytes.size() < header_size)
-    fail(fmt::format("this checkpoint is cut off after {} bytes; {}", bytes.size(), remedy));
+    fail(fmt::format("this {} is cut off after {} bytes; {}", words.kind, bytes.size(), remedy));
   const auto found_version = number_at<std::uint32_t>(bytes, version_place);
   const auto size = number_at<std::uint64_t>(bytes, size_place);
   const std::string_view content = bytes.substr(header_size);
@@ -71,14 +71,13 @@ Unsealed unseal(std::string_view bytes, std::string_view name) {
   }
   const bool has_old_contact = found_version == version_of_old_contact;
   if (sound && found_version != format_version && !has_old_contact) {
-    fail(fmt::format(
-        "this checkpoint has the format {}, and this program reads {}; resume it with the program that wrote it",
-        found_version, format_version));
+    fail(fmt::format("this {} has the format {}, and this program reads {}; resume it with the program that wrote it",
+                     words.kind, found_version, format_version));
   }
   if (!whole && size > content.size()) {
-    fail(fmt::format("this checkpoint is cut off: it has {} of {} bytes; {}", content.size(), size, remedy));
+    fail(fmt::format("this {} is cut off: it has {} of {} bytes; {}", words.kind, content.size(), size, remedy));
   }
-  if (!sound) fail(fmt::format("this checkpoint is damaged, its checksum does not fit; {}", remedy));
+  if (!sound) fail(fmt::format("this {} is damaged, its checksum does not fit; {}", words.kind, remedy));
   return {content, has_old_contact};
 }
 

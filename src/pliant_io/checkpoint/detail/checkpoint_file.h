@@ -22,8 +22,15 @@ struct Unsealed {
   bool has_old_contact = false;  ///< of format 3: without "surfaces" the scene's contact is with colliders alone
 };
 
+/// What messages call such a file, and what helps where it cannot be used.
+struct FileWords {
+  std::string_view kind = "checkpoint";
+  std::string_view writer = "`pliant run`";
+  std::string_view remedy = "run the scene from its start";
+};
+
 /// The content of a file; `name` is what messages call it.
 /// @throws Error (input): not a checkpoint, of another version, cut or longer than it says, damaged.
-Unsealed unseal(std::string_view bytes, std::string_view name);
+Unsealed unseal(std::string_view bytes, std::string_view name, const FileWords& words = {});
 
 }  // namespace pliant

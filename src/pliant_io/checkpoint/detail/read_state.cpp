@@ -131,7 +131,7 @@ std::vector<BatchNumbers> read_groups(const Node& list, const Simulation& simula
   for (const auto& [id, group] : simulation.groups()) {
     const Node node = list[i++];
     if (read_bytes(node.require("name")) != group.name) {
-      node.fail(fmt::format("the simulation has the group '{}' here; take another checkpoint", printable(group.name)));
+      node.fail(fmt::format("the simulation has the group '{}' here; make it as it was", printable(group.name)));
     }
     const Node batches = node.require("batches");
     batches.require_list(group.set.batches.size(), "(one a batch)");
@@ -142,7 +142,7 @@ std::vector<BatchNumbers> read_groups(const Node& list, const Simulation& simula
       read_numbers(batches[p].require("parameters"), numbers.parameters);
       const Node stiffness = batches[p].require("stiffness");
       numbers.stiffness = read_real(stiffness);
-      if (!(numbers.stiffness >= 0) || !std::isfinite(numbers.stiffness)) {
+      if (!(numbers.stiffness > 0) || !std::isfinite(numbers.stiffness)) {
         stiffness.fail(fmt::format("{} is not a stiffness; take another checkpoint", numbers.stiffness));
       }
     }
@@ -158,7 +158,9 @@ void set_numbers(const std::vector<BatchNumbers>& all) {
 }
 
 State read_state(const Node& node, const State& fresh) {
-  State state = fresh;
+  State state;  // what the file leaves out is as at a start, whatever the simulation has done since
+  state.masses = fresh.masses;
+  for (Positions* rows : {&state.positions, &state.velocities}) rows->resizeLike(fresh.positions);
   read(node.require("step"), state.step);
   if (state.step < 0 || state.step > max_steps) {
     node.require("step").fail(fmt::format("{} is out of range; take another checkpoint", state.step));

@@ -19,8 +19,8 @@ std::vector<BatchNumbers> read_groups(const Node& list, const Simulation& simula
 /// Gives each batch its numbers.
 void set_numbers(const std::vector<BatchNumbers>& all);
 
-/// `fresh`: of the simulation, for what no file has. Whether colliders and contacts are those of the simulation,
-/// Simulation::restore() says.
+/// `fresh`: of the simulation, which says how many vertices there are, with which masses. Whether colliders and
+/// contacts are those of the simulation, Simulation::restore() says.
 State read_state(const Node& node, const State& fresh);
 
 }  // namespace pliant
