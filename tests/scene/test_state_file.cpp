@@ -128,6 +128,9 @@ TEST_CASE("state file: the start of one without contact, with energy projection 
     fresh.step();
   }
   CHECK(are_alike(moved, fresh));
+  SolverSettings settings = moved.settings();
+  settings.energy_projection = 0;  // which knows no colliders
+  moved.set_settings(settings);
   moved.add(SphereCollider{.center = {0, 5, 0}, .radius = 0.1});
   CHECK(refusal([&] { restore_state(start, "start", moved); }).find("its colliders are others") != std::string::npos);
 }

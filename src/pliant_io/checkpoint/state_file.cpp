@@ -50,8 +50,8 @@ void check_masses(const Node& node, const Simulation& simulation) {
 void check_bodies(const Node& list, std::span<const Body> bodies) {
   list.require_list();
   if (list.size() != bodies.size()) {
-    list.fail(
-        fmt::format("{}, where the simulation has {}; make it as the program did before", list.size(), bodies.size()));
+    list.fail(fmt::format("{} bodies, where the simulation has {}; make it as the program did before", list.size(),
+                          bodies.size()));
   }
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     Index vertices = 0;

@@ -6,7 +6,7 @@ using Json = nlohmann::json;
 
 namespace {
 
-Json bytes_of(const void* data, std::size_t size) {
+Json binary(const void* data, std::size_t size) {
   const auto* begin = static_cast<const std::uint8_t*>(data);
   return Json::binary(std::vector<std::uint8_t>(begin, begin + size));
 }
@@ -14,11 +14,11 @@ Json bytes_of(const void* data, std::size_t size) {
 }  // namespace
 
 Json bytes_of(std::string_view text) {
-  return bytes_of(text.data(), text.size());
+  return binary(text.data(), text.size());
 }
 
 Json bytes_of(std::span<const Real> numbers) {
-  return bytes_of(numbers.data(), numbers.size_bytes());
+  return binary(numbers.data(), numbers.size_bytes());
 }
 
 Json bytes_of(const Positions& rows) {
