@@ -52,8 +52,11 @@ class FolderLock:
                 os.unlink(self._note)
             except OSError:
                 pass
-            if fcntl is not None:
-                fcntl.flock(self._folder, fcntl.LOCK_UN)  # forked processes may have the folder open
+            try:
+                if fcntl is not None:
+                    fcntl.flock(self._folder, fcntl.LOCK_UN)  # forked processes may have the folder open
+            except OSError:  # a file system without locks
+                pass
         os.close(self._folder)
         self._folder = None
 

@@ -181,7 +181,7 @@ class Content {
     if (root().has("bodies")) {
       fail_input(
           fmt::format("{}: the state of a simulation without a scene; make the simulation as the program did, and "
-                      "restore the state there",
+                      "call `restore_state` on it",
                       printable_place(origin_.name)));
     }
   }

@@ -94,7 +94,8 @@ void restore_state(std::string_view bytes, std::string_view name, Simulation& si
   const Document document(parse_cbor(unsealed.content, name), {&origin});
   const Node root(document);
   if (root.has("source")) {
-    fail_input(fmt::format("{}: a checkpoint of a scene; load it as one", printable_place(name)));
+    fail_input(fmt::format("{}: a checkpoint of a scene; read it with `read_checkpoint` or `load_checkpoint`",
+                           printable_place(name)));
   }
   check_bodies(root.require("bodies"), simulation.bodies());
   check_masses(root.require("masses"), simulation);
