@@ -7,6 +7,12 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 tests=("$@")
 ((${#tests[@]})) || tests=(test_views test_own test_scenes test_threads test_options)
+for test in "${tests[@]}"; do
+  if [[ ! -e "tests/python/$test.py" ]]; then
+    echo "test_python_asan.sh: no test '$test'; give names of tests/python without .py" >&2
+    exit 2
+  fi
+done
 
 runtime="$(clang++ -print-file-name=libclang_rt.asan-x86_64.so 2>/dev/null || true)"
 standard_library="$(clang++ -print-file-name=libstdc++.so.6 2>/dev/null || true)"
