@@ -30,7 +30,7 @@ picture() { # NAME SCENE OPTION...
 }
 "$pliant" render "$out/finishes.json" --out "$out/finishes.png" --size 960x480 --quiet
 picture towel towel
-"$pliant" render dress_from_panels --out "$out/sewn_dress.png" --size 960x1000 --frames 8 --sheet --quiet
+"$pliant" render dress_from_panels --out "$out/sewn_dress.png" --size 960x960 --frames 9 --sheet --quiet
 "$pliant" render torus --out "$out/torus.png" --size 960x540 --steps 140 --frames 6 --sheet --wireframe --quiet
 
 # Of the report on the torus, the last three pictures: jumps of 1 m without bending, with absolute, with signed bending.

@@ -29,11 +29,14 @@ struct ContactCandidate {
   Real guard_offset = 0;  ///< of the half-space along its normal
   Real room = 0;          ///< less far from there it touches nothing and may not pass [m]
 
+  /// Of what is known of it, without another look.
+  bool is_out_of_reach(const Vec3& x) const { return room > 0 && (x - place).squaredNorm() < room * room; }
   Potential push() const { return normal_potential(stiffness, radius, distance); }
-  Friction friction() const {
+  Friction friction() const { return friction_at(place); }
+  Friction friction_at(const Vec3& x) const {
     const Real limit = coefficient * load;
     if (!has_anchor || !(limit > 0)) return {};
-    const Vec3 way = place - anchor;
+    const Vec3 way = x - anchor;
     return friction_potential(stiffness, limit, way - friction_normal.dot(way) * friction_normal);
   }
   /// Whether its way may lead through the collider: that of length l can only where the distances at both ends add up

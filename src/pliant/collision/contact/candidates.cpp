@@ -205,18 +205,21 @@ void Contact::recall(const ContactState& state, const Positions& q, Candidate& c
 }
 
 void Contact::find_distance(Candidate& candidate, const Vec3& x) const {
+  const SignedDistance found = distance_at(candidate, x);
   candidate.place = x;
-  if (candidate.is_guarded) {
-    candidate.distance = candidate.normal.dot(x) - candidate.guard_offset;
-    return;
-  }
+  candidate.distance = found.distance;
+  candidate.normal = found.normal;
+  if (!candidate.is_guarded) candidate.room = candidate.room_there();
+}
+
+SignedDistance Contact::distance_at(const Candidate& candidate, const Vec3& x) const {
+  if (candidate.is_guarded) return {candidate.normal.dot(x) - candidate.guard_offset, candidate.normal};
   const ContactCollider& collider = colliders_[at(candidate.collider)];
   const Turn& turn = turns_[at(candidate.collider)];
   const Vec3 arm = x - collider.end.position;
-  const SignedDistance found = collider.shape->distance(turn.is_none ? arm : Vec3(turn.rotation.transpose() * arm));
-  candidate.distance = found.distance;
-  candidate.normal = turn.is_none ? found.normal : Vec3(turn.rotation * found.normal);
-  candidate.room = candidate.room_there();
+  if (turn.is_none) return collider.shape->distance(arm);
+  const SignedDistance found = collider.shape->distance(turn.rotation.transpose() * arm);
+  return {found.distance, turn.rotation * found.normal};
 }
 
 /// Makes the collider a half-space to a vertex whose way here, where it was looked at, leads through it.

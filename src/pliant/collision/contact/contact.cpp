@@ -56,31 +56,37 @@ void Contact::add_touching(std::vector<Index>& vertices) const {
   }
 }
 
+/// A candidate is large, so none is copied: where it would be looked at is found beside it.
 void Contact::add_resistance(const Positions& q, std::span<const Index> component_of_vertex,
                              std::span<RigidResistance> components) const {
   for (const Chunk& chunk : chunks_) {
-    for (const Candidate& known : chunk.candidates) {
-      Candidate each = known;
-      look_at(each, row(q, each.vertex));
-      if (each.room > 0) continue;
-      const Potential pushed = each.push();
-      const Friction rubbed = each.friction();
+    for (const Candidate& each : chunk.candidates) {
+      const Vec3 x = row(q, each.vertex);
+      if (each.is_out_of_reach(x)) continue;
+      const SignedDistance found = each.place == x ? SignedDistance{each.distance, each.normal} : distance_at(each, x);
       RigidResistance& sum = components[at(component_of_vertex[at(each.vertex)])];
-      sum.is_blocked |= each.distance < std::min(each.floor, known.distance);
-      sum.energy += pushed.energy + rubbed.energy;
-      sum.add_force(each.place, pushed.force * each.normal + rubbed.force);
-      Mat3 stiffness = pushed.curvature * each.normal * each.normal.transpose();
-      if (rubbed.curvature > 0) {
-        stiffness -= rubbed.curvature * each.friction_normal * each.friction_normal.transpose();
-        stiffness.diagonal().array() += rubbed.curvature;
-        if (rubbed.curvature < each.stiffness && sum.sliding == SlidingFriction::as_it_is) {
-          const Vec3 along = rubbed.force.stableNormalized();
-          stiffness -= rubbed.curvature * along * along.transpose();
-        }
-      }
-      sum.add_stiffness(each.place, stiffness);
+      sum.is_blocked |= found.distance < std::min(each.floor, each.distance);
+      add_resistance(each, x, found, sum);
     }
   }
+}
+
+/// Of friction that slides, across its way alone, or in all directions across the normal.
+void Contact::add_resistance(const Candidate& each, const Vec3& x, const SignedDistance& found, RigidResistance& sum) {
+  const Potential pushed = normal_potential(each.stiffness, each.radius, found.distance);
+  const Friction rubbed = each.friction_at(x);
+  if (pushed.curvature > 0) sum.add_direction(x, found.normal, pushed.curvature);
+  if (rubbed.curvature > 0) {
+    sum.add_everywhere(x, rubbed.curvature);
+    sum.add_direction(x, each.friction_normal, -rubbed.curvature);
+    if (rubbed.curvature < each.stiffness && sum.sliding == SlidingFriction::as_it_is) {
+      sum.add_direction(x, rubbed.force.stableNormalized(), -rubbed.curvature);
+    }
+  } else if (!(pushed.curvature > 0)) {
+    return;
+  }
+  sum.energy += pushed.energy + rubbed.energy;
+  sum.add_force(x, pushed.force * found.normal + rubbed.force);
 }
 
 void Contact::add_energies(std::span<const Index> component_of_vertex, std::span<Real> components) const {

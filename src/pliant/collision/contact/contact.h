@@ -141,10 +141,11 @@ class Contact {
   void recall(const ContactState& state, const Positions& q, Candidate& candidate) const;
   /// Its distance and normal at x, unless they are known, or it is known to touch nothing.
   void look_at(Candidate& candidate, const Vec3& x) const {
-    if (candidate.room > 0 && (x - candidate.place).squaredNorm() < candidate.room * candidate.room) return;
-    if (candidate.place != x) find_distance(candidate, x);
+    if (!candidate.is_out_of_reach(x) && candidate.place != x) find_distance(candidate, x);
   }
   void find_distance(Candidate& candidate, const Vec3& x) const;
+  SignedDistance distance_at(const Candidate& candidate, const Vec3& x) const;
+  static void add_resistance(const Candidate& each, const Vec3& x, const SignedDistance& found, RigidResistance& sum);
   bool guard(Candidate& candidate) const;
   void hold_back(Chunk& chunk, Index begin, Index end, Positions& q);
   void hold_back(std::span<Candidate> of_vertex, Chunk& chunk, Positions& q) const;
