@@ -125,7 +125,7 @@ Json projections_json(const std::vector<ProjectionsResult>& projections) {
 Json times_to_error_json(const std::vector<TimeToErrorResult>& cases) {
   Json list = Json::array();
   for (const TimeToErrorResult& each : cases) {
-    Json methods = Json::object();
+    Json methods = Json::object(), last_errors = Json::object();
     for (const MethodResult& method : each.methods) {
       Json levels = Json::array();
       for (const ErrorLevel& level : method.levels) {
@@ -134,9 +134,13 @@ Json times_to_error_json(const std::vector<TimeToErrorResult>& cases) {
                           {"seconds", level.iterations ? seconds_json(level.seconds) : Json(nullptr)}});
       }
       methods[method.name] = levels;
+      last_errors[method.name] = optional_json(method.last_error);
     }
-    list.push_back(
-        {{"name", each.name}, {"vertices", each.vertices}, {"uncertainty", each.uncertainty}, {"methods", methods}});
+    list.push_back({{"name", each.name},
+                    {"vertices", each.vertices},
+                    {"uncertainty", each.uncertainty},
+                    {"methods", methods},
+                    {"last_errors", last_errors}});
   }
   return list;
 }

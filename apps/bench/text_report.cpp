@@ -5,6 +5,7 @@
 
 #include "bench/figures.h"
 #include "bench/report.h"
+#include "bench/time_to_error.h"
 #include "pliant/core/version.h"
 
 namespace pliant_bench {
@@ -144,6 +145,17 @@ std::string iterations_cell(const ErrorLevel& level) {
   return level.iterations ? fmt::format("{}", *level.iterations) : "-";
 }
 
+void print_method(const TimeToErrorResult& result, const MethodResult& method, Out out) {
+  fmt::format_to(out, "  {:<10}", method.name);
+  for (const ErrorLevel& level : method.levels) {
+    const char* none = level.error > 2 * result.uncertainty ? "not reached" : "not known";
+    fmt::format_to(out, " {:>8} {:>11}", iterations_cell(level),
+                   level.iterations ? fmt::format("{:.4g} ms", 1e3 * level.seconds.median) : none);
+  }
+  if (method.last_error) fmt::format_to(out, "  {:.1e} left", *method.last_error);
+  out = '\n';
+}
+
 /// The other program has the same plain iterations, each at its own time.
 void print_other_program(const BenchResult& result, const TimeToErrorResult& each, Out out) {
   const auto other = std::ranges::find(result.against, each.name, &AgainstResult::name);
@@ -162,7 +174,9 @@ void print_times_to_error(const BenchResult& result, Out out) {
   fmt::format_to(
       out,
       "\nTime to error: iterations and milliseconds (median) of a step until it is so near to its end, as a share "
-      "of\nhow far the prediction is from it, root mean square over the mass; -: not with 20,000\n");
+      "of\nhow far the prediction is from it, root mean square over the mass; left: what {} iterations leave.\n"
+      "xpbd: Gauss-Seidel sweeps, one multiplier a constraint; xpbd rows: one for each number of z - p\n",
+      most_iterations);
   for (const TimeToErrorResult& each : result.times_to_error) {
     fmt::format_to(out, "\n{}: {}; {} vertices; the end is known to {:.0e}\n  {:<10}", each.name, each.description,
                    each.vertices, each.uncertainty, "");
@@ -170,14 +184,7 @@ void print_times_to_error(const BenchResult& result, Out out) {
       fmt::format_to(out, " {:>20}", fmt::format("{:.0e}", level.error));
     }
     out = '\n';
-    for (const MethodResult& method : each.methods) {
-      fmt::format_to(out, "  {:<10}", method.name);
-      for (const ErrorLevel& level : method.levels) {
-        fmt::format_to(out, " {:>8} {:>11}", iterations_cell(level),
-                       level.iterations ? fmt::format("{:.4g} ms", 1e3 * level.seconds.median) : "");
-      }
-      out = '\n';
-    }
+    for (const MethodResult& method : each.methods) print_method(each, method, out);
     print_other_program(result, each, out);
   }
 }

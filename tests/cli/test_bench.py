@@ -70,15 +70,22 @@ class Bench(unittest.TestCase):
         self.assertEqual([case["name"] for case in result["time_to_error"]], ["swinging", "bar"])
         for case in result["time_to_error"]:
             self.assertLess(case["uncertainty"], 1e-8)
-            self.assertEqual(list(case["methods"]), ["plain", "lbfgs"])
-            for levels in case["methods"].values():
+            self.assertEqual(list(case["methods"]), ["plain", "lbfgs", "xpbd", "xpbd rows"])
+            for name, levels in case["methods"].items():
                 self.assertEqual([level["error"] for level in levels], [1e-2, 1e-4, 1e-6])
                 known = [level["iterations"] for level in levels if level["iterations"] is not None]
                 self.assertEqual(known, sorted(known))
-                self.check_seconds(levels[0]["seconds"])
-            fewest = [case["methods"][name][1]["iterations"] for name in ("lbfgs", "plain")]
-            self.assertLess(fewest[0], fewest[1])
+                if name == "xpbd":
+                    self.assertEqual(known, [])
+                    self.assertGreater(case["last_errors"][name], 1e-2)
+                else:
+                    self.assertEqual(len(known), 3)
+                    self.assertIsNone(case["last_errors"][name])
+                    self.check_seconds(levels[0]["seconds"])
+            fewest = [case["methods"][name][1]["iterations"] for name in ("lbfgs", "plain", "xpbd rows")]
+            self.assertLess(fewest[0], min(fewest[1:]))
         self.assertIn("\nswinging: a cloth of W5", done.stdout)
+        self.assertRegex(done.stdout, r"\n  xpbd  +- not reached  +- not reached  +- not reached  [0-9.e-]+ left")
         rows = list(csv.DictReader(io.StringIO((self.folder / "b.csv").read_text())))
         self.assertIn("time_to_error", {row["table"] for row in rows})
 
