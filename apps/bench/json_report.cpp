@@ -111,6 +111,28 @@ Json workload_json(const BenchResult& result, const WorkloadResult& workload) {
           {"set_up_seconds", set_up_json(workload.set_up)}};
 }
 
+Json contact_json(const std::vector<ContactResult>& results) {
+  Json list = Json::array();
+  for (const ContactResult& each : results) {
+    Json runs = Json::array();
+    for (const ContactRun& run : each.runs) {
+      Json phases = Json::object();
+      for (const Phase& phase : run.phases) phases[phase.name] = seconds_json(phase.seconds);
+      runs.push_back({{"name", run.name},
+                      {"step_seconds", seconds_json(run.step)},
+                      {"times_plain", ratio(run.step, each.runs.front().step)},
+                      {"phases", phases},
+                      {"iterations", run.iterations},
+                      {"backtracks", run.backtracks},
+                      {"contacts", run.contacts},
+                      {"pairs", run.pairs}});
+    }
+    list.push_back(
+        {{"name", each.workload.name}, {"vertices", each.vertices}, {"rounds", each.rounds}, {"runs", runs}});
+  }
+  return list;
+}
+
 Json projections_json(const std::vector<ProjectionsResult>& projections) {
   Json list = Json::array();
   for (const ProjectionsResult& each : projections) {
@@ -168,6 +190,7 @@ std::string json_report(const BenchResult& result) {
                      {"machine", machine_json(result.machine)},
                      {"levels", levels_json(result.levels)},
                      {"workloads", workloads},
+                     {"contact", contact_json(result.contact)},
                      {"projections", projections_json(result.projections)},
                      {"time_to_error", times_to_error_json(result.times_to_error)},
                      {"against", against_json(result.against)}};

@@ -128,6 +128,26 @@ void print_summary(const BenchResult& result, Out out) {
   }
 }
 
+void print_contact(const BenchResult& result, Out out) {
+  fmt::format_to(out,
+                 "\nContact: a cloth falls onto a sphere above a floor; medians over steps 30 to 120, taken in turns. "
+                 "Phases in ms; contact is in\nthe others. Plain: the same cloth swings from two corners, since a step "
+                 "of free fall has nothing to do; without L-BFGS\n");
+  for (const ContactResult& each : result.contact) {
+    fmt::format_to(out,
+                   "\n{}: {} vertices; each step the fastest of {}\n  {:<16} {:>9} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} "
+                   "{:>6} {:>6}\n",
+                   each.workload.name, each.vertices, each.rounds, "", "step ms", "x plain", "local", "global",
+                   "factor", "rest", "contact", "iter.", "undone");
+    for (const ContactRun& run : each.runs) {
+      fmt::format_to(out, "  {:<16} {:>9.4f} {:>8.2f}", run.name, 1e3 * run.step.median,
+                     ratio(run.step, each.runs.front().step));
+      for (const Phase& phase : run.phases) fmt::format_to(out, " {:>8.4f}", 1e3 * phase.seconds.median);
+      fmt::format_to(out, " {:>6.1f} {:>6.1f}\n", run.iterations, run.backtracks);
+    }
+  }
+}
+
 void print_projections(const BenchResult& result, Out out) {
   fmt::format_to(
       out,
@@ -215,6 +235,7 @@ std::string text_report(const BenchResult& result) {
     print_set_up(workload, out);
   }
   if (!result.workloads.empty()) print_summary(result, out);
+  if (!result.contact.empty()) print_contact(result, out);
   if (!result.projections.empty()) print_projections(result, out);
   if (!result.against.empty()) print_against(result, out);
   if (!result.times_to_error.empty()) print_times_to_error(result, out);

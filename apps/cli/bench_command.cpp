@@ -143,7 +143,8 @@ void add_bench_command(CLI::App& program) {
   command
       ->add_option("--workloads", arguments->workloads,
                    "W1, W1b, W2, W2b, W3, W3b (curtains; b: with bending), W4 (bar), W5, W6 (cloth of triangles and "
-                   "hinges); or, with --size, curtain, curtain-b, cloth, bar")
+                   "hinges), W7a, W7b (that cloth falls onto a sphere: steps with contact); or, with --size, curtain, "
+                   "curtain-b, cloth, bar, falling")
       ->delimiter(',');
   add_number(*command, "--size", arguments->size,
              "Vertices along a side of a square curtain, cells across a bar that is four times as long");
@@ -178,7 +179,7 @@ void add_bench_command(CLI::App& program) {
       ->type_name("FILE");
   command->footer(
       "Examples:\n"
-      "  pliant bench                                        all workloads, about a minute and a half\n"
+      "  pliant bench                                        all workloads, about two minutes\n"
       "  pliant bench --workloads W2,W4 --json bench.json    two of them, with a file for programs\n"
       "  pliant bench --size 200                             curtains of 200 x 200 vertices\n"
       "  pliant bench --time-to-error hanging,falling        how soon steps converge\n"

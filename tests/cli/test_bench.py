@@ -151,6 +151,33 @@ class Bench(unittest.TestCase):
                          (workload["name"], "baseline_" + each["what"], each["name"])]
                 self.assertEqual(float(row["median_s"]), each["seconds"]["median"])
 
+    def test_steps_with_contact_beside_plain_ones(self):
+        done = self.bench("--workloads", "falling", "--size", 8, "--repeats", 2, "--threads", 1, "--bandwidth", "without",
+                          "--projections", "without", "--json", "b.json", "--csv", "b.csv")
+        result = json.loads((self.folder / "b.json").read_text())
+        self.assertEqual(result["workloads"], [])
+        [cloth] = result["contact"]
+        self.assertEqual((cloth["name"], cloth["vertices"], cloth["rounds"]), ("falling", 64, 2))
+        plain, colliders, surfaces = cloth["runs"]
+        self.assertEqual([run["name"] for run in cloth["runs"]], ["plain", "colliders alone", "surfaces too"])
+        for run in cloth["runs"]:
+            self.check_seconds(run["step_seconds"])
+            self.assertEqual(run["iterations"], 10)  # none is at rest
+            self.assertAlmostEqual(run["times_plain"],
+                                   run["step_seconds"]["median"] / plain["step_seconds"]["median"])
+            for phase in ("local steps", "global steps"):
+                self.assertGreater(run["phases"][phase]["median"], 0)
+                self.assertLess(run["phases"][phase]["min"], run["step_seconds"]["median"])
+        self.assertEqual((plain["contacts"], plain["phases"]["contact, in these"]["median"]), (0, 0))
+        self.assertEqual((plain["pairs"], colliders["pairs"]), (0, 0))
+        for run in (colliders, surfaces):
+            self.assertGreater(run["contacts"], 1)
+            self.assertGreater(run["phases"]["contact, in these"]["min"], 0)
+        self.assertRegex(done.stdout, r"\n  surfaces too +[0-9.]+ +[0-9.]+ ")
+        rows = list(csv.DictReader(io.StringIO((self.folder / "b.csv").read_text())))
+        [row] = [row for row in rows if (row["table"], row["name"]) == ("contact", "surfaces too: step")]
+        self.assertEqual(float(row["median_s"]), surfaces["step_seconds"]["median"])
+
     def test_projections_alone(self):
         result = json.loads(self.bench("--projections", "only", "--repeats", 1, "--bandwidth", "without",
                                        "--json", "-").stdout)
