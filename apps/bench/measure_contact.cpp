@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "bench/measure.h"
+#include "bench/timing.h"
 #include "pliant/pliant.h"
 
 namespace pliant_bench {
