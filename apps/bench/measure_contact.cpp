@@ -92,6 +92,7 @@ ContactResult measure_contact(const Workload& workload, const BenchOptions& opti
   std::array<std::vector<StepReport>, all_runs.size()> fastest;
   result.rounds = repeat(options.repeats.value_or(usual_rounds), 0, [&] {
     std::vector<Simulation> simulations;
+    simulations.reserve(all_runs.size());
     for (const auto& run : all_runs) simulations.push_back(simulation_of(workload, settings, run.first));
     result.vertices = simulations.front().state().vertex_count();
     for (std::size_t step = 0; step < steps_in_all; ++step) {
