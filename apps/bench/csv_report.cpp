@@ -96,10 +96,10 @@ std::string csv_report(const BenchResult& result) {
   for (const WorkloadResult& workload : result.workloads) print_workload(workload, out);
   for (const ContactResult& each : result.contact) {
     for (const ContactRun& run : each.runs) {
-      print({each.workload.name, "contact", run.name + ": step", 1, run.step.min, run.step.median}, out);
+      print({each.workload.name, "contact", run.name + ": step", each.threads, run.step.min, run.step.median}, out);
       for (const Phase& phase : run.phases) {
         const std::string name = fmt::format("{}: {}", run.name, phase.name);
-        print({each.workload.name, "contact", name, 1, phase.seconds.min, phase.seconds.median}, out);
+        print({each.workload.name, "contact", name, each.threads, phase.seconds.min, phase.seconds.median}, out);
       }
     }
   }

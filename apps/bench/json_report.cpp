@@ -127,8 +127,11 @@ Json contact_json(const std::vector<ContactResult>& results) {
                       {"contacts", run.contacts},
                       {"pairs", run.pairs}});
     }
-    list.push_back(
-        {{"name", each.workload.name}, {"vertices", each.vertices}, {"rounds", each.rounds}, {"runs", runs}});
+    list.push_back({{"name", each.workload.name},
+                    {"vertices", each.vertices},
+                    {"threads", each.threads},
+                    {"rounds", each.rounds},
+                    {"runs", runs}});
   }
   return list;
 }

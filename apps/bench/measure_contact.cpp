@@ -88,7 +88,7 @@ void keep_fastest(const StepReport& report, std::size_t step, std::vector<StepRe
 ContactResult measure_contact(const Workload& workload, const BenchOptions& options) {
   SolverSettings settings = options.settings;
   settings.threads = options.threads.front();
-  ContactResult result{workload, 0, {}, 0};
+  ContactResult result{workload, 0, settings.threads, {}, 0};
   std::array<std::vector<StepReport>, all_runs.size()> fastest;
   result.rounds = repeat(options.repeats.value_or(usual_rounds), 0, [&] {
     std::vector<Simulation> simulations;

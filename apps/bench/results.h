@@ -101,6 +101,7 @@ struct ContactRun {
 struct ContactResult {
   Workload workload;
   std::int64_t vertices = 0;
+  int threads = 1;               ///< asked for
   std::vector<ContactRun> runs;  ///< the first is plain
   std::int64_t rounds = 0;       ///< each step is the fastest of so many
 };

@@ -149,7 +149,8 @@ void add_bench_command(CLI::App& program) {
   add_number(*command, "--size", arguments->size,
              "Vertices along a side of a square curtain, cells across a bar that is four times as long");
   add_choice(*command, "--order", arguments->order, "Vertices and elements numbered row by row, or at random");
-  add_number(*command, "--repeats", arguments->repeats, "Of everything; default: 5 to 200, about 3 s a workload");
+  add_number(*command, "--repeats", arguments->repeats,
+             "Of everything; default: 5 to 200, about 3 s a workload; 3 of W7");
   command->add_option("--threads", arguments->threads, "Default: 1,2; the phases are those of the first")
       ->delimiter(',');
   command

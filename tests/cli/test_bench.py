@@ -152,7 +152,7 @@ class Bench(unittest.TestCase):
                 self.assertEqual(float(row["median_s"]), each["seconds"]["median"])
 
     def test_steps_with_contact_beside_plain_ones(self):
-        done = self.bench("--workloads", "falling", "--size", 8, "--repeats", 2, "--threads", 1, "--bandwidth", "without",
+        done = self.bench("--workloads", "falling", "--size", 8, "--repeats", 2, "--threads", 2, "--bandwidth", "without",
                           "--projections", "without", "--json", "b.json", "--csv", "b.csv")
         result = json.loads((self.folder / "b.json").read_text())
         self.assertEqual(result["workloads"], [])
@@ -177,6 +177,7 @@ class Bench(unittest.TestCase):
         rows = list(csv.DictReader(io.StringIO((self.folder / "b.csv").read_text())))
         [row] = [row for row in rows if (row["table"], row["name"]) == ("contact", "surfaces too: step")]
         self.assertEqual(float(row["median_s"]), surfaces["step_seconds"]["median"])
+        self.assertEqual((row["threads"], cloth["threads"]), ("2", 2))
 
     def test_projections_alone(self):
         result = json.loads(self.bench("--projections", "only", "--repeats", 1, "--bandwidth", "without",
