@@ -41,7 +41,11 @@ BenchResult run_bench(const BenchOptions& options, const Progress& progress) {
   if (options.projections != Projections::only && options.phases) {
     for (const Workload& workload : options.workloads) {
       progress(workload.name);
-      result.workloads.push_back(measure_workload(workload, options));
+      if (workload.kind == Kind::falling) {
+        result.contact.push_back(measure_contact(workload, options));
+      } else {
+        result.workloads.push_back(measure_workload(workload, options));
+      }
     }
   }
   if (!options.against.empty()) {

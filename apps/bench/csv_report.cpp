@@ -94,6 +94,15 @@ std::string csv_report(const BenchResult& result) {
     print(row, out);
   }
   for (const WorkloadResult& workload : result.workloads) print_workload(workload, out);
+  for (const ContactResult& each : result.contact) {
+    for (const ContactRun& run : each.runs) {
+      print({each.workload.name, "contact", run.name + ": step", each.threads, run.step.min, run.step.median}, out);
+      for (const Phase& phase : run.phases) {
+        const std::string name = fmt::format("{}: {}", run.name, phase.name);
+        print({each.workload.name, "contact", name, each.threads, phase.seconds.min, phase.seconds.median}, out);
+      }
+    }
+  }
   for (const ProjectionsResult& each : result.projections) {
     print({"", "projections", each.type, 1, each.seconds.min, each.seconds.median}, out);
   }

@@ -111,6 +111,31 @@ Json workload_json(const BenchResult& result, const WorkloadResult& workload) {
           {"set_up_seconds", set_up_json(workload.set_up)}};
 }
 
+Json contact_json(const std::vector<ContactResult>& results) {
+  Json list = Json::array();
+  for (const ContactResult& each : results) {
+    Json runs = Json::array();
+    for (const ContactRun& run : each.runs) {
+      Json phases = Json::object();
+      for (const Phase& phase : run.phases) phases[phase.name] = seconds_json(phase.seconds);
+      runs.push_back({{"name", run.name},
+                      {"step_seconds", seconds_json(run.step)},
+                      {"times_plain", ratio(run.step, each.runs.front().step)},
+                      {"phases", phases},
+                      {"iterations", run.iterations},
+                      {"backtracks", run.backtracks},
+                      {"contacts", run.contacts},
+                      {"pairs", run.pairs}});
+    }
+    list.push_back({{"name", each.workload.name},
+                    {"vertices", each.vertices},
+                    {"threads", each.threads},
+                    {"rounds", each.rounds},
+                    {"runs", runs}});
+  }
+  return list;
+}
+
 Json projections_json(const std::vector<ProjectionsResult>& projections) {
   Json list = Json::array();
   for (const ProjectionsResult& each : projections) {
@@ -125,7 +150,7 @@ Json projections_json(const std::vector<ProjectionsResult>& projections) {
 Json times_to_error_json(const std::vector<TimeToErrorResult>& cases) {
   Json list = Json::array();
   for (const TimeToErrorResult& each : cases) {
-    Json methods = Json::object();
+    Json methods = Json::object(), last_errors = Json::object();
     for (const MethodResult& method : each.methods) {
       Json levels = Json::array();
       for (const ErrorLevel& level : method.levels) {
@@ -134,9 +159,13 @@ Json times_to_error_json(const std::vector<TimeToErrorResult>& cases) {
                           {"seconds", level.iterations ? seconds_json(level.seconds) : Json(nullptr)}});
       }
       methods[method.name] = levels;
+      last_errors[method.name] = optional_json(method.last_error);
     }
-    list.push_back(
-        {{"name", each.name}, {"vertices", each.vertices}, {"uncertainty", each.uncertainty}, {"methods", methods}});
+    list.push_back({{"name", each.name},
+                    {"vertices", each.vertices},
+                    {"uncertainty", each.uncertainty},
+                    {"methods", methods},
+                    {"last_errors", last_errors}});
   }
   return list;
 }
@@ -164,6 +193,7 @@ std::string json_report(const BenchResult& result) {
                      {"machine", machine_json(result.machine)},
                      {"levels", levels_json(result.levels)},
                      {"workloads", workloads},
+                     {"contact", contact_json(result.contact)},
                      {"projections", projections_json(result.projections)},
                      {"time_to_error", times_to_error_json(result.times_to_error)},
                      {"against", against_json(result.against)}};

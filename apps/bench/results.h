@@ -87,6 +87,25 @@ struct WorkloadResult {
   const BaselineResult* baseline(std::string_view name) const;
 };
 
+/// Steps of a cloth that touches nothing, or colliders alone, or itself as well.
+struct ContactRun {
+  std::string name;
+  Seconds step;
+  std::vector<Phase> phases;  ///< of a step; the last is time for contact that the others have in them
+  double iterations = 0;      ///< of a step, in the mean, as all that follows
+  double backtracks = 0;      ///< moves taken back or shortened
+  double contacts = 0;        ///< vertices that touch a collider
+  double pairs = 0;           ///< of features of surfaces that push each other
+};
+
+struct ContactResult {
+  Workload workload;
+  std::int64_t vertices = 0;
+  int threads = 1;               ///< asked for
+  std::vector<ContactRun> runs;  ///< the first is plain
+  std::int64_t rounds = 0;       ///< each step is the fastest of so many
+};
+
 /// The projections of one type of constraint, on one thread.
 struct ProjectionsResult {
   std::string type;
@@ -102,8 +121,9 @@ struct ErrorLevel {
 };
 
 struct MethodResult {
-  std::string name;  ///< of the acceleration; "plain" for none
+  std::string name;  ///< of the acceleration; "plain" for none; "xpbd", "xpbd rows" (xpbd.h)
   std::vector<ErrorLevel> levels;
+  std::optional<double> last_error{};  ///< with the most iterations, where fewer do not do
 };
 
 struct TimeToErrorResult {
@@ -138,6 +158,7 @@ struct BenchResult {
   Machine machine;
   std::vector<Level> levels;
   std::vector<WorkloadResult> workloads;
+  std::vector<ContactResult> contact;
   std::vector<ProjectionsResult> projections;
   std::vector<TimeToErrorResult> times_to_error;
   std::vector<AgainstResult> against;

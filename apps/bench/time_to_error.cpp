@@ -3,16 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 
 #include "bench/timing.h"
+#include "bench/xpbd.h"
 #include "pliant/core/error.h"
+#include "pliant/core/stopwatch.h"
 
 namespace pliant_bench {
 namespace {
 
 using namespace pliant;
 
-constexpr Index most_iterations = 20'000;
 constexpr double seconds_a_level = 2;
 
 /// One step, taken as often as one likes.
@@ -23,16 +25,26 @@ class Step {
     const auto half = converged(most_iterations / 2);
     reference_ = converged(most_iterations);
     unit_ = 1;
-    unit_ = distance(prediction());
-    uncertainty_ = distance(half);
+    unit_ = error_of(prediction());
+    uncertainty_ = error_of(half);
+    simulation.restore(start_);
   }
   double uncertainty() const { return uncertainty_; }
+  double error_of(const Positions& positions) const {
+    double sum = 0, mass = 0;
+    for (Index i = 0; i < start_.vertex_count(); ++i) {
+      const Real m = start_.masses[static_cast<std::size_t>(i)];
+      sum += m * (positions.row(i) - reference_.row(i)).squaredNorm();
+      mass += m;
+    }
+    return std::sqrt(sum / mass) / unit_;
+  }
 
   double error_after(Acceleration acceleration, Index iterations) {
     const auto key = std::pair(acceleration, iterations);
     if (const auto found = errors_.find(key); found != errors_.end()) return found->second;
     take(acceleration, iterations);
-    return errors_[key] = distance(simulation_.state().positions);
+    return errors_[key] = error_of(simulation_.state().positions);
   }
   /// Of a step with so many, without what is done once.
   double seconds(Acceleration acceleration, Index iterations) {
@@ -61,15 +73,6 @@ class Step {
     q.col(2).array() -= 9.81 * h * h;
     return q;
   }
-  double distance(const Positions& positions) const {
-    double sum = 0, mass = 0;
-    for (Index i = 0; i < start_.vertex_count(); ++i) {
-      const Real m = start_.masses[static_cast<std::size_t>(i)];
-      sum += m * (positions.row(i) - reference_.row(i)).squaredNorm();
-      mass += m;
-    }
-    return std::sqrt(sum / mass) / unit_;
-  }
 
   Simulation& simulation_;
   const SolverSettings settings_;
@@ -80,20 +83,94 @@ class Step {
   std::map<std::pair<Acceleration, Index>, double> errors_;
 };
 
-/// The fewest that are enough, to a sixteenth; nothing where even the most are not.
-std::optional<Index> iterations_for(Step& step, Acceleration acceleration, double error) {
-  const auto is_enough = [&](Index iterations) { return step.error_after(acceleration, iterations) <= error; };
-  Index enough = 1;
-  while (!is_enough(enough)) {
-    if (enough >= most_iterations) return std::nullopt;
-    enough = std::min(2 * enough, most_iterations);
+/// One way to take the step. Errors are asked for from the largest to the smallest, times afterwards.
+class Method {
+ public:
+  virtual ~Method() = default;
+  /// The fewest that are enough; nothing where even the most are not.
+  virtual std::optional<Index> iterations_for(double error) = 0;
+  virtual double seconds(Index iterations) = 0;
+  /// The error with the most iterations, where these have been asked for.
+  virtual std::optional<double> last_error() = 0;
+};
+
+class Projective final : public Method {
+ public:
+  Projective(Step& step, Acceleration acceleration) : step_(step), acceleration_(acceleration) {}
+  /// To a sixteenth.
+  std::optional<Index> iterations_for(double error) override {
+    const auto is_enough = [&](Index iterations) { return step_.error_after(acceleration_, iterations) <= error; };
+    Index enough = 1;
+    while (!is_enough(enough)) {
+      if (enough >= most_iterations) {
+        last_error_ = step_.error_after(acceleration_, most_iterations);
+        return std::nullopt;
+      }
+      enough = std::min(2 * enough, most_iterations);
+    }
+    Index too_few = enough / 2;
+    while (enough - too_few > std::max<Index>(1, enough / 16)) {
+      const Index middle = (enough + too_few) / 2;
+      (is_enough(middle) ? enough : too_few) = middle;
+    }
+    return enough;
   }
-  Index too_few = enough / 2;
-  while (enough - too_few > std::max<Index>(1, enough / 16)) {
-    const Index middle = (enough + too_few) / 2;
-    (is_enough(middle) ? enough : too_few) = middle;
+  double seconds(Index iterations) override { return step_.seconds(acceleration_, iterations); }
+  std::optional<double> last_error() override { return last_error_; }
+
+ private:
+  Step& step_;
+  Acceleration acceleration_;
+  std::optional<double> last_error_;
+};
+
+class Sweeping final : public Method {
+ public:
+  Sweeping(const Step& step, const Simulation& simulation, Multipliers multipliers)
+      : step_(step), xpbd_(simulation, multipliers) {}
+  std::optional<Index> iterations_for(double error) override {
+    while (!(error_ <= error) && sweeps_ < most_iterations) {
+      xpbd_.sweep();
+      ++sweeps_;
+      error_ = step_.error_of(xpbd_.positions());
+    }
+    return error_ <= error ? std::optional(sweeps_) : std::nullopt;
   }
-  return enough;
+  /// All sweeps take the same time, so of many some are timed.
+  double seconds(Index iterations) override {
+    constexpr Index most_timed = 200;
+    const Index timed = std::min(iterations, most_timed);
+    xpbd_.begin_step();
+    const Stopwatch watch;
+    for (Index i = 0; i < timed; ++i) xpbd_.sweep();
+    return watch.seconds() * static_cast<double>(iterations) / static_cast<double>(timed);
+  }
+  std::optional<double> last_error() override {
+    return sweeps_ == most_iterations ? std::optional(error_) : std::nullopt;
+  }
+
+ private:
+  const Step& step_;
+  Xpbd xpbd_;
+  Index sweeps_ = 0;
+  double error_ = 1;
+};
+
+struct NamedMethod {
+  std::string name;
+  std::unique_ptr<Method> method;
+};
+
+/// `simulation` at the beginning of the step.
+std::vector<NamedMethod> methods_of(Step& step, const Simulation& simulation) {
+  std::vector<NamedMethod> methods;
+  methods.push_back({"plain", std::make_unique<Projective>(step, Acceleration::none)});
+  methods.push_back({"lbfgs", std::make_unique<Projective>(step, Acceleration::lbfgs)});
+  if (Xpbd::takes(simulation)) {
+    methods.push_back({"xpbd", std::make_unique<Sweeping>(step, simulation, Multipliers::one)});
+    methods.push_back({"xpbd rows", std::make_unique<Sweeping>(step, simulation, Multipliers::each_row)});
+  }
+  return methods;
 }
 
 }  // namespace
@@ -107,22 +184,22 @@ TimeToErrorResult measure_time_to_error(const StepCase& step_case, const BenchOp
   Step step(scene.simulation, settings);
   TimeToErrorResult result{
       step_case.name, step_case.description, scene.simulation.state().vertex_count(), step.uncertainty(), {}};
-  constexpr std::array<std::pair<const char*, Acceleration>, 2> methods = {
-      {{"plain", Acceleration::none}, {"lbfgs", Acceleration::lbfgs}}};
-  for (const auto& [name, acceleration] : methods) {
-    MethodResult method{name, {}};
+  const std::vector<NamedMethod> methods = methods_of(step, scene.simulation);
+  for (const NamedMethod& each : methods) {
+    MethodResult method{each.name, {}, {}};
     for (const double error : error_levels) {
       const bool can_be_told = error > 2 * step.uncertainty();
-      method.levels.push_back({error, can_be_told ? iterations_for(step, acceleration, error) : std::nullopt, {}});
+      method.levels.push_back({error, can_be_told ? each.method->iterations_for(error) : std::nullopt, {}});
     }
+    method.last_error = each.method->last_error();
     result.methods.push_back(std::move(method));
   }
   for (std::size_t level = 0; level < error_levels.size(); ++level) {
-    std::array<Samples, methods.size()> samples;
+    std::vector<Samples> samples(methods.size());
     repeat(options.repeats, seconds_a_level, [&] {
       for (std::size_t i = 0; i < methods.size(); ++i) {
         const std::optional<Index> iterations = result.methods[i].levels[level].iterations;
-        if (iterations) samples[i].add(step.seconds(methods[i].second, *iterations));
+        if (iterations) samples[i].add(methods[i].method->seconds(*iterations));
       }
     });
     for (std::size_t i = 0; i < methods.size(); ++i) result.methods[i].levels[level].seconds = samples[i].spread();

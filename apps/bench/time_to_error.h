@@ -9,9 +9,11 @@ namespace pliant_bench {
 /// Distances from the converged end of the step, root mean square over the mass, as shares of that of the prediction,
 /// q + h v + h² g.
 inline constexpr std::array<double, 3> error_levels = {1e-2, 1e-4, 1e-6};
+/// No more are tried.
+inline constexpr pliant::Index most_iterations = 20'000;
 
-/// Finds the iterations that each acceleration needs, then times steps with so many in turns. Throws Error(diverged)
-/// where a step does.
+/// Finds the iterations that each acceleration needs, and the sweeps of XPBD where nothing touches; then times so many
+/// in turns. Throws Error(diverged) where a step does.
 TimeToErrorResult measure_time_to_error(const StepCase& step_case, const BenchOptions& options);
 
 }  // namespace pliant_bench

@@ -21,7 +21,8 @@ std::vector<Workload> workloads_of_size(Index size) {
   return {{"curtain", Kind::curtain, size, 10},
           {"curtain-b", Kind::curtain_bending, size, 10},
           {"cloth", Kind::cloth, size, 10},
-          {"bar", Kind::bar, size, 10}};
+          {"bar", Kind::bar, size, 10},
+          {"falling", Kind::falling, size, 10}};
 }
 
 /// Waves along the body and a turn, a tenth of its size.
@@ -79,7 +80,8 @@ std::vector<Workload> standard_workloads() {
           {"W2", Kind::curtain, 100, 10}, {"W2b", Kind::curtain_bending, 100, 10},
           {"W3", Kind::curtain, 316, 10}, {"W3b", Kind::curtain_bending, 316, 10},
           {"W4", Kind::bar, 10, 10},      {"W5", Kind::cloth, 100, 10},
-          {"W6", Kind::cloth, 316, 10}};
+          {"W6", Kind::cloth, 316, 10},   {"W7a", Kind::falling, 40, 10},
+          {"W7b", Kind::falling, 100, 10}};
 }
 
 std::vector<Workload> choose_workloads(const std::vector<std::string>& names, std::optional<Index> size) {
@@ -102,7 +104,8 @@ std::vector<Workload> choose_workloads(const std::vector<std::string>& names, st
       fail_input("--workloads: there is no '" + printable(name) + "'; " + suggestion_text(name, known));
     }
     if (in_fixed != fixed.end() && size) {
-      fail_input("--workloads: " + name + " has a size of its own; with --size give curtain, curtain-b, cloth or bar");
+      fail_input("--workloads: " + name +
+                 " has a size of its own; with --size give curtain, curtain-b, cloth, bar or falling");
     }
     if (in_sized != sized.end() && !size) fail_input("--workloads: " + name + " needs its size; give --size as well");
     chosen.push_back(in_fixed != fixed.end() ? *in_fixed : *in_sized);
@@ -130,7 +133,10 @@ std::vector<Index> pinned_vertices(const Workload& workload, const Mesh& mesh) {
 Mesh make_mesh(const Workload& workload) {
   const Index n = workload.size;
   Mesh mesh = workload.kind != Kind::bar
-                  ? grid({.columns = n, .rows = n, .size = {1, 1}})
+                  ? grid({.columns = n,
+                          .rows = n,
+                          .size = {1, 1},
+                          .plane = workload.kind == Kind::falling ? Plane::xy : Plane::xz})
                   : bar({.cells = {4 * n, n, n}, .size = {4, 1, 1}, .cut = TetrahedronCut::five});
   return workload.order == MeshOrder::shuffled ? shuffled(mesh) : mesh;
 }

@@ -143,12 +143,14 @@ void add_bench_command(CLI::App& program) {
   command
       ->add_option("--workloads", arguments->workloads,
                    "W1, W1b, W2, W2b, W3, W3b (curtains; b: with bending), W4 (bar), W5, W6 (cloth of triangles and "
-                   "hinges); or, with --size, curtain, curtain-b, cloth, bar")
+                   "hinges), W7a, W7b (that cloth falls onto a sphere: steps with contact); or, with --size, curtain, "
+                   "curtain-b, cloth, bar, falling")
       ->delimiter(',');
   add_number(*command, "--size", arguments->size,
              "Vertices along a side of a square curtain, cells across a bar that is four times as long");
   add_choice(*command, "--order", arguments->order, "Vertices and elements numbered row by row, or at random");
-  add_number(*command, "--repeats", arguments->repeats, "Of everything; default: 5 to 200, about 3 s a workload");
+  add_number(*command, "--repeats", arguments->repeats,
+             "Of everything; default: 5 to 200, about 3 s a workload; 3 of W7");
   command->add_option("--threads", arguments->threads, "Default: 1,2; the phases are those of the first")
       ->delimiter(',');
   command
@@ -163,8 +165,9 @@ void add_bench_command(CLI::App& program) {
   add_choice(*command, "--bandwidth", arguments->options.bandwidth, "Measure how fast one thread reads memory");
   command
       ->add_option("--time-to-error", arguments->time_to_error,
-                   "How many iterations and how long until a step is within 1e-2, 1e-4, 1e-6 of its end; all, or some "
-                   "of hanging, swinging, falling, dress, bar. Measured alone; takes minutes")
+                   "How many iterations and how long until a step is within 1e-2, 1e-4, 1e-6 of its end: plain, with "
+                   "L-BFGS, and without contact with XPBD; all, or some of hanging, swinging, falling, dress, bar. "
+                   "Measured alone; takes minutes")
       ->delimiter(',');
   command
       ->add_option("--against", arguments->options.against,
@@ -177,7 +180,7 @@ void add_bench_command(CLI::App& program) {
       ->type_name("FILE");
   command->footer(
       "Examples:\n"
-      "  pliant bench                                        all workloads, about a minute and a half\n"
+      "  pliant bench                                        all workloads, about two minutes\n"
       "  pliant bench --workloads W2,W4 --json bench.json    two of them, with a file for programs\n"
       "  pliant bench --size 200                             curtains of 200 x 200 vertices\n"
       "  pliant bench --time-to-error hanging,falling        how soon steps converge\n"

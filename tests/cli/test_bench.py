@@ -70,15 +70,22 @@ class Bench(unittest.TestCase):
         self.assertEqual([case["name"] for case in result["time_to_error"]], ["swinging", "bar"])
         for case in result["time_to_error"]:
             self.assertLess(case["uncertainty"], 1e-8)
-            self.assertEqual(list(case["methods"]), ["plain", "lbfgs"])
-            for levels in case["methods"].values():
+            self.assertEqual(list(case["methods"]), ["plain", "lbfgs", "xpbd", "xpbd rows"])
+            for name, levels in case["methods"].items():
                 self.assertEqual([level["error"] for level in levels], [1e-2, 1e-4, 1e-6])
                 known = [level["iterations"] for level in levels if level["iterations"] is not None]
                 self.assertEqual(known, sorted(known))
-                self.check_seconds(levels[0]["seconds"])
-            fewest = [case["methods"][name][1]["iterations"] for name in ("lbfgs", "plain")]
-            self.assertLess(fewest[0], fewest[1])
+                if name == "xpbd":
+                    self.assertEqual(known, [])
+                    self.assertGreater(case["last_errors"][name], 1e-2)
+                else:
+                    self.assertEqual(len(known), 3)
+                    self.assertIsNone(case["last_errors"][name])
+                    self.check_seconds(levels[0]["seconds"])
+            fewest = [case["methods"][name][1]["iterations"] for name in ("lbfgs", "plain", "xpbd rows")]
+            self.assertLess(fewest[0], min(fewest[1:]))
         self.assertIn("\nswinging: a cloth of W5", done.stdout)
+        self.assertRegex(done.stdout, r"\n  xpbd  +- not reached  +- not reached  +- not reached  [0-9.e-]+ left")
         rows = list(csv.DictReader(io.StringIO((self.folder / "b.csv").read_text())))
         self.assertIn("time_to_error", {row["table"] for row in rows})
 
@@ -143,6 +150,34 @@ class Bench(unittest.TestCase):
                 [row] = [row for row in rows if (row["workload"], row["table"], row["name"]) ==
                          (workload["name"], "baseline_" + each["what"], each["name"])]
                 self.assertEqual(float(row["median_s"]), each["seconds"]["median"])
+
+    def test_steps_with_contact_beside_plain_ones(self):
+        done = self.bench("--workloads", "falling", "--size", 8, "--repeats", 2, "--threads", 2, "--bandwidth", "without",
+                          "--projections", "without", "--json", "b.json", "--csv", "b.csv")
+        result = json.loads((self.folder / "b.json").read_text())
+        self.assertEqual(result["workloads"], [])
+        [cloth] = result["contact"]
+        self.assertEqual((cloth["name"], cloth["vertices"], cloth["rounds"]), ("falling", 64, 2))
+        plain, colliders, surfaces = cloth["runs"]
+        self.assertEqual([run["name"] for run in cloth["runs"]], ["plain", "colliders alone", "surfaces too"])
+        for run in cloth["runs"]:
+            self.check_seconds(run["step_seconds"])
+            self.assertEqual(run["iterations"], 10)  # none is at rest
+            self.assertAlmostEqual(run["times_plain"],
+                                   run["step_seconds"]["median"] / plain["step_seconds"]["median"])
+            for phase in ("local steps", "global steps"):
+                self.assertGreater(run["phases"][phase]["median"], 0)
+                self.assertLess(run["phases"][phase]["min"], run["step_seconds"]["median"])
+        self.assertEqual((plain["contacts"], plain["phases"]["contact, in these"]["median"]), (0, 0))
+        self.assertEqual((plain["pairs"], colliders["pairs"]), (0, 0))
+        for run in (colliders, surfaces):
+            self.assertGreater(run["contacts"], 1)
+            self.assertGreater(run["phases"]["contact, in these"]["min"], 0)
+        self.assertRegex(done.stdout, r"\n  surfaces too +[0-9.]+ +[0-9.]+ ")
+        rows = list(csv.DictReader(io.StringIO((self.folder / "b.csv").read_text())))
+        [row] = [row for row in rows if (row["table"], row["name"]) == ("contact", "surfaces too: step")]
+        self.assertEqual(float(row["median_s"]), surfaces["step_seconds"]["median"])
+        self.assertEqual((row["threads"], cloth["threads"]), ("2", 2))
 
     def test_projections_alone(self):
         result = json.loads(self.bench("--projections", "only", "--repeats", 1, "--bandwidth", "without",

@@ -15,6 +15,9 @@
 #include "pliant/core/error.h"
 #include "pliant/mesh/shapes.h"
 #include "pliant/timeline/timeline.h"
+#ifdef PLIANT_HAS_BENCH
+#include "bench/xpbd.h"
+#endif
 
 namespace {
 
@@ -192,6 +195,24 @@ long allocations_of_surfaces(Index threads) {
   return count;
 }
 
+#ifdef PLIANT_HAS_BENCH
+long allocations_of_sweeps() {
+  Simulation simulation;
+  const BodyId body = simulation.add_body(grid({.columns = 5, .rows = 5}), Mass::per_vertex(1));
+  simulation.add(body, TriangleStrain{});
+  simulation.add(body, HingeBending{});
+  simulation.add(body, Position{.on = {0}, .hold = Hold::soft});
+  pliant_bench::Xpbd one(simulation, pliant_bench::Multipliers::one);
+  pliant_bench::Xpbd each_row(simulation, pliant_bench::Multipliers::each_row);
+  const long before = allocations;
+  for (pliant_bench::Xpbd* xpbd : {&one, &each_row}) {
+    xpbd->begin_step();
+    for (int i = 0; i < 3; ++i) xpbd->sweep();
+  }
+  return allocations - before;
+}
+#endif
+
 /// Prints what went wrong; true when nothing did.
 bool passes(const SolverSettings& settings) {
   try {
@@ -247,5 +268,10 @@ int main() {
     if (count > 0) std::printf("%ld allocations in searches for pairs, %d threads\n", count, threads);
     all_pass = all_pass && count == 0;
   }
+#ifdef PLIANT_HAS_BENCH
+  const long of_sweeps = allocations_of_sweeps();
+  if (of_sweeps > 0) std::printf("%ld allocations in sweeps of XPBD\n", of_sweeps);
+  all_pass = all_pass && of_sweeps == 0;
+#endif
   return all_pass ? 0 : 1;
 }
