@@ -107,8 +107,10 @@ TimeToErrorResult measure_time_to_error(const StepCase& step_case, const BenchOp
   Step step(scene.simulation, settings);
   TimeToErrorResult result{
       step_case.name, step_case.description, scene.simulation.state().vertex_count(), step.uncertainty(), {}};
-  constexpr std::array<std::pair<const char*, Acceleration>, 2> methods = {
-      {{"plain", Acceleration::none}, {"lbfgs", Acceleration::lbfgs}}};
+  constexpr std::array<std::pair<const char*, Acceleration>, 4> methods = {{{"plain", Acceleration::none},
+                                                                            {"lbfgs", Acceleration::lbfgs},
+                                                                            {"anderson", Acceleration::anderson},
+                                                                            {"chebyshev", Acceleration::chebyshev}}};
   for (const auto& [name, acceleration] : methods) {
     MethodResult method{name, {}};
     for (const double error : error_levels) {
