@@ -166,6 +166,8 @@ std::vector<NamedMethod> methods_of(Step& step, const Simulation& simulation) {
   std::vector<NamedMethod> methods;
   methods.push_back({"plain", std::make_unique<Projective>(step, Acceleration::none)});
   methods.push_back({"lbfgs", std::make_unique<Projective>(step, Acceleration::lbfgs)});
+  methods.push_back({"anderson", std::make_unique<Projective>(step, Acceleration::anderson)});
+  methods.push_back({"chebyshev", std::make_unique<Projective>(step, Acceleration::chebyshev)});
   if (Xpbd::takes(simulation)) {
     methods.push_back({"xpbd", std::make_unique<Sweeping>(step, simulation, Multipliers::one)});
     methods.push_back({"xpbd rows", std::make_unique<Sweeping>(step, simulation, Multipliers::each_row)});

@@ -27,7 +27,7 @@ constexpr std::int64_t most_work = 800000;  // steps times vertices
 bool is_accelerated(const Simulation& simulation) {
   const pliant::Acceleration chosen = simulation.settings().acceleration;
   const bool has_contact = simulation.contact().surfaces || !simulation.colliders().empty();
-  return chosen == pliant::Acceleration::lbfgs || (chosen == pliant::Acceleration::automatic && has_contact);
+  return chosen == pliant::Acceleration::automatic ? has_contact : chosen != pliant::Acceleration::none;
 }
 
 /// Shares of its height that a swing of a second keeps in that time.

@@ -70,7 +70,7 @@ class Bench(unittest.TestCase):
         self.assertEqual([case["name"] for case in result["time_to_error"]], ["swinging", "bar"])
         for case in result["time_to_error"]:
             self.assertLess(case["uncertainty"], 1e-8)
-            self.assertEqual(list(case["methods"]), ["plain", "lbfgs", "xpbd", "xpbd rows"])
+            self.assertEqual(list(case["methods"]), ["plain", "lbfgs", "anderson", "chebyshev", "xpbd", "xpbd rows"])
             for name, levels in case["methods"].items():
                 self.assertEqual([level["error"] for level in levels], [1e-2, 1e-4, 1e-6])
                 known = [level["iterations"] for level in levels if level["iterations"] is not None]

@@ -76,9 +76,7 @@ if(EMSCRIPTEN)
     "pair search: the same for any number of threads"
     "pair search: too many pairs end in a message*"
     "rigid balance: the same bits for any number of threads"
-    "the same bits for every number of threads*"
-    # a bound on a count that follows the rounding of a wild scene: 5536 here, where 5000 are allowed
-    "common motion: a shirt whirls with its figure*")
+    "the same bits for every number of threads*")
 endif()
 
 if(WIN32)

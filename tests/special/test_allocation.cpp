@@ -243,9 +243,10 @@ int main() {
       for (const Start start : {Start::prediction, Start::positions}) {
         all_pass = passes({.start = start, .backend = backend, .threads = threads}) && all_pass;
       }
-      all_pass =
-          passes({.iterations = 12, .acceleration = Acceleration::lbfgs, .backend = backend, .threads = threads}) &&
-          all_pass;
+      for (const Acceleration acceleration : {Acceleration::lbfgs, Acceleration::anderson, Acceleration::chebyshev}) {
+        all_pass = passes({.iterations = 12, .acceleration = acceleration, .backend = backend, .threads = threads}) &&
+                   all_pass;
+      }
       all_pass = passes({.energy_projection = 1, .backend = backend, .threads = threads}) && all_pass;
       for (const Integrator integrator : {Integrator::implicit_euler, Integrator::bdf2}) {
         const SolverSettings settings{

@@ -40,18 +40,28 @@ Real scalar_product(const Positions& a, const Positions& b) {
 
 }  // namespace
 
+const Accelerator& Descent::accelerator() const {
+  if (chosen_ == Acceleration::anderson) return anderson_;
+  if (chosen_ == Acceleration::chebyshev) return chebyshev_;
+  return lbfgs_;  // with `none` as well, whose plain moves are watched where they must be
+}
+
+Accelerator& Descent::accelerator() {
+  return const_cast<Accelerator&>(std::as_const(*this).accelerator());
+}
+
 void Descent::begin(const StepContext& context) {
   const auto& groups = context.system.groups();
   has_potentials_ = !std::ranges::all_of(groups, [](const ConstraintGroup* group) { return group->is_projective(); });
   checks_plain_moves_ = context.contact.is_active() || has_potentials_;
-  const Acceleration chosen = context.settings.acceleration;
-  is_accelerated_ = chosen == Acceleration::lbfgs || (chosen == Acceleration::automatic && checks_plain_moves_);
+  chosen_ = context.settings.acceleration;
+  is_accelerated_ = chosen_ == Acceleration::automatic ? checks_plain_moves_ : chosen_ != Acceleration::none;
   has_moved_ = false;
   is_first_ = true;
   steep_energy_ = 0;
   have_pairs_pushed_ = false;
   balance_.begin();
-  if (is_needed()) lbfgs_.begin(context.system.vertex_count());
+  if (is_needed()) accelerator().begin(context.system.vertex_count());
 }
 
 LocalResult Descent::evaluate(const StepContext& context, WorkingState& work) const {
@@ -64,9 +74,9 @@ LocalResult Descent::evaluate(const StepContext& context, WorkingState& work) co
 /// stops and its neighbors that go on is stretched.
 bool Descent::must_go_back(const LocalResult& local) const {
   if (!has_moved_) return false;
-  const bool is_known = !has_potentials_ && !was_cut_ && lbfgs_.is_plain() && !(local.contact > 0) &&
-                        !(lbfgs_.local_before().contact > 0);
-  return !is_known && lbfgs_.has_risen(local);
+  const bool is_known = !has_potentials_ && !was_cut_ && accelerator().is_plain() && !(local.contact > 0) &&
+                        !(accelerator().local_before().contact > 0);
+  return !is_known && accelerator().has_risen(local);
 }
 
 LocalResult Descent::local_step(const StepContext& context, WorkingState& work, StepReport& report) {
@@ -85,15 +95,15 @@ LocalResult Descent::local_step(const StepContext& context, WorkingState& work, 
 /// A move with memory that went too far is made shorter, along itself, where surfaces push each other: the memory of
 /// how stiff they are is worth more than the move. Against colliders a plain move in its place does better.
 void Descent::go_back(Index cuts, const LocalResult& local, const StepContext& context, WorkingState& work) {
-  const bool may_scale = cuts == 0 && !lbfgs_.is_plain() && context.contact.pairs_push();
-  const Real share = may_scale ? lbfgs_.best_share(local) : 0;
+  const bool may_scale = cuts == 0 && !accelerator().is_plain() && context.contact.pairs_push();
+  const Real share = may_scale ? accelerator().best_share(local) : 0;
   if (share > least_share) {
-    lbfgs_.scale_move(share, work.positions);
-  } else if (!lbfgs_.is_plain()) {
+    accelerator().scale_move(share, work.positions);
+  } else if (!accelerator().is_plain()) {
     move_plainly(context, work);
     return;
   } else {
-    lbfgs_.shorten(cuts < most_cuts ? next_cut(local) : 0, work.solution, work.positions);
+    accelerator().shorten(cuts < most_cuts ? next_cut(local) : 0, work.solution, work.positions);
   }
   if (cuts == most_cuts) forget();
   hold_back(context, work);
@@ -103,7 +113,7 @@ void Descent::go_back(Index cuts, const LocalResult& local, const StepContext& c
 /// parabola leaves next to nothing, the objective has risen with the length to a higher power, of volumes the sixth.
 Real Descent::next_cut(const LocalResult& local) const {
   if (!has_potentials_) return cut;
-  const Real share = lbfgs_.best_share(local);
+  const Real share = accelerator().best_share(local);
   if (!(share > 0)) return cut;  // the slope has been forgotten
   return std::clamp(share > least_of_parabola ? share : std::pow(share, 0.2), smallest_cut, cut);
 }
@@ -132,8 +142,8 @@ LocalResult Descent::begin_lower(const LocalResult& local, const StepContext& co
 
 /// In place of the last move.
 void Descent::move_plainly(const StepContext& context, WorkingState& work) {
-  if (context.contact.is_active()) context.contact.find_forces(lbfgs_.positions_before(), context.threads);
-  lbfgs_.move_plainly(work.solution, curvature(context, work), work.positions);
+  if (context.contact.is_active()) context.contact.find_forces(accelerator().positions_before(), context.threads);
+  accelerator().move_plainly(work.solution, curvature(context, work), work.positions);
   has_moved_ = checks_plain_moves_;
   hold_back(context, work);
 }
@@ -143,11 +153,11 @@ void Descent::move_plainly(const StepContext& context, WorkingState& work) {
 void Descent::hold_back(const StepContext& context, WorkingState& work) {
   was_cut_ = false;
   if (!context.contact.is_active()) return;
-  const HeldBack held = context.contact.hold_back(lbfgs_.positions_before(), work.positions, context.threads);
+  const HeldBack held = context.contact.hold_back(accelerator().positions_before(), work.positions, context.threads);
   was_cut_ = held.is_shortened;
-  if (held.has_moved || held.has_new_potential) lbfgs_.forget();
+  if (held.has_moved || held.has_new_potential) accelerator().forget();
   if (!held.has_new_potential) return;
-  if (lbfgs_.is_plain()) {
+  if (accelerator().is_plain()) {
     has_moved_ = false;
   } else {
     move_plainly(context, work);
@@ -156,13 +166,14 @@ void Descent::hold_back(const StepContext& context, WorkingState& work) {
 
 void Descent::move(const LocalResult& local, const StepContext& context, WorkingState& work, StepReport& report) {
   solve(local, context, work, report);
-  if (!is_accelerated_ || has_left_steep_place(local)) lbfgs_.forget();
-  lbfgs_.prepare(local, work.residual, work.solution, context.threads);
-  lbfgs_.move(work.solution, lbfgs_.is_plain() ? curvature(context, work) : 0, work.positions, context.threads);
+  if (!is_accelerated_ || has_left_steep_place(local)) accelerator().forget();
+  accelerator().prepare(local, work.residual, work.solution, context.threads);
+  accelerator().move(work.solution, accelerator().is_plain() ? curvature(context, work) : 0, work.positions,
+                     context.threads);
   has_moved_ = true;
   steep_energy_ = context.contact.steep_energy();
   have_pairs_pushed_ |= context.contact.pairs_push();
-  if (!lbfgs_.is_plain() && have_pairs_pushed_ && is_too_long(context, work)) {
+  if (!accelerator().is_plain() && have_pairs_pushed_ && is_too_long(context, work)) {
     move_plainly(context, work);
   } else {
     hold_back(context, work);
@@ -172,7 +183,7 @@ void Descent::move(const LocalResult& local, const StepContext& context, Working
 /// Whether the last move has led out of where the potential of pairs is a logarithm, which is far stiffer than what it
 /// is there: what such a move says of contact is wrong from now on.
 bool Descent::has_left_steep_place(const LocalResult& local) const {
-  const Real before = lbfgs_.local_before().objective();
+  const Real before = accelerator().local_before().objective();
   return has_moved_ && local.objective() < steep_fall * before && steep_energy_ > mostly * before;
 }
 
@@ -180,11 +191,11 @@ bool Descent::has_left_steep_place(const LocalResult& local) const {
 /// know next to no resistance, and such a move is taken back anyway, or cut at thousands of planes.
 bool Descent::is_too_long(const StepContext& context, const WorkingState& work) const {
   const auto longest_of = [](const auto& ways) { return std::sqrt(ways.rowwise().squaredNorm().maxCoeff()); };
-  const Real longest = longest_of(work.positions - lbfgs_.positions_before());
+  const Real longest = longest_of(work.positions - accelerator().positions_before());
   const Real of_solve = longest_of(work.solution);
   if (longest > longest_of_memory * of_solve) return true;
   if (longest < longest_of_step * longest_of(work.prediction - work.begin.positions)) return false;
-  return longest > longest_of_memory * lbfgs_.plain_length(curvature(context, work)) * of_solve;
+  return longest > longest_of_memory * accelerator().plain_length(curvature(context, work)) * of_solve;
 }
 
 /// x = B⁻¹ r, with contact in B where that dominates.
@@ -250,7 +261,7 @@ void Descent::factorize(const StepContext& context, WorkingState& work, StepRepo
 /// bodies as a whole can follow: the iterations cannot any more.
 void Descent::check_last_move(const StepContext& context, WorkingState& work, StepReport& report) {
   if (!has_moved_ && checks_plain_moves_) evaluate(context, work);  // cannot be judged, but its residual is reported
-  if (!has_moved_ || (lbfgs_.is_plain() && !checks_plain_moves_)) return;
+  if (!has_moved_ || (accelerator().is_plain() && !checks_plain_moves_)) return;
   LocalResult local = local_step(context, work, report);
   settle(context, work, local);
   if (!context.contact.pairs_push()) return;

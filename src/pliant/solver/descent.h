@@ -2,6 +2,8 @@
 // From iterate to iterate where a plain global step does not do: with acceleration, which must be watched, and with
 // contact and energies that are no projections, to which the factor is no bound. Of each move the objective is seen
 // where it led; one that has raised it is taken back, made plainly, and then shortened.
+#include "pliant/solver/acceleration/anderson.h"
+#include "pliant/solver/acceleration/chebyshev.h"
 #include "pliant/solver/acceleration/lbfgs.h"
 #include "pliant/solver/rigid_balance.h"
 
@@ -18,7 +20,7 @@ class Descent {
   /// Moves free components that touch something rigidly to where they are in balance.
   void settle(const StepContext& context, WorkingState& work, LocalResult& local);
   /// The objective is another one from here on.
-  void forget() { lbfgs_.forget(); }
+  void forget() { accelerator().forget(); }
   /// q ← q + α p, not into a collider.
   void move(const LocalResult& local, const StepContext& context, WorkingState& work, StepReport& report);
   /// Judges the last move, once it is known to be the last, and finds the residual where it led.
@@ -28,6 +30,8 @@ class Descent {
   static constexpr Index most_cuts = 5;
   static constexpr Real cut = 0.4;
 
+  const Accelerator& accelerator() const;
+  Accelerator& accelerator();
   LocalResult evaluate(const StepContext& context, WorkingState& work) const;
   LocalResult begin_lower(const LocalResult& local, const StepContext& context, WorkingState& work) const;
   bool must_go_back(const LocalResult& local) const;
@@ -44,6 +48,9 @@ class Descent {
   bool is_too_long(const StepContext& context, const WorkingState& work) const;
 
   Lbfgs lbfgs_;
+  Anderson anderson_;
+  Chebyshev chebyshev_;
+  Acceleration chosen_ = Acceleration::lbfgs;
   RigidBalance balance_;
   bool is_accelerated_ = false;
   bool has_potentials_ = false;      // of elastic materials: the factor is no bound

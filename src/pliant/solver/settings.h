@@ -22,12 +22,12 @@ constexpr std::array<std::string_view, 2> choice_names(Start) {
 }
 
 /// How a global solve becomes the next iterate. `none`: the plain algorithm. `lbfgs`: L-BFGS, with the factor as its
-/// first guess of the inverse Hessian. `automatic`: L-BFGS where there are colliders or surfaces that touch, since
-/// friction is wrong after a few iterations without it, and where there are elastic materials with energies of their
-/// own; else none.
-enum class Acceleration { automatic, none, lbfgs };
-constexpr std::array<std::string_view, 3> choice_names(Acceleration) {
-  return {"automatic", "none", "lbfgs"};
+/// first guess of the inverse Hessian. `anderson`: Anderson acceleration. `chebyshev`: Chebyshev semi-iteration.
+/// `automatic`: L-BFGS where there are colliders or surfaces that touch, since friction is wrong after a few iterations
+/// without it, and where there are elastic materials with energies of their own; else none.
+enum class Acceleration { automatic, none, lbfgs, anderson, chebyshev };
+constexpr std::array<std::string_view, 5> choice_names(Acceleration) {
+  return {"automatic", "none", "lbfgs", "anderson", "chebyshev"};
 }
 
 /// Which library factorizes the system matrix. `automatic`: CHOLMOD where this build has it, else Eigen.
@@ -69,7 +69,7 @@ struct SolverSettings {
   Real step_error = 0.25;
   /// 5 to 1e6: of automatic iterations no more than so many.
   Index most_iterations = 100;
-  /// `lbfgs` is far nearer to convergence after the same number of iterations, each 1.2 to 1.4 times as slow.
+  /// All but `none` are far nearer to convergence after the same number of iterations, each 1.1 to 1.6 times as slow.
   Acceleration acceleration = Acceleration::automatic;
   /// c [1/s], ≥ 0: the amplitude of vibrations decays as e^(−ct); flight and turning of a body are left alone.
   Real damping = 0;
@@ -113,11 +113,14 @@ struct SolverSettings {
           self.step_error);
     field(OptionInfo{"most_iterations", "", "of automatic iterations no more than so many", Range{5, 1e6}},
           self.most_iterations);
-    field(OptionInfo{"acceleration", "",
-                     "`none`: the plain algorithm; `lbfgs`: L-BFGS, which is far nearer to convergence after the "
-                     "same number of iterations, each of them 1.2 to 1.4 times as slow; `automatic`: `lbfgs` where "
-                     "there are colliders, surfaces touch, or materials have energies of their own"},
-          self.acceleration);
+    field(
+        OptionInfo{
+            "acceleration", "",
+            "`none`: the plain algorithm; `lbfgs`: L-BFGS, which is far nearer to convergence after the "
+            "same number of iterations, each of them 1.2 to 1.6 times as slow; `chebyshev`: Chebyshev semi-iteration, "
+            "as near for less time in cloth without colliders; `anderson`: Anderson acceleration, the same in solids; "
+            "`automatic`: `lbfgs` where there are colliders, surfaces touch, or materials have energies of their own"},
+        self.acceleration);
     field(
         OptionInfo{
             "damping", "1/s",

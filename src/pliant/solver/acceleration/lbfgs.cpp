@@ -5,53 +5,13 @@
 #include <utility>
 
 namespace pliant {
+
 namespace {
-
-constexpr Index vertices_at_once = 512;  // whose sums are added in order, so that the bits are those of one thread
-
-/// The first of so many entries goes behind the others.
-template <class List>
-void drop_first(List& list, std::size_t count) {
-  const auto begin = list.begin();
-  std::rotate(begin, begin + 1, begin + static_cast<std::ptrdiff_t>(count));
-}
-
-/// aᵀ c, in eight sums side by side, which the processor adds at once.
-template <class Number>
-Real dot(const Number* a, const Real* c, std::size_t count) {
-  constexpr std::size_t lanes = 8;
-  std::array<Real, lanes> sums = {};
-  std::size_t i = 0;
-  for (; i + lanes <= count; i += lanes) {
-    for (std::size_t lane = 0; lane < lanes; ++lane) sums[lane] += static_cast<Real>(a[i + lane]) * c[i + lane];
-  }
-  for (std::size_t lane = 0; i < count; ++i, ++lane) sums[lane] += static_cast<Real>(a[i]) * c[i];
-  Real sum = 0;
-  for (const Real lane : sums) sum += lane;
-  return sum;
-}
-
-/// c ← c + alpha a + beta b
-template <class Number>
-void add(Real alpha, const Number* a, Real beta, const Number* b, Real* c, std::size_t count) {
-  for (std::size_t i = 0; i < count; ++i) c[i] += alpha * static_cast<Real>(a[i]) + beta * static_cast<Real>(b[i]);
-}
 
 template <class Numbers>
 Real sum_of_products(const Numbers& a, const Numbers& b) {
   return std::inner_product(a.moves.begin(), a.moves.end(), b.moves.begin(), Real{0}) +
          std::inner_product(a.solutions.begin(), a.solutions.end(), b.solutions.begin(), Real{0});
-}
-
-/// Calls visit(chunk, first number, count of numbers).
-template <class Visit>
-void for_each_chunk(Index vertex_count, ThreadPool& threads, Visit&& visit) {
-  const Index chunks = (vertex_count + vertices_at_once - 1) / vertices_at_once;
-  threads.parallel_for(chunks, [&](Index i) {
-    const Index begin = i * vertices_at_once;
-    const Index end = std::min(vertex_count, begin + vertices_at_once);
-    visit(at(i), 3 * at(begin), 3 * at(end - begin));
-  });
 }
 
 }  // namespace
@@ -61,7 +21,7 @@ void Lbfgs::begin(Index vertex_count) {
     memory_ = vertex_count < large ? memory : memory_of_large;
     for (std::size_t i = 0; i <= memory_; ++i) moves_[i].resize(3 * at(vertex_count));
     for (std::size_t i = 0; i <= memory_; ++i) solutions_[i].resize(3 * at(vertex_count));
-    chunk_products_.resize(at((vertex_count + vertices_at_once - 1) / vertices_at_once));
+    chunk_products_.resize(at(remembered::chunk_count(vertex_count)));
     positions_before_.resize(vertex_count, 3);  // last: its size says that all have theirs
   }
   pair_count_ = 0;
@@ -74,22 +34,10 @@ void Lbfgs::forget() {
   has_moved_ = false;
 }
 
-bool Lbfgs::has_risen(const LocalResult& now) const {
-  constexpr Real rounding = 1e-12;
-  const Real before = local_before_.objective();
-  return !(now.objective() <= before + rounding * before + now.rounding);
-}
-
-Real Lbfgs::best_share(const LocalResult& now) const {
-  const Real slope = last_.moves[pair_count_];
-  const Real rise = now.objective() - local_before_.objective();
-  return has_moved_ && rise + slope > 0 ? slope / (2 * (rise + slope)) : 0;
-}
-
 void Lbfgs::scale_move(Real share, Positions& q) {
   q = positions_before_ + share * (q - positions_before_);
-  const Kept factor = static_cast<Kept>(share);
-  for (Kept& each : moves_[pair_count_]) each *= factor;
+  const remembered::Kept factor = static_cast<remembered::Kept>(share);
+  for (remembered::Kept& each : moves_[pair_count_]) each *= factor;
   last_.moves[pair_count_] *= share;
 }
 
@@ -108,8 +56,8 @@ void Lbfgs::shorten(Real share, const Positions& x, Positions& q) {
   length_ *= share;
   q = positions_before_ + length_ * x;
   if (!has_moved_) return;
-  const Kept factor = static_cast<Kept>(length_);
-  std::ranges::transform(solutions_[0], moves_[0].begin(), [factor](Kept each) { return factor * each; });
+  const remembered::Kept factor = static_cast<remembered::Kept>(length_);
+  std::ranges::transform(solutions_[0], moves_[0].begin(), [factor](remembered::Kept each) { return factor * each; });
   last_.moves[0] = length_ * last_.solutions[0];
 }
 
@@ -146,16 +94,20 @@ void Lbfgs::move(const Positions& x, Real curvature, Positions& q, ThreadPool& t
 Lbfgs::Numbers Lbfgs::products(const Positions& r, const Positions& x, ThreadPool& threads) {
   const std::size_t moves = last_solution();
   const std::size_t solutions = last_solution();
-  for_each_chunk(static_cast<Index>(r.rows()), threads, [&](std::size_t chunk, std::size_t first, std::size_t count) {
-    Numbers& sums = chunk_products_[chunk];
-    const Real* const residual = r.data() + first;
-    const Real* const solved = x.data() + first;
-    for (std::size_t i = 0; i < moves; ++i) sums.moves[i] = dot(moves_[i].data() + first, residual, count);
-    for (std::size_t i = 0; i < solutions; ++i) sums.solutions[i] = dot(solutions_[i].data() + first, residual, count);
-    Kept* const kept = solutions_[solutions].data() + first;
-    for (std::size_t k = 0; k < count; ++k) kept[k] = static_cast<Kept>(solved[k]);
-    sums.solutions[solutions] = dot(kept, residual, count);
-  });
+  remembered::for_each_chunk(static_cast<Index>(r.rows()), threads,
+                             [&](std::size_t chunk, std::size_t first, std::size_t count) {
+                               Numbers& sums = chunk_products_[chunk];
+                               const Real* const residual = r.data() + first;
+                               const Real* const solved = x.data() + first;
+                               for (std::size_t i = 0; i < moves; ++i)
+                                 sums.moves[i] = remembered::dot(moves_[i].data() + first, residual, count);
+                               for (std::size_t i = 0; i < solutions; ++i)
+                                 sums.solutions[i] = remembered::dot(solutions_[i].data() + first, residual, count);
+                               remembered::Kept* const kept = solutions_[solutions].data() + first;
+                               for (std::size_t k = 0; k < count; ++k)
+                                 kept[k] = static_cast<remembered::Kept>(solved[k]);
+                               sums.solutions[solutions] = remembered::dot(kept, residual, count);
+                             });
   Numbers total;
   for (const Numbers& sums : chunk_products_) {
     for (std::size_t i = 0; i < moves; ++i) total.moves[i] += sums.moves[i];
@@ -213,24 +165,25 @@ Lbfgs::Numbers Lbfgs::coefficients(const Numbers& products) const {
 
 /// Keeps the move besides, and where it began.
 void Lbfgs::add_up(const Numbers& coefficients, const Positions& x, Positions& q, ThreadPool& threads) {
-  for_each_chunk(static_cast<Index>(q.rows()), threads, [&](std::size_t, std::size_t first, std::size_t count) {
-    std::array<Real, 3 * at(vertices_at_once)> sum;
-    const Real own = coefficients.solutions[pair_count_];
-    const Real* const solved = x.data() + first;
-    for (std::size_t k = 0; k < count; ++k) sum[k] = own * solved[k];
-    for (std::size_t i = 0; i < pair_count_; ++i) {
-      add(coefficients.moves[i], moves_[i].data() + first, coefficients.solutions[i], solutions_[i].data() + first,
-          sum.data(), count);
-    }
-    Real* const moved = q.data() + first;
-    Real* const before = positions_before_.data() + first;
-    Kept* const kept = moves_[pair_count_].data() + first;
-    for (std::size_t k = 0; k < count; ++k) {
-      before[k] = moved[k];
-      moved[k] += sum[k];
-      kept[k] = static_cast<Kept>(sum[k]);
-    }
-  });
+  remembered::for_each_chunk(
+      static_cast<Index>(q.rows()), threads, [&](std::size_t, std::size_t first, std::size_t count) {
+        remembered::ChunkSum sum;
+        const Real own = coefficients.solutions[pair_count_];
+        const Real* const solved = x.data() + first;
+        for (std::size_t k = 0; k < count; ++k) sum[k] = own * solved[k];
+        for (std::size_t i = 0; i < pair_count_; ++i) {
+          remembered::add(coefficients.moves[i], moves_[i].data() + first, coefficients.solutions[i],
+                          solutions_[i].data() + first, sum.data(), count);
+        }
+        Real* const moved = q.data() + first;
+        Real* const before = positions_before_.data() + first;
+        remembered::Kept* const kept = moves_[pair_count_].data() + first;
+        for (std::size_t k = 0; k < count; ++k) {
+          before[k] = moved[k];
+          moved[k] += sum[k];
+          kept[k] = static_cast<remembered::Kept>(sum[k]);
+        }
+      });
 }
 
 void Lbfgs::forget_pairs(Numbers& products) {
@@ -242,13 +195,13 @@ void Lbfgs::forget_pairs(Numbers& products) {
 }
 
 void Lbfgs::forget_oldest_pair() {
-  drop_first(moves_, memory_ + 1);
-  drop_first(last_.moves, memory_ + 1);
-  drop_first(solutions_, memory_ + 1);
-  drop_first(last_.solutions, memory_ + 1);
+  remembered::drop_first(moves_, memory_ + 1);
+  remembered::drop_first(last_.moves, memory_ + 1);
+  remembered::drop_first(solutions_, memory_ + 1);
+  remembered::drop_first(last_.solutions, memory_ + 1);
   for (Table* const table : {&move_products_, &solution_products_}) {
-    for (auto& line : *table) drop_first(line, memory_);
-    drop_first(*table, memory_);
+    for (auto& line : *table) remembered::drop_first(line, memory_);
+    remembered::drop_first(*table, memory_);
   }
   --pair_count_;
 }
