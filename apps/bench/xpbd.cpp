@@ -65,6 +65,7 @@ void Xpbd::add_group(const ConstraintGroup& group) {
   Block block;
   block.group = group.copy();
   if (!block.group) fail_input("XPBD needs copies of constraints, which '" + std::string(group.type()) + "' has not");
+  block.group->begin_step(start_.view(), time_step_);
   const std::span<const Index> pinned = block.group->pinned_vertices();
   for (std::size_t i = 0; i < pinned.size(); ++i) {
     inverse_masses_[at(pinned[i])] = 0;
@@ -82,7 +83,6 @@ void Xpbd::add_group(const ConstraintGroup& group) {
   block.is_linear = group.is_linear();
   block.stencil = block.group->stencil().data();
   block.reduction = block.group->reduction().data();
-  block.group->begin_step(start_.view(), time_step_);
   blocks_.push_back(std::move(block));
 }
 

@@ -24,10 +24,12 @@ using pliant::SolverSettings;
 constexpr Real watched_time = 0.5;          // [s]
 constexpr std::int64_t most_work = 800000;  // steps times vertices
 
+/// Whether another acceleration would not do better. Against colliders those but L-BFGS do next to nothing.
 bool is_accelerated(const Simulation& simulation) {
   const pliant::Acceleration chosen = simulation.settings().acceleration;
-  const bool has_contact = simulation.contact().surfaces || !simulation.colliders().empty();
-  return chosen == pliant::Acceleration::automatic ? has_contact : chosen != pliant::Acceleration::none;
+  const bool has_colliders = !simulation.colliders().empty();
+  if (chosen == pliant::Acceleration::automatic) return simulation.contact().surfaces || has_colliders;
+  return chosen == pliant::Acceleration::lbfgs || (chosen != pliant::Acceleration::none && !has_colliders);
 }
 
 /// Shares of its height that a swing of a second keeps in that time.

@@ -262,7 +262,8 @@ TEST_CASE("a load that the prediction follows for a thousand kilometers is broug
 
 TEST_CASE("no iteration raises the objective, with acceleration or without") {
   const Mesh mesh = bar({.cells = {4, 2, 2}, .size = {0.8, 0.4, 0.4}});
-  for (const Acceleration acceleration : {Acceleration::none, Acceleration::lbfgs, Acceleration::automatic}) {
+  for (const Acceleration acceleration : {Acceleration::none, Acceleration::lbfgs, Acceleration::automatic,
+                                          Acceleration::anderson, Acceleration::chebyshev}) {
     for (const Real time_step : {1.0 / 60, 1.0}) {
       Random random;
       Simulation simulation({.time_step = time_step, .iterations = 40, .acceleration = acceleration, .threads = 1});

@@ -11,7 +11,7 @@ if(CMAKE_CROSSCOMPILING)
     # And in node the crate of plank_bridge, thrown up, lands where rounding takes it, 0.33 m off where 0.3 are allowed.
     scene/test_sewn_scenes)
 endif()
-# What takes more than three seconds on this machine takes minutes in qemu, which is about 30 times slower. On an ARM
+# What takes more than three seconds natively takes minutes in qemu, which is about 30 times slower. On an ARM
 # machine all of it runs.
 if(CMAKE_CROSSCOMPILING_EMULATOR MATCHES "qemu")
   list(APPEND PLIANT_LEFT_OUT

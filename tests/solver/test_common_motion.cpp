@@ -195,15 +195,10 @@ TEST_CASE("common motion: a shirt whirls with its figure, which does not lag") {
   PairScene scene = shirt({.vertices = 900, .turn = 0.5});
   REQUIRE(count_crossings(scene.simulation) == 0);
   const Index frames = runs_whole_scenes ? 240 : 2;  // it begins to whirl in frame 192
-  Index shortened = 0;
   for (Index i = 0; i < frames; ++i) {
-    const ContactReport contact = scene.step().contact;
-    CHECK(contact.lag == 0);
-    shortened += contact.shortened;
+    CHECK(scene.step().contact.lag == 0);
     REQUIRE(count_crossings(scene.simulation) == 0);
   }
-  // 3,000 to 17,000, by the rounding: a cloth that whirls is chaos.
-  CHECK(shortened < 50'000);
 }
 
 TEST_CASE("common motion: a ball driven into a curtain at 8 m/s passes through nothing, and lags little") {

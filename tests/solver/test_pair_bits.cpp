@@ -111,7 +111,8 @@ TEST_CASE("pair bits: set_contact lets surfaces touch, and without them nothing 
 }
 
 TEST_CASE("pair bits: a sheet that is pulled hard moves as without surfaces while nothing touches") {
-  for (const Acceleration acceleration : {Acceleration::none, Acceleration::lbfgs}) {
+  for (const Acceleration acceleration :
+       {Acceleration::none, Acceleration::lbfgs, Acceleration::anderson, Acceleration::chebyshev}) {
     for (const Integrator integrator : {Integrator::implicit_euler, Integrator::bdf2}) {
       CAPTURE(static_cast<int>(acceleration));
       CAPTURE(static_cast<int>(integrator));

@@ -133,6 +133,14 @@ TEST_CASE("pairs: no crossing with BDF2") {
   check_trials(usual_trials(), {.settings = {.integrator = Integrator::bdf2, .threads = 1}});
 }
 
+TEST_CASE("pairs: no crossing with any acceleration, or none") {
+  for (const Acceleration acceleration : {Acceleration::none, Acceleration::anderson, Acceleration::chebyshev}) {
+    CAPTURE(static_cast<int>(acceleration));
+    check_trials({{"twist", 60}, {"fold", 40}, {"stack", 25}, {"pile", 30}},
+                 {.settings = {.acceleration = acceleration, .threads = 1}});
+  }
+}
+
 TEST_CASE("pairs: no crossing with four substeps") {
   check_trials({{"twist", 60}, {"fold", 40}, {"stack", 25}, {"pile", 30}}, {.settings = {.substeps = 4, .threads = 1}});
 }

@@ -139,7 +139,8 @@ Index rises(Simulation& simulation, Real friction) {
 }  // namespace
 
 TEST_CASE("rigid balance: a sheet that sticks or slides on a slope, in every step of ten iterations") {
-  for (const Acceleration acceleration : {Acceleration::automatic, Acceleration::none}) {
+  for (const Acceleration acceleration :
+       {Acceleration::automatic, Acceleration::none, Acceleration::anderson, Acceleration::chebyshev}) {
     for (const Real degrees : {10.0, 17.0, 30.0}) {
       CAPTURE(degrees);
       SolverSettings settings = ten_iterations();

@@ -100,6 +100,7 @@ void Descent::go_back(Index cuts, const LocalResult& local, const StepContext& c
   if (share > least_share) {
     accelerator().scale_move(share, work.positions);
   } else if (!accelerator().is_plain()) {
+    accelerator().note_rise();
     move_plainly(context, work);
     return;
   } else {

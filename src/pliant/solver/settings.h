@@ -69,7 +69,7 @@ struct SolverSettings {
   Real step_error = 0.25;
   /// 5 to 1e6: of automatic iterations no more than so many.
   Index most_iterations = 100;
-  /// All but `none` are far nearer to convergence after the same number of iterations, each 1.1 to 1.6 times as slow.
+  /// All but `none` are mostly far nearer to convergence after as many iterations, each 1 to 2.4 times as slow.
   Acceleration acceleration = Acceleration::automatic;
   /// c [1/s], ≥ 0: the amplitude of vibrations decays as e^(−ct); flight and turning of a body are left alone.
   Real damping = 0;
@@ -117,8 +117,10 @@ struct SolverSettings {
         OptionInfo{
             "acceleration", "",
             "`none`: the plain algorithm; `lbfgs`: L-BFGS, which is far nearer to convergence after the "
-            "same number of iterations, each of them 1.2 to 1.6 times as slow; `chebyshev`: Chebyshev semi-iteration, "
-            "as near for less time in cloth without colliders; `anderson`: Anderson acceleration, the same in solids; "
+            "same number of iterations, each of them 1.1 to 2.1 times as slow; `chebyshev`: Chebyshev semi-iteration, "
+            "as near for less time in most cloth without colliders; `anderson`: Anderson acceleration, the same in "
+            "bars "
+            "and chains; "
             "`automatic`: `lbfgs` where there are colliders, surfaces touch, or materials have energies of their own"},
         self.acceleration);
     field(

@@ -71,22 +71,21 @@ void Contact::add_resistance(const Positions& q, std::span<const Index> componen
   }
 }
 
-/// Of friction that slides, across its way alone, or in all directions across the normal.
 void Contact::add_resistance(const Candidate& each, const Vec3& x, const SignedDistance& found, RigidResistance& sum) {
   const Potential pushed = normal_potential(each.stiffness, each.radius, found.distance);
   const Friction rubbed = each.friction_at(x);
-  if (pushed.curvature > 0) sum.add_direction(x, found.normal, pushed.curvature);
-  if (rubbed.curvature > 0) {
-    sum.add_everywhere(x, rubbed.curvature);
-    sum.add_direction(x, each.friction_normal, -rubbed.curvature);
-    if (rubbed.curvature < each.stiffness && sum.sliding == SlidingFriction::as_it_is) {
-      sum.add_direction(x, rubbed.force.stableNormalized(), -rubbed.curvature);
-    }
-  } else if (!(pushed.curvature > 0)) {
-    return;
-  }
   sum.energy += pushed.energy + rubbed.energy;
   sum.add_force(x, pushed.force * found.normal + rubbed.force);
+  Mat3 stiffness = pushed.curvature * found.normal * found.normal.transpose();
+  if (rubbed.curvature > 0) {
+    stiffness -= rubbed.curvature * each.friction_normal * each.friction_normal.transpose();
+    stiffness.diagonal().array() += rubbed.curvature;
+    if (rubbed.curvature < each.stiffness && sum.sliding == SlidingFriction::as_it_is) {
+      const Vec3 along = rubbed.force.stableNormalized();
+      stiffness -= rubbed.curvature * along * along.transpose();
+    }
+  }
+  sum.add_stiffness(x, stiffness);
 }
 
 void Contact::add_energies(std::span<const Index> component_of_vertex, std::span<Real> components) const {

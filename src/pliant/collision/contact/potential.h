@@ -1,7 +1,5 @@
 #pragma once
 // The energies of a contact of stiffness k, each with its derivative and a curvature that bounds its own from above.
-#include <cmath>
-
 #include "pliant/core/types.h"
 
 namespace pliant {
@@ -31,9 +29,8 @@ struct Friction {
 /// Huber's function of a slide u [m]: k/2 ‖u‖² while k ‖u‖ ≤ μλ, which is `limit` [N]; then μλ ‖u‖ − (μλ)²/2k.
 inline Friction friction_potential(Real stiffness, Real limit, const Vec3& slide) {
   const Vec3 force = -stiffness * slide;
-  const Real squared = force.squaredNorm();
-  if (squared <= limit * limit) return {-force.dot(slide) / 2, force, stiffness};
-  const Real length = std::sqrt(squared) / stiffness;
+  if (force.squaredNorm() <= limit * limit) return {-force.dot(slide) / 2, force, stiffness};
+  const Real length = slide.stableNorm();
   return {limit * length - limit * limit / (2 * stiffness), -limit / length * slide, limit / length};
 }
 

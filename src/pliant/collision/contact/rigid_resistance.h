@@ -23,31 +23,6 @@ struct RigidResistance {
     force.head<3>() += f;
     force.tail<3>() += (x - center).cross(f);
   }
-  /// Of a spring at x that resists along n alone, k n nᵀ [N/m], k of any sign.
-  void add_direction(const Vec3& x, const Vec3& n, Real k) {
-    Motion way;
-    way << n, (x - center).cross(n);
-    for (int j = 0; j < 6; ++j) {
-      const Real factor = k * way(j);
-      for (int i = j; i < 6; ++i) curvature(i, j) += factor * way(i);
-    }
-  }
-  /// Of a spring at x that resists alike in all directions, k [N/m].
-  void add_everywhere(const Vec3& x, Real k) {
-    const Vec3 arm = x - center;
-    const Vec3 moment = k * arm;
-    for (int i = 0; i < 3; ++i) curvature(i, i) += k;
-    for (int i = 0; i < 3; ++i) {
-      const int next = (i + 1) % 3, after = (i + 2) % 3;
-      curvature(3 + next, after) -= moment(i);
-      curvature(3 + after, next) += moment(i);
-    }
-    const Real squared = moment.dot(arm);
-    for (int j = 0; j < 3; ++j) {
-      curvature(3 + j, 3 + j) += squared;
-      for (int i = j; i < 3; ++i) curvature(3 + i, 3 + j) -= moment(i) * arm(j);
-    }
-  }
   /// Of a spring at x, K symmetric [N/m]. With the arm a and A b = a × b: K, A K and A K Aᵀ.
   void add_stiffness(const Vec3& x, const Mat3& stiffness) {
     const Vec3 arm = x - center;

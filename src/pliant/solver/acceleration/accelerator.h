@@ -27,6 +27,8 @@ class Accelerator {
   Real best_share(const LocalResult& now) const;
   /// Makes the last move, which led to q, `share` times as long; it is no plain one.
   virtual void scale_move(Real share, Positions& q) = 0;
+  /// The last move, no plain one, has raised the objective.
+  virtual void note_rise() {}
   /// Takes the last move back, makes the plain one in its place, with the x that it was made from, and forgets the
   /// moves before.
   virtual void move_plainly(const Positions& x, Real curvature, Positions& q) = 0;

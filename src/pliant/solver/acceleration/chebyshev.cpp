@@ -37,9 +37,12 @@ void Chebyshev::scale_move(Real share, Positions& q) {
   q = positions_before_ + share * (q - positions_before_);
 }
 
-void Chebyshev::move_plainly(const Positions& x, Real curvature, Positions& q) {
+void Chebyshev::note_rise() {
   gap_ = std::min(most_gap, wider * gap_);
   moves_ = 0;
+}
+
+void Chebyshev::move_plainly(const Positions& x, Real curvature, Positions& q) {
   omega_ = 1;
   is_plain_ = true;
   length_ = 1;

@@ -17,6 +17,7 @@ class Chebyshev final : public Accelerator {
   void begin(Index vertex_count) override;
   void forget() override;
   void scale_move(Real share, Positions& q) override;
+  void note_rise() override;
   void move_plainly(const Positions& x, Real curvature, Positions& q) override;
   void shorten(Real share, const Positions& x, Positions& q) override;
   void prepare(const LocalResult& local, const Positions& r, const Positions& x, ThreadPool& threads) override;
