@@ -119,9 +119,8 @@ struct SolverSettings {
             "`none`: the plain algorithm; `lbfgs`: L-BFGS, which is far nearer to convergence after the "
             "same number of iterations, each of them 1.1 to 2.1 times as slow; `chebyshev`: Chebyshev semi-iteration, "
             "as near for less time in most cloth without colliders; `anderson`: Anderson acceleration, the same in "
-            "bars "
-            "and chains; "
-            "`automatic`: `lbfgs` where there are colliders, surfaces touch, or materials have energies of their own"},
+            "bars and chains; `automatic`: `lbfgs` where there are colliders, surfaces touch, or materials have "
+            "energies of their own"},
         self.acceleration);
     field(
         OptionInfo{
