@@ -9,12 +9,14 @@ const used = useBrowser();
 
 it('runs every scene without an error', { timeout: 20 * 60_000 }, async () => {
   const first = await openTab(used.browser, used.address);
+  await first.page.waitForFunction(() => globalThis.pliantPage.sceneNames().length > 0);  // the module is there
   const names = await first.page.evaluate(() => globalThis.pliantPage.sceneNames());
   await first.close();
   expect(names.length).toBeGreaterThan(35);
   const failed: string[] = [];
   for (const name of names) {
     const tab = await openTab(used.browser, `${used.address}#scene=${name}`);
+    await tab.page.waitForFunction(() => globalThis.pliantPage.state.vertexCount > 0);
     const vertices = await tab.page.evaluate(() => globalThis.pliantPage.state.vertexCount);
     if (vertices <= most) {
       await tab.page.waitForTimeout(time);
