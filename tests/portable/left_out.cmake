@@ -64,7 +64,7 @@ if(EMSCRIPTEN)
     solver/test_global_step)      # starts threads in all cases but one
   list(APPEND PLIANT_CASES_LEFT_OUT
     # they start threads
-    "lbfgs: with every constraint and force*the same bits for any number of threads"
+    "accelerations: with every constraint and force*the same bits for any number of threads"
     "the bits are the same on any number of threads*with BDF2*"
     "colliders: the bits are the same for any number of threads"
     "a mesh in random order moves as one in order*"

@@ -295,6 +295,31 @@ TEST_CASE("Chebyshev: a force whose errors shrink by 0 to 0.997 is gone in a sev
   CHECK(7 * accelerated < plain);
 }
 
+TEST_CASE("Chebyshev: each rise makes momentum smaller; a plain move without one does not") {
+  const auto move_after = [](int rises) {
+    Chebyshev chebyshev;
+    const Positions r = Positions::Ones(4, 3);
+    Positions q = Positions::Zero(4, 3);
+    chebyshev.begin(4);
+    for (int i = 0; i < 2; ++i) move(chebyshev, {}, r, r / 10, q);
+    for (int i = 0; i < rises; ++i) chebyshev.note_rise();
+    chebyshev.move_plainly(r / 10, 0, q);
+    const Positions before = q;
+    move(chebyshev, {}, r, r / 10, q);
+    return (q - before).norm();
+  };
+  Chebyshev begun;
+  const Positions r = Positions::Ones(4, 3);
+  Positions first = Positions::Zero(4, 3);
+  begun.begin(4);
+  move(begun, {}, r, r / 10, first);
+  Positions second = first;
+  move(begun, {}, r, r / 10, second);
+  CHECK(move_after(0) == doctest::Approx((second - first).norm()).epsilon(1e-12));
+  CHECK(move_after(1) < 0.99 * move_after(0));
+  CHECK(move_after(2) < 0.99 * move_after(1));
+}
+
 TEST_CASE("Anderson, Chebyshev: a move that raises the objective gives way to the plain one, as long as it should be") {
   Anderson anderson;
   Chebyshev chebyshev;
