@@ -18,8 +18,14 @@ function(pliant_units target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
 endfunction()
 
-# pliant_quick_to_compile(TARGET): of what draws, asks or reports, whose time goes into the libraries. -O3 would make it a
-# quarter longer to compile, and no faster. What is sent to browsers is as small as can be there.
+# pliant_quick_to_compile(TARGET [SMALL]): of what draws, asks or reports, whose time goes into the libraries. -O3 would
+# make it a quarter longer to compile, and no faster. SMALL: what is sent to browsers is as small as can be there; with
+# -Os clang leaves Eigen's functions of one line as calls, 20 times as slow where they compute.
 function(pliant_quick_to_compile target)
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:$<IF:$<BOOL:${EMSCRIPTEN}>,-Os,-O1>>)
+  cmake_parse_arguments(PARSE_ARGV 1 quick "SMALL" "" "")
+  set(level -O1)
+  if(EMSCRIPTEN AND quick_SMALL)
+    set(level -Os)
+  endif()
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${level}>)
 endfunction()
