@@ -155,6 +155,7 @@ val Scene::frame(pliant::ColorBy color) {
   result.set("colliders", numbers);
   result.set("pins", array_of(frame.pins));
   result.set("ground", frame.ground);
+  result.set("viewpoint", frame.viewpoint ? viewpoint_of(*frame.viewpoint) : val::null());
   result.set("pull", pull_of(session().pull(), frame));
   result.set("values", val::null());
   if (color == pliant::ColorBy::none) return result;

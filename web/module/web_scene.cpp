@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "pliant_io/scene/mesh_scene.h"
-#include "render/camera_path.h"
 #include "render/choose_direction.h"
 #include "render/scalar_fields.h"
 
@@ -83,7 +82,7 @@ WebScene WebScene::of_mesh(const std::string& file, const pliant::ImportOptions&
                   std::filesystem::path(file).parent_path().string());
 }
 
-Look WebScene::look(float aspect) const {
+Look WebScene::look(float aspect) {
   Look look;
   look.mesh = pliant_render::make_render_mesh(session_.scene());
   const pliant_render::FrameContent frame = visible_part(
@@ -91,7 +90,8 @@ Look WebScene::look(float aspect) const {
   color(look, view_, frame.held);
   const Bounds bounds = bounds_with_room(frame, view_);
   const pliant::Camera camera = choose_direction(view_.camera, look.mesh, std::span(&frame, 1), bounds, aspect);
-  look.viewpoint = pliant_render::CameraPath(camera, bounds, aspect).at(session_.simulation().state().time);
+  camera_path_.emplace(camera, bounds, aspect);
+  look.viewpoint = camera_path_->at(session_.simulation().state().time);
   look.radius = bounds.radius();
   return look;
 }
@@ -112,6 +112,7 @@ Frame WebScene::frame(const RenderMesh& mesh) {
   }
   frame.ground = view_.ground_height ? static_cast<float>(*view_.ground_height) : ground_.value_or(0);
   for (const std::uint32_t vertex : mesh.copies) frame.positions.push_back(Vec3f(frame.positions[vertex]));
+  if (camera_path_ && !view_.camera.keyframes.empty()) frame.viewpoint = camera_path_->at(simulation.state().time);
   return frame;
 }
 

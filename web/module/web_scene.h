@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "pliant_io/mesh/mesh_file.h"
+#include "render/camera_path.h"
 #include "render/capture.h"
 #include "viewer/auto_range.h"
 #include "viewer/session.h"
@@ -33,8 +34,9 @@ struct Look {
 struct Frame {
   std::vector<Vec3f> positions, normals;  ///< one per corner
   std::vector<pliant_render::DrawnCollider> colliders;
-  std::vector<std::uint32_t> pins;  ///< ascending
-  float ground = 0;                 ///< height of the floor that is drawn [m]
+  std::vector<std::uint32_t> pins;                    ///< ascending
+  float ground = 0;                                   ///< height of the floor that is drawn [m]
+  std::optional<pliant_render::Viewpoint> viewpoint;  ///< of now, where the scene moves its camera
 };
 
 /// What colors show.
@@ -55,7 +57,7 @@ class WebScene {
   const pliant::ViewSettings& view() const { return view_; }
 
   /// The camera is placed for a picture of this width over height.
-  Look look(float aspect) const;
+  Look look(float aspect);
   /// Of now; `mesh` is that of the look.
   Frame frame(const pliant_render::RenderMesh& mesh);
   Values values(const pliant_render::RenderMesh& mesh, pliant::ColorBy color);
@@ -73,6 +75,7 @@ class WebScene {
   pliant_render::ColliderSurfaces surfaces_;
   pliant_viewer::AutoRange range_;
   std::optional<float> ground_;  // the lowest so far
+  std::optional<pliant_render::CameraPath> camera_path_;
 };
 
 }  // namespace pliant_web

@@ -82,6 +82,8 @@ export interface Frame {
   pins: Uint32Array;
   /** Height of the floor, which gives way to what falls [m]. */
   ground: number;
+  /** Where the scene's camera is now; null: it stands where the look has it. */
+  viewpoint: Viewpoint | null;
   /** The point that is pulled at and the end of the spring [m]; null: nothing is pulled at. */
   pull: { from: Vec3; to: Vec3 } | null;
   /** Of each corner, what was asked to be shown as color; the ends of its color map. */

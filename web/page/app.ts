@@ -37,10 +37,12 @@ const rateInterval = 250;
 const longStep = 25;
 
 const narrow = window.matchMedia('(max-width: 640px)');
+/** The panel would cover much of the picture there, and is closed at first. */
+const small = window.matchMedia('(max-width: 640px), (max-height: 480px)');
 const darkScheme = window.matchMedia('(prefers-color-scheme: dark)');
 const hint = narrow.matches || window.matchMedia('(pointer: coarse)').matches
-  ? 'Drag the cloth to pull it, tap it to pin it; drag beside it to look around.'
-  : 'Drag the cloth to pull it, click it to pin it; drag beside it to look around.';
+  ? 'Drag anything to pull it, tap it to pin it; drag the background to look around.'
+  : 'Drag anything to pull it, click it to pin it; drag the background to look around.';
 
 export class App {
   private readonly canvas = byId('picture', HTMLCanvasElement);
@@ -110,11 +112,11 @@ export class App {
   start(): void {
     this.client.listen(this.listeners);
     this.setTheme(recall('theme') ?? (darkScheme.matches ? 'dark' : 'light'));
-    this.showPanelBox(!narrow.matches);
+    this.showPanelBox(!small.matches);
     this.connectButtons();
     this.connectKeys();
     this.connectDrop();
-    narrow.addEventListener('change', () => this.showPanelBox(!narrow.matches));
+    small.addEventListener('change', () => this.showPanelBox(!small.matches));
     document.addEventListener('visibilitychange', () => this.rest());
     this.stage.onLost = () => this.messages.note('The picture was lost by the graphics driver; it comes back by itself.');
     window.addEventListener('hashchange', () => void this.guard(() => this.openAddress()));
@@ -349,7 +351,7 @@ export class App {
 
   private showPanelBox(on: boolean): void {
     this.panelBox.hidden = !on;
-    if (on && narrow.matches) byId('hint', HTMLParagraphElement).hidden = true;  // it lies over the panel there
+    if (on && small.matches) byId('hint', HTMLParagraphElement).hidden = true;  // it lies over the panel there
     byId('panel-toggle', HTMLButtonElement).ariaExpanded = String(on);
     this.stage.setInset(on && !narrow.matches ? this.panelBox.offsetWidth + 12 : 0);
   }

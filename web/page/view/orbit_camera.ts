@@ -37,6 +37,8 @@ export class OrbitCamera {
   private size: PictureSize = { width: 1, height: 1, inset: 0 };
   /** The user has not moved it yet. */
   private isHome = true;
+  /** How many times as far back as the viewpoint it stands. */
+  private back = 1;
 
   constructor() {
     this.camera.matrixAutoUpdate = this.camera.matrixWorldAutoUpdate = false;
@@ -62,12 +64,14 @@ export class OrbitCamera {
   goHome(points: Vec3[], isAsked: boolean): void {
     if (isAsked) this.isHome = true;
     if (!this.isHome) return;
-    const { eye, target, up } = this.home;
-    const forward = unit(subtract(target, eye));
-    const side = unit(cross(forward, up));
-    this.target = target;
-    this.up = cross(side, forward);
-    this.eye = subtract(target, times(length(subtract(target, eye)) * this.backward(points, forward, side), forward));
+    this.back = this.backward(points);
+    this.place();
+  }
+
+  /** The scene moves it, until the user does. */
+  follow(viewpoint: Viewpoint): void {
+    this.home = viewpoint;
+    if (this.isHome) this.place();
   }
 
   resize(size: PictureSize): void {
@@ -158,6 +162,14 @@ export class OrbitCamera {
     return { near, far };
   }
 
+  private place(): void {
+    const { eye, target, up } = this.home;
+    const forward = unit(subtract(target, eye));
+    this.target = target;
+    this.up = cross(unit(cross(forward, up)), forward);
+    this.eye = subtract(target, times(this.back * length(subtract(target, eye)), forward));
+  }
+
   private get distance(): number {
     return length(subtract(this.target, this.eye));
   }
@@ -175,12 +187,13 @@ export class OrbitCamera {
    * What multiplies the distance of the viewpoint where less than the usual width is free: so much that the points fit
    * that the usual picture has, and somewhat more for what moves.
    */
-  private backward(points: Vec3[], forward: Vec3, side: Vec3): number {
+  private backward(points: Vec3[]): number {
     const { width, height, inset } = this.size;
     const free = Math.max(width - inset, 1) / height, usual = Math.max(width / height, usualAspect);
     if (free >= usual) return 1;
-    const { eye, target } = this.home;
+    const { eye, target, up } = this.home;
     const distance = length(subtract(target, eye));
+    const forward = unit(subtract(target, eye)), side = unit(cross(forward, up));
     let most = Math.max(1, Math.sqrt(leastAspect / free));
     for (const point of points) {
       const away = subtract(point, eye);

@@ -79,6 +79,7 @@ export class Stage {
     const { look } = this;
     if (look === null || frame.positions.length !== 3 * (look.vertexCount + look.copies.length)) return;
     this.frame_ = frame;
+    if (frame.viewpoint !== null) this.camera.follow(frame.viewpoint);
     this.hasNewFrame = this.isDirty = true;
   }
 

@@ -198,6 +198,33 @@ describe.runIf(hasBrowser)('the page', () => {
     expect(far(again)).toBeLessThan(far(turned) / 3);
   });
 
+  it('moves the camera as the scene does, until someone turns it', async () => {
+    const tab = await open('#scene=flag');
+    const scene = {
+      pliant: 1,
+      bodies: [{ name: 'cloth', mesh: { shape: 'grid', columns: 5, rows: 5 }, material: 'cotton' }],
+      view: { camera: { keyframes: [{ time: 0, position: [0, -4, 1], target: [0, 0, 0] },
+                                    { time: 0.5, position: [3, -4, 1], target: [3, 0, 0] }] } },
+    };
+    await tab.page.locator('#files').setInputFiles({ name: 'moves.json', mimeType: 'application/json', buffer: Buffer.from(JSON.stringify(scene)) });
+    await until(tab, () => globalThis.pliantPage.state.name === 'moves' && globalThis.pliantPage.state.time > 0.6);
+    const eyeOf = (): Promise<number> => tab.page.evaluate(() => globalThis.pliantPage.viewpoint().eye[0]);
+    expect(await eyeOf()).toBeCloseTo(3, 3);
+    await tab.page.keyboard.press('r');
+    await until(tab, () => globalThis.pliantPage.state.time < 0.3 && globalThis.pliantPage.viewpoint().eye[0] < 2.9);
+    await tab.page.keyboard.press('Space');
+    await tab.page.mouse.move(30, 400);
+    await tab.page.mouse.down();
+    await tab.page.mouse.move(200, 400, { steps: 5 });
+    await tab.page.mouse.up();
+    const turned = await eyeOf();
+    await tab.page.keyboard.press('Space');
+    await until(tab, () => globalThis.pliantPage.state.time > 0.6);
+    expect(await eyeOf()).toBe(turned);
+    await tab.page.keyboard.press('f');
+    expect(await eyeOf()).toBeCloseTo(3, 3);
+  });
+
   it('changes materials and options in the panel', async () => {
     const tab = await open('#scene=towel');
     await tab.page.locator('#panel select').first().selectOption('silk');
@@ -337,6 +364,26 @@ describe.runIf(hasBrowser)('the page', () => {
     await tab.page.evaluate(() => (globalThis as unknown as { lose: WEBGL_lose_context }).lose.restoreContext());
     await tab.page.waitForTimeout(1500);
     expect(await difference(tab, before, await tab.page.screenshot())).toBeLessThan(0.5);
+  });
+
+  it('has room for all of it on small screens', async () => {
+    for (const [width, height] of [[320, 568], [390, 844], [568, 320], [844, 390]] as const) {
+      const tab = await open('#scene=sheet_metal_and_cloth', { width, height, isPhone: true });
+      const boxes = await tab.page.evaluate(() => ['#choose', '#bar nav', '#time', '#hint', '#panel'].flatMap((name) => {
+        const box = document.querySelector(name)?.getBoundingClientRect();
+        return box === undefined || box.width === 0 ? [] : [{ name, left: box.left, right: box.right, top: box.top, bottom: box.bottom }];
+      }));
+      expect(boxes.map((box) => box.name)).toEqual(['#choose', '#bar nav', '#time', '#hint']);
+      for (const [i, a] of boxes.entries()) {
+        expect(a.left >= 0 && a.right <= width && a.top >= 0 && a.bottom <= height, `${a.name} in ${width} x ${height}`).toBe(true);
+        for (const b of boxes.slice(i + 1)) {
+          const areApart = a.right <= b.left || b.right <= a.left || a.bottom <= b.top || b.bottom <= a.top;
+          expect(areApart, `${a.name} beside ${b.name} in ${width} x ${height}`).toBe(true);
+        }
+      }
+      await tab.close();
+      tabs.pop();
+    }
   });
 
   it('works by touch on a phone', async () => {
