@@ -16,9 +16,9 @@ endif()
 if(CMAKE_CROSSCOMPILING_EMULATOR MATCHES "qemu")
   list(APPEND PLIANT_LEFT_OUT
     scene/test_let_go_scenes
-    scene/test_surface_scenes)
+    scene/test_surface_scenes
+    solver/test_pair_bounce)
   list(APPEND PLIANT_CASES_LEFT_OUT
-    "bounce: *"
     "everything at once stays calm*"
     "few iterations: a stiff beam swings as it should*"
     "friction: the same in four substeps"
@@ -38,7 +38,6 @@ if(CMAKE_CROSSCOMPILING_EMULATOR MATCHES "qemu")
     "pairs: no crossing with steps of *"
     "an inverted* a flattened* a collapsed and a shuffled solid come back to rest"
     "in every built-in scene without colliders a step in single precision*"
-    "rest: with damping* what has folded*"
     "two free bodies keep their momentum while they are sewn together")
 endif()
 if(NOT PLIANT_CHOLMOD)

@@ -287,7 +287,7 @@ TEST_CASE("surfaces that touch have columns of their pairs, without a collider t
   CHECK(columns.at("smallest_gap").back() > 0);
   CHECK(columns.at("smallest_gap").back() < 0.05);
   CHECK(columns.at("shortened").front() == 0);
-  CHECK(columns.at("momentum_lost").back() < 1e-6);  // of 0.16 N s that weight gives in a step
+  CHECK(columns.at("momentum_lost").back() < 1e-5);  // of 0.16 N s that weight gives in a step
   CHECK(columns.at("energy_taken").back() < 1e-6);
   CHECK(columns.at("lag").back() == 0);
   CHECK(columns.at("let_go").back() == 0);
