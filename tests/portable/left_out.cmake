@@ -8,7 +8,6 @@ if(CMAKE_CROSSCOMPILING)
     scene/test_builtin_scenes
     scene/test_contact_scenes
     scene/test_gallery_scenes
-    # And in node the crate of plank_bridge, thrown up, lands where rounding takes it, 0.33 m off where 0.3 are allowed.
     scene/test_sewn_scenes)
 endif()
 # What takes more than three seconds natively takes minutes in qemu, which is about 30 times slower. On an ARM
