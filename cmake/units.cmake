@@ -20,7 +20,7 @@ endfunction()
 
 # pliant_quick_to_compile(TARGET [SMALL]): of what draws, asks or reports, whose time goes into the libraries. -O3 would
 # make it a quarter longer to compile, and no faster. SMALL: what is sent to browsers is as small as can be there; with
-# -Os clang leaves Eigen's functions of one line as calls, 20 times as slow where they compute.
+# -Os clang leaves Eigen's functions of one line as calls, 30 to 100 times as slow where they compute.
 function(pliant_quick_to_compile target)
   cmake_parse_arguments(PARSE_ARGV 1 quick "SMALL" "" "")
   set(level -O1)
