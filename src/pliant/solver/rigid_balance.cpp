@@ -18,6 +18,8 @@ constexpr Real least_shift = 1e-6;
 constexpr int most_motions = 12;
 /// Each of some that touch each other moves as if the others stood still: many such motions only shake them.
 constexpr int most_motions_of_many = 4;
+/// What a motion has not gained when shortened so often, as where a vertex rests where no move may lead, is left.
+constexpr int most_trials_in_vain = 4;
 constexpr int most_ways = 3;
 constexpr Real shorter = 0.4;
 constexpr int most_trials = 3;  // of ways without those that have gone back
@@ -127,6 +129,7 @@ void RigidBalance::find_moments(const System& system, const WorkingState& work) 
     part.rise = part.rise_now = 0;
     part.sliding = SlidingFriction::as_it_is;
     part.share_of_motion = 1;
+    part.trials_in_vain = 0;
     part.is_tried = part.moves = false;
     if (part.freedom == RigidFreedom::none) continue;
     part.moments = RigidMoments(part.center, free.component(i), system.inertia_weights(), work);
@@ -252,9 +255,14 @@ void RigidBalance::try_placement(const RigidPlacement& placement, Part& part) {
   part.rise_now = part.moments.rise(placement);
 }
 
+/// Counts.
+bool RigidBalance::may_move_again(Part& part) {
+  return part.motions_left-- > 0 && part.trials_in_vain < most_trials_in_vain;
+}
+
 /// As if all others stood still.
 bool RigidBalance::find_motion(Part& part) {
-  if (part.freedom == RigidFreedom::none || part.motions_left-- <= 0 || part.is_light) return false;
+  if (part.freedom == RigidFreedom::none || !may_move_again(part) || part.is_light) return false;
   part.motion = motion_of(part.curvature, part.force, part.freedom);
   const std::size_t number = static_cast<std::size_t>(&part - parts_.data());
   if (!part.motion.allFinite() || !is_worthwhile({&number, 1})) return false;
@@ -269,7 +277,7 @@ bool RigidBalance::find_joint_motions(std::size_t set) {
   bool are_motions_left = true;
   for (const std::size_t i : bodies) {
     are_light &= parts_[i].is_light;
-    are_motions_left &= parts_[i].motions_left-- > 0;
+    are_motions_left &= may_move_again(parts_[i]);
   }
   if (are_light || !are_motions_left || !solve_jointly(set) || !is_worthwhile(bodies)) return false;
   for (const std::size_t i : bodies) {
@@ -365,24 +373,29 @@ bool RigidBalance::judge_motions() {
     rise += trial_result_[i].energy - resistances_[i].energy;
   }
   for (const Part& part : parts_) rises_[joined_[part.component]] += part.rise_now - part.rise;
-  bool is_to_be_asked = false;
+  bool has_any_come = false;
+  bool has_any_stayed = false;
+  bool is_sliding_other = false;
   for (Part& part : parts_) {
     if (!part.is_tried) continue;
-    is_to_be_asked |= part.sliding == SlidingFriction::bounded;
+    const SlidingFriction before = part.sliding;
     if (rises_[joined_[part.component]] <= 0) {
       part.placement = part.placement_now;
       part.rise = part.rise_now;
-      part.moves = true;
+      part.moves = has_any_come = true;
       part.share_of_motion = std::min<Real>(1, part.share_of_motion / shorter);
       part.sliding = SlidingFriction::as_it_is;
+      part.trials_in_vain = 0;
     } else {
-      is_to_be_asked = true;
+      has_any_stayed = true;
       if (part.sliding == SlidingFriction::bounded) part.share_of_motion *= shorter;
       part.sliding = SlidingFriction::bounded;
+      ++part.trials_in_vain;
     }
+    is_sliding_other |= part.sliding != before;
   }
-  if (!is_to_be_asked) std::swap(resistances_, trial_result_);
-  return is_to_be_asked;
+  if (has_any_come && !has_any_stayed && !is_sliding_other) std::swap(resistances_, trial_result_);
+  return is_sliding_other || (has_any_come && has_any_stayed);
 }
 
 // ---- the way there

@@ -52,6 +52,7 @@ class RigidBalance {
     Real share_of_motion = 1;
     Real share_of_way = 1;
     int motions_left = 0;
+    int trials_in_vain = 0;  // since one was good
     bool is_light = false;  // nothing touches it, and it would not move either
     bool is_tried = false;  // placement_now
     bool moves = false;
@@ -70,6 +71,7 @@ class RigidBalance {
   void find_force(Part& part) const;
   static bool is_misplaced(const Part& part);
   bool is_worthwhile(std::span<const std::size_t> parts) const;
+  static bool may_move_again(Part& part);
   bool find_motion(Part& part);
   bool find_joint_motions(std::size_t set);
   bool solve_jointly(std::size_t set);

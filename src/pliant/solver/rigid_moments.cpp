@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "pliant/core/two_numbers.h"
+
 namespace pliant {
 namespace {
 
@@ -31,14 +33,9 @@ RigidPlacement RigidPlacement::share(Real share) const {
 /// Pairs of numbers side by side, in registers: x and y of a vector, and what goes with its z.
 RigidMoments::RigidMoments(const Vec3& center, std::span<const Index> vertices, std::span<const Real> weights,
                            const WorkingState& work) {
-  using Two = Real __attribute__((vector_size(16)));
-  const auto xy_of = [](const Real* from) {
-    Two pair;
-    __builtin_memcpy(&pair, from, sizeof pair);
-    return pair;
-  };
+  using Two = TwoNumbers;
   const auto twice = [](Real number) { return Two{number, number}; };
-  const Two center_xy = xy_of(center.data());
+  const Two center_xy = two_numbers_at(center.data());
   Vec3 torque = Vec3::Zero();
   Two residuals{}, arms{}, ways{}, arms_and_ways_z{}, weight_and_energy{};
   Real residuals_z = 0;
@@ -49,7 +46,8 @@ RigidMoments::RigidMoments(const Vec3& center, std::span<const Index> vertices, 
     const Real* const x = work.positions.data() + 3 * v;
     const Real* const s = work.prediction.data() + 3 * v;
     const Real* const r = work.residual.data() + 3 * v;
-    const Two arm = xy_of(x) - center_xy, way = xy_of(s) - xy_of(x), residual = xy_of(r);
+    const Two arm = two_numbers_at(x) - center_xy, way = two_numbers_at(s) - two_numbers_at(x),
+              residual = two_numbers_at(r);
     const Real arm_z = x[2] - center.z(), way_z = s[2] - x[2];
     residuals += residual;
     residuals_z += r[2];

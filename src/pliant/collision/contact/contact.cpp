@@ -81,7 +81,7 @@ void Contact::add_resistance(const Candidate& each, const Vec3& x, const SignedD
     stiffness -= rubbed.curvature * each.friction_normal * each.friction_normal.transpose();
     stiffness.diagonal().array() += rubbed.curvature;
     if (rubbed.curvature < each.stiffness && sum.sliding == SlidingFriction::as_it_is) {
-      const Vec3 along = rubbed.force.stableNormalized();
+      const Vec3 along = rubbed.force.normalized();
       stiffness -= rubbed.curvature * along * along.transpose();
     }
   }

@@ -1,5 +1,7 @@
 #pragma once
 // The energies of a contact of stiffness k, each with its derivative and a curvature that bounds its own from above.
+#include <cmath>
+
 #include "pliant/core/types.h"
 
 namespace pliant {
@@ -29,8 +31,9 @@ struct Friction {
 /// Huber's function of a slide u [m]: k/2 ‖u‖² while k ‖u‖ ≤ μλ, which is `limit` [N]; then μλ ‖u‖ − (μλ)²/2k.
 inline Friction friction_potential(Real stiffness, Real limit, const Vec3& slide) {
   const Vec3 force = -stiffness * slide;
-  if (force.squaredNorm() <= limit * limit) return {-force.dot(slide) / 2, force, stiffness};
-  const Real length = slide.stableNorm();
+  const Real square = force.squaredNorm();
+  if (square <= limit * limit) return {-force.dot(slide) / 2, force, stiffness};
+  const Real length = std::sqrt(square) / stiffness;
   return {limit * length - limit * limit / (2 * stiffness), -limit / length * slide, limit / length};
 }
 

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <limits>
 
+#include "pliant/core/two_numbers.h"
+
 namespace pliant {
 namespace {
 
@@ -196,29 +198,25 @@ Real PairList::find_lengths(const Positions& a, const Positions& b, const Vec3& 
   const auto count = static_cast<Index>(b.rows());
   lengths.resize(at(count));
   // two vertices at once: six numbers in a row
-  using Two = Real __attribute__((vector_size(16)));
-  const auto two_at = [](const Real* from) {
-    Two two;
-    __builtin_memcpy(&two, from, sizeof two);
-    return two;
-  };
-  const std::array<Two, 3> commons{Two{common[0], common[1]}, Two{common[2], common[0]}, Two{common[1], common[2]}};
-  Two longest_of_two{};
+  const std::array<TwoNumbers, 3> commons{TwoNumbers{common[0], common[1]}, TwoNumbers{common[2], common[0]},
+                                          TwoNumbers{common[1], common[2]}};
+  TwoNumbers longest_of_two{};
   Index v = 0;
   for (; v + 1 < count; v += 2) {
-    std::array<Two, 3> squares;
+    std::array<TwoNumbers, 3> squares;
     for (std::size_t i = 0; i < 3; ++i) {
-      const Two way = two_at(b.data() + 3 * v + 2 * i) - two_at(a.data() + 3 * v + 2 * i) - commons[i];
+      const TwoNumbers way =
+          two_numbers_at(b.data() + 3 * v + 2 * i) - two_numbers_at(a.data() + 3 * v + 2 * i) - commons[i];
       squares[i] = way * way;
     }
-    const Two x = __builtin_shufflevector(squares[0], squares[1], 0, 3);
-    const Two y = __builtin_shufflevector(squares[0], squares[2], 1, 2);
-    const Two z = __builtin_shufflevector(squares[1], squares[2], 0, 3);
+    const TwoNumbers x = __builtin_shufflevector(squares[0], squares[1], 0, 3);
+    const TwoNumbers y = __builtin_shufflevector(squares[0], squares[2], 1, 2);
+    const TwoNumbers z = __builtin_shufflevector(squares[1], squares[2], 0, 3);
     std::array<Real, 2> sums;
-    const Two sum = x + (y + z);
+    const TwoNumbers sum = x + (y + z);
     for (std::size_t i = 0; i < 2; ++i) sums[i] = std::sqrt(sum[i]);
     __builtin_memcpy(&lengths[at(v)], sums.data(), sizeof sums);
-    const Two length = two_at(sums.data());
+    const TwoNumbers length = two_numbers_at(sums.data());
     longest_of_two = length > longest_of_two ? length : longest_of_two;
   }
   if (v < count) lengths[at(v)] = (row(b, v) - row(a, v) - common).norm();

@@ -33,7 +33,7 @@ Mat3 stiffness_of(const NearPair& pair, SlidingFriction sliding) {
   stiffness.diagonal().array() += pair.rubbed.curvature;
   const bool slides = pair.rubbed.curvature < pair.weight * pair.stiffness;
   if (slides && sliding == SlidingFriction::as_it_is) {
-    const Vec3 along = pair.rubbed.force.stableNormalized();
+    const Vec3 along = pair.rubbed.force.normalized();
     stiffness -= pair.rubbed.curvature * along * along.transpose();
   }
   return stiffness;

@@ -7,6 +7,7 @@
 
 #include "pliant/core/error.h"
 #include "pliant/core/stopwatch.h"
+#include "pliant/core/two_numbers.h"
 #include "pliant/solver/constraint_rows.h"
 
 namespace pliant {
@@ -72,11 +73,12 @@ class LocalStep::Layout {
     chunk.first_entry = step_.entries_.size();
     chunk.first_coefficient = step_.coefficients_.size();
     if (chunk.is_linear) return add_rows(chunk);
-    chunk.has_units = true;
+    chunk.coefficients = Coefficients::ones;
     touched_.clear();
     for_each_entry(chunk, [&](Index vertex, std::size_t, Real coefficient) {
       if (entry_counts_[static_cast<std::size_t>(vertex)]++ == 0) touched_.push_back(vertex);
-      chunk.has_units &= std::abs(coefficient) == 1;
+      const auto one = coefficient == 1 ? Coefficients::ones : Coefficients::signs;
+      chunk.coefficients = std::max(chunk.coefficients, std::abs(coefficient) == 1 ? one : Coefficients::any);
     });
     std::ranges::sort(touched_);
     place_entries(chunk);
@@ -130,12 +132,13 @@ class LocalStep::Layout {
       step_.partial_ends_.push_back(end);
     }
     step_.entries_.resize(chunk.first_entry + end);
-    if (!chunk.has_units) step_.coefficients_.resize(chunk.first_coefficient + end);
+    const bool are_written = chunk.coefficients == Coefficients::any;
+    if (are_written) step_.coefficients_.resize(chunk.first_coefficient + end);
     for_each_entry(chunk, [&](Index vertex, std::size_t slot, Real coefficient) {
       const std::size_t place = entry_counts_[static_cast<std::size_t>(vertex)]++;
-      const bool is_negative = chunk.has_units && coefficient < 0;
+      const bool is_negative = !are_written && coefficient < 0;
       step_.entries_[chunk.first_entry + place] = static_cast<std::uint16_t>(2 * slot + is_negative);
-      if (!chunk.has_units) step_.coefficients_[chunk.first_coefficient + place] = coefficient;
+      if (are_written) step_.coefficients_[chunk.first_coefficient + place] = coefficient;
     });
   }
 
@@ -276,28 +279,38 @@ Real LocalStep::project(Chunk& chunk, const Positions& q, std::vector<Real>& slo
     return found.energy;
   }
   const Real energy = project_to_slots(group, q, slots, chunk.begin, chunk.end);
-  chunk.has_units ? collect<true>(chunk, slots.data()) : collect<false>(chunk, slots.data());
+  switch (chunk.coefficients) {
+    case Coefficients::ones:
+      collect<Coefficients::ones>(chunk, slots.data());
+      break;
+    case Coefficients::signs:
+      collect<Coefficients::signs>(chunk, slots.data());
+      break;
+    case Coefficients::any:
+      collect<Coefficients::any>(chunk, slots.data());
+      break;
+  }
   return energy;
 }
 
-template <bool units>
+template <LocalStep::Coefficients kind>
 void LocalStep::collect(const Chunk& chunk, const Real* slots) {
   constexpr std::array<Real, 2> signs = {1, -1};
   const std::uint16_t* const entries = entries_.data() + chunk.first_entry;
   const Real* const coefficients = coefficients_.data() + chunk.first_coefficient;
   std::uint32_t entry = 0;
   for (std::size_t partial = chunk.first_partial; partial < chunk.last_partial; ++partial) {
-    Real x = 0, y = 0, z = 0;
+    VectorSum sum;
     for (; entry < partial_ends_[partial]; ++entry) {
       const std::uint16_t code = entries[entry];
-      const Real* slot = slots + 3 * (code / 2);
-      const Real coefficient = units ? signs[code % 2] : coefficients[entry];
-      x += coefficient * slot[0];
-      y += coefficient * slot[1];
-      z += coefficient * slot[2];
+      const Real* const slot = slots + 3 * (code / 2);
+      if constexpr (kind == Coefficients::ones) {
+        sum.add(slot);
+      } else {
+        sum.add(kind == Coefficients::signs ? signs[code % 2] : coefficients[entry], slot);
+      }
     }
-    Real* out = partials_.data() + 3 * partial;
-    out[0] = x, out[1] = y, out[2] = z;
+    sum.write(partials_.data() + 3 * partial);
   }
 }
 
@@ -311,21 +324,20 @@ LocalStep::VertexSums LocalStep::gather(Index begin, Index end, const Positions&
       std::fill_n(out, 3, Real(0));
       continue;
     }
-    Real x = 0, y = 0, z = 0;
+    VectorSum sum;
     for (std::size_t place = vertex_offsets_[i]; place < vertex_offsets_[i + 1]; ++place) {
-      const Real* partial = partials_.data() + 3 * static_cast<std::size_t>(vertex_partials_[place]);
-      x += partial[0];
-      y += partial[1];
-      z += partial[2];
+      sum.add(partials_.data() + 3 * static_cast<std::size_t>(vertex_partials_[place]));
     }
+    std::array<Real, 3> force;
+    sum.write(force.data());
     const Real* from = q.data() + 3 * i;
     const Real* to = s.data() + 3 * i;
     const Real weight = inertia_weights[i];
     const Real dx = to[0] - from[0], dy = to[1] - from[1], dz = to[2] - from[2];
     sums.inertia += weight / 2 * (dx * dx + dy * dy + dz * dz);
-    out[0] = x + weight * dx;
-    out[1] = y + weight * dy;
-    out[2] = z + weight * dz;
+    out[0] = force[0] + weight * dx;
+    out[1] = force[1] + weight * dy;
+    out[2] = force[2] + weight * dz;
     sums.squared_residual = larger(sums.squared_residual, out[0] * out[0] + out[1] * out[1] + out[2] * out[2]);
   }
   return sums;

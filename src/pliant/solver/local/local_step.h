@@ -59,6 +59,7 @@ class LocalStep {
 
  private:
   static constexpr Index mixed = -1;
+  enum class Coefficients { ones, signs, any };  // 1; 1 and −1, which an entry says by itself
   struct Chunk {
     std::size_t group;
     Index begin;  // constraints of the group, or rows of its linear forces
@@ -70,7 +71,7 @@ class LocalStep {
     std::size_t first_entry = 0;
     std::size_t first_coefficient = 0;
     Index component = mixed;  // of all its constraints
-    bool has_units = false;   // every coefficient is 1 or -1, which its entry says by itself
+    Coefficients coefficients = Coefficients::any;
   };
   struct VertexSums {
     Real squared_residual = 0;
@@ -85,7 +86,7 @@ class LocalStep {
   void still_linear();
   void lay_out_vertices(Index vertex_count, std::span<const Index> partial_vertices);
   Real project(Chunk& chunk, const Positions& q, std::vector<Real>& slots);
-  template <bool units>
+  template <Coefficients kind>
   void collect(const Chunk& chunk, const Real* slots);
   VertexSums gather(Index begin, Index end, const Positions& q, const Positions& s,
                     std::span<const Real> inertia_weights, std::span<const char> is_pinned, Positions& r) const;
@@ -104,8 +105,8 @@ class LocalStep {
 
   std::vector<Real> partials_;               // count × 3, chunk after chunk
   std::vector<std::uint32_t> partial_ends_;  // entries of the partial, counted from the first of its chunk
-  std::vector<std::uint16_t> entries_;       // twice the slot of the chunk, plus one where a unit is negative
-  std::vector<Real> coefficients_;           // of the entries of chunks that have others than units
+  std::vector<std::uint16_t> entries_;       // twice the slot of the chunk, plus one where the coefficient is −1
+  std::vector<Real> coefficients_;           // of the entries of chunks that have any
   std::vector<std::size_t> vertex_offsets_;  // vertex i has the partials [offsets[i], offsets[i + 1]) of
   std::vector<std::uint32_t> vertex_partials_;
 };
