@@ -40,7 +40,7 @@ part="${BASH_REMATCH[1]}" parts="${BASH_REMATCH[2]}" processors="$(nproc)"
 mkdir -p out
 pids=()
 for ((i = 0; i < processors; ++i)); do
-  "$scenes" everything --share "$((part + i * parts))/$((parts * processors))" --log out/contact.log &
+  "$scenes" everything --threads 1 --share "$((part + i * parts))/$((parts * processors))" --log out/contact.log &
   pids+=($!)
 done
 status=0

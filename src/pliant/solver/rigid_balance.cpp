@@ -1,28 +1,23 @@
 #include "pliant/solver/rigid_balance.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 
 namespace pliant {
 namespace {
 
-/// Of the energies of inertia and contact: what a motion must gain to be worth it. A force out of balance by 3e-6 of
-/// the weight gains as much.
-constexpr Real worthwhile = 1e-11;
-/// The same of a motion after the first, which costs next to nothing.
+/// As `worthwhile`, of a motion after the first, which costs next to nothing.
 constexpr Real worth_going_on = 1e-13;
+/// The same after so many trials in a row that have gained nothing, as where a vertex rests where no move may lead.
+constexpr Real worth_insisting = 1e-9;
+constexpr int few_trials_in_vain = 3;
 /// Of the size of a component that touches nothing.
 constexpr Real least_shift = 1e-6;
 constexpr int most_motions = 12;
 /// Each of some that touch each other moves as if the others stood still: many such motions only shake them.
 constexpr int most_motions_of_many = 4;
-/// What a motion has not gained when shortened so often, as where a vertex rests where no move may lead, is left.
-constexpr int most_trials_in_vain = 4;
 constexpr int most_ways = 3;
-constexpr Real shorter = 0.4;
-constexpr int most_trials = 3;  // of ways without those that have gone back
 /// Of the resistance to rotations: what keeps the matrix of a line positive definite, which resists none about itself.
 constexpr Real about_itself = 1e-10;
 
@@ -68,8 +63,6 @@ bool RigidBalance::settle(const StepContext& context, WorkingState& work, LocalR
   if (are_several && find_placements(context, work, Motions::common)) has_moved |= go_there(context, work, local);
   return has_moved;
 }
-
-// ---- where forces are in balance
 
 /// Contact is asked only where there may be something to gain: without it a motion would gain more. Returns whether
 /// anything is to go elsewhere.
@@ -240,12 +233,15 @@ bool RigidBalance::is_worthwhile(std::span<const std::size_t> parts) const {
   Real gain = 0;
   Real energy = 0;
   bool have_moved = false;
+  int trials_in_vain = 0;
   for (const std::size_t i : parts) {
     const Part& part = parts_[i];
     gain += part.motion.dot(part.force) / 2;
     energy += part.moments.energy() + part.rise + resistances_[part.component].energy;
     have_moved |= part.moves;
+    trials_in_vain = std::max(trials_in_vain, part.trials_in_vain);
   }
+  if (trials_in_vain >= few_trials_in_vain) return gain > worth_insisting * energy;
   return gain > (have_moved ? worth_going_on : worthwhile) * energy;
 }
 
@@ -255,14 +251,9 @@ void RigidBalance::try_placement(const RigidPlacement& placement, Part& part) {
   part.rise_now = part.moments.rise(placement);
 }
 
-/// Counts.
-bool RigidBalance::may_move_again(Part& part) {
-  return part.motions_left-- > 0 && part.trials_in_vain < most_trials_in_vain;
-}
-
 /// As if all others stood still.
 bool RigidBalance::find_motion(Part& part) {
-  if (part.freedom == RigidFreedom::none || !may_move_again(part) || part.is_light) return false;
+  if (part.freedom == RigidFreedom::none || part.motions_left-- <= 0 || part.is_light) return false;
   part.motion = motion_of(part.curvature, part.force, part.freedom);
   const std::size_t number = static_cast<std::size_t>(&part - parts_.data());
   if (!part.motion.allFinite() || !is_worthwhile({&number, 1})) return false;
@@ -277,7 +268,7 @@ bool RigidBalance::find_joint_motions(std::size_t set) {
   bool are_motions_left = true;
   for (const std::size_t i : bodies) {
     are_light &= parts_[i].is_light;
-    are_motions_left &= may_move_again(parts_[i]);
+    are_motions_left &= parts_[i].motions_left-- > 0;
   }
   if (are_light || !are_motions_left || !solve_jointly(set) || !is_worthwhile(bodies)) return false;
   for (const std::size_t i : bodies) {
@@ -396,113 +387,6 @@ bool RigidBalance::judge_motions() {
   }
   if (has_any_come && !has_any_stayed && !is_sliding_other) std::swap(resistances_, trial_result_);
   return is_sliding_other || (has_any_come && has_any_stayed);
-}
-
-// ---- the way there
-
-/// What begins to touch on it was not asked. Returns whether anything has moved.
-bool RigidBalance::go_there(const StepContext& context, WorkingState& work, LocalResult& local) {
-  const Components& free = context.system.free_components();
-  energies_before_.assign(joined_.size(), 0);
-  context.contact.add_energies(context.system.components_of_vertices(), energies_before_);
-  context.contact.subtract(work.residual, context.threads);
-  positions_before_ = work.positions;
-  residual_before_ = work.residual;
-  for (std::size_t i = 0; i < parts_.size(); ++i) {
-    Part& part = parts_[i];
-    part.goes_back = false;
-    if (!part.moves) continue;
-    part.placement = part.placement.share(part.share_of_way);
-    part.rise = part.moments.rise(part.placement);
-    move(part, free.component(i), context.system.inertia_weights(), work);
-  }
-  judge(context, work);
-  bool has_moved = false;
-  for (Part& part : parts_) {
-    if (part.moves) {
-      local.inertia += part.rise;
-      part.share_of_way = 1;
-      has_moved = true;
-    } else if (part.goes_back) {
-      part.share_of_way *= shorter;
-    }
-  }
-  if (!has_moved) context.contact.find_forces(work.positions, context.threads);
-  context.contact.add(work, local, context.threads);
-  return has_moved;
-}
-
-/// Whether all have come to where they should, and nothing touches there that was not asked.
-bool RigidBalance::is_as_expected() const {
-  Real difference = 0;
-  Real energy = 0;
-  for (std::size_t i = 0; i < energies_.size(); ++i) {
-    const Real expected = resistances_[i].energy - energies_asked_before_[i];
-    difference += std::abs(energies_[i] - energies_before_[i] - expected);
-    energy += resistances_[i].energy;
-  }
-  return difference <= worthwhile * energy &&
-         std::ranges::none_of(parts_, [](const Part& part) { return part.goes_back || part.share_of_way < 1; });
-}
-
-/// Takes ways back that have raised the objective, or all where anything is in the way of one. Those that are left are
-/// judged again without the others: what has gone back may be in their way now.
-void RigidBalance::judge(const StepContext& context, WorkingState& work) {
-  const Components& free = context.system.free_components();
-  bool is_decided = false;
-  for (int trial = 0; !is_decided; ++trial) {
-    const HeldBack held = context.contact.hold_back(positions_before_, work.positions, context.threads);
-    const bool may_stay = trial < most_trials && !held.has_moved && !held.has_new_potential;
-    if (!may_stay) work.positions = positions_before_;
-    find_rises(context);
-    bool is_any_left = false;
-    bool has_gone_back = false;
-    for (std::size_t i = 0; i < parts_.size(); ++i) {
-      Part& part = parts_[i];
-      if (!part.moves) continue;
-      part.moves = may_stay && rises_[joined_[part.component]] <= 0;
-      is_any_left |= part.moves;
-      if (part.moves) continue;
-      take_back(free.component(i), work);
-      part.goes_back = has_gone_back = true;
-    }
-    is_decided = !is_any_left || !has_gone_back;
-  }
-}
-
-/// By how much the objective has risen, of all together that may touch each other.
-void RigidBalance::find_rises(const StepContext& context) {
-  const std::span<const Index> component_of_vertex = context.system.components_of_vertices();
-  std::iota(joined_.begin(), joined_.end(), std::size_t{0});
-  context.contact.join_components(component_of_vertex, joined_);
-  energies_.assign(joined_.size(), 0);
-  context.contact.add_energies(component_of_vertex, energies_);
-  rises_.assign(joined_.size(), 0);
-  for (std::size_t i = 0; i < joined_.size(); ++i) rises_[joined_[i]] += energies_[i] - energies_before_[i];
-  for (const Part& part : parts_) {
-    if (part.moves) rises_[joined_[part.component]] += part.rise;
-  }
-}
-
-void RigidBalance::take_back(std::span<const Index> vertices, WorkingState& work) const {
-  for (const Index v : vertices) {
-    work.positions.row(v) = positions_before_.row(v);
-    work.residual.row(v) = residual_before_.row(v);
-  }
-}
-
-/// Elastic forces turn with the component. The residual has no forces of contact here.
-void RigidBalance::move(const Part& part, std::span<const Index> vertices, std::span<const Real> weights,
-                        WorkingState& work) {
-  for (const Index v : vertices) {
-    const Real weight = weights[at(v)];
-    const Vec3 from = row(work.positions, v);
-    const Vec3 to = part.placement.place(part.center, from);
-    const Vec3 goal = row(work.prediction, v);
-    const Vec3 elastic = row(work.residual, v) - weight * (goal - from);
-    work.positions.row(v) = to.transpose();
-    work.residual.row(v) = (part.placement.turn * elastic + weight * (goal - to)).transpose();
-  }
 }
 
 }  // namespace pliant

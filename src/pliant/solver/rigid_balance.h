@@ -30,6 +30,11 @@ class RigidBalance {
   using Motion = RigidResistance::Motion;
   using Matrix = Eigen::Matrix<Real, 6, 6>;
 
+  /// Of the energies of inertia and contact: what a motion must gain to be worth it. A force out of balance by 3e-6 of
+  /// the weight gains as much.
+  static constexpr Real worthwhile = 1e-11;
+  static constexpr Real shorter = 0.4;  // than a motion or way that has raised the objective
+
   /// What moves on its own: each component, or those that push each other all alike.
   enum class Motions { each, common };
 
@@ -53,8 +58,8 @@ class RigidBalance {
     Real share_of_way = 1;
     int motions_left = 0;
     int trials_in_vain = 0;  // since one was good
-    bool is_light = false;  // nothing touches it, and it would not move either
-    bool is_tried = false;  // placement_now
+    bool is_light = false;   // nothing touches it, and it would not move either
+    bool is_tried = false;   // placement_now
     bool moves = false;
     bool goes_back = false;
   };
@@ -71,7 +76,6 @@ class RigidBalance {
   void find_force(Part& part) const;
   static bool is_misplaced(const Part& part);
   bool is_worthwhile(std::span<const std::size_t> parts) const;
-  static bool may_move_again(Part& part);
   bool find_motion(Part& part);
   bool find_joint_motions(std::size_t set);
   bool solve_jointly(std::size_t set);
