@@ -70,10 +70,12 @@ struct Many {
     return reduction_of(i) * e;
   }
 
-  LocalBlock block(std::size_t first, std::size_t many, Real* out) const {
+  LocalBlock block(std::size_t first, std::size_t many, const LaneCoefficients& coefficients, Real* out) const {
+    constexpr bool is_dynamic = Type::vertices == dynamic_vertices;
     return {positions.data(),
             stencil.data() + n * first,
-            reduction.data() + Type::rows * n * first,
+            is_dynamic ? reduction.data() + Type::rows * n * first : nullptr,
+            is_dynamic ? nullptr : coefficients.from(first, many, reduction, {}),
             fields.data() + Type::fields * first,
             measure.data() + first,
             stiffness,
@@ -114,9 +116,12 @@ Outcome<Type> run(const LocalKernels& kernels, const Many<Type>& many) {
   Outcome<Type> outcome;
   outcome.written.resize(many.count(), Written<Type>::Constant(not_a_number));
   outcome.is_done.resize(many.count(), false);
+  LaneCoefficients coefficients(Type::rows, Many<Type>::n);
+  coefficients.add_all(many.reduction);
   for (std::size_t first = 0; first < many.count(); first += local_block) {
     const std::size_t count = std::min(local_block, many.count() - first);
-    const LocalDone done = (kernels.*Type::kernel)(many.block(first, count, outcome.written[first].data()));
+    const LocalDone done =
+        (kernels.*Type::kernel)(many.block(first, count, coefficients, outcome.written[first].data()));
     CHECK(done.count <= count);
     outcome.energy += done.energy;
     std::vector<bool> is_left(count, false);
@@ -254,6 +259,29 @@ TEST_CASE("a batch takes from a kernel what it does, and does the rest by itself
   for (std::size_t i = 0; i < many.count(); ++i) {
     const Real scale = many.stiffness * many.measure[i] * (1 + many.z(i).norm()) * (1 + many.reduction_of(i).norm());
     for (std::size_t a = 12 * i; a < 12 * i + 12; ++a) CHECK(std::abs(forces[a] - one_by_one[a]) < 1e-9 * scale);
+  }
+}
+
+TEST_CASE("the same of a part of a batch, wherever that begins") {
+  Random random;
+  const Many<TriangleStrainProjection> many = samples<TriangleStrainProjection>(random, 203);
+  Batch<TriangleStrainProjection> batch(many.stiffness);
+  for (std::size_t i = 0; i < many.count(); ++i) {
+    batch.add(std::span(many.stencil).subspan(3 * i, 3), std::span(many.reduction).subspan(6 * i, 6), many.measure[i],
+              {many.field(i), 2});
+  }
+  for (const Index begin : {0, 1, 7, 8, 61, 100}) {
+    CAPTURE(begin);
+    Batch<TriangleStrainProjection> part(many.stiffness);
+    for (auto i = static_cast<std::size_t>(begin); i < many.count(); ++i) {
+      part.add(std::span(many.stencil).subspan(3 * i, 3), std::span(many.reduction).subspan(6 * i, 6), many.measure[i],
+               {many.field(i), 2});
+    }
+    const Index count = static_cast<Index>(many.count()) - begin;
+    std::vector<Real> forces(9 * at(count)), of_part(9 * at(count));
+    const Real energy = batch.project_to_forces(many.positions, forces, begin, begin + count);
+    CHECK(energy == part.project_to_forces(many.positions, of_part, 0, count));
+    CHECK(forces == of_part);
   }
 }
 

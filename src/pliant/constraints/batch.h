@@ -20,7 +20,7 @@
 #include <string>
 
 #include "pliant/constraints/batch_checks.h"
-#include "pliant/constraints/kernels/local_kernels.h"
+#include "pliant/constraints/lane_coefficients.h"
 #include "pliant/constraints/pull.h"
 #include "pliant/constraints/reorder.h"
 #include "pliant/constraints/stencil_sum.h"
@@ -46,11 +46,12 @@ class Batch final : public ConstraintGroup {
   /// on lists of the wrong length, and on rows that do not sum to zero where the type says so.
   void add(std::span<const Index> stencil, std::span<const Real> reduction, Real measure,
            std::span<const Real> fields) {
-    check(stencil.size(), reduction, fields.size());
+    check_constraint<Type>(type_, shape(), stencil.size(), reduction, fields.size());
     // One by one: of a range insertion, g++ 12 warns without cause in programs that include this.
     for (const Index vertex : stencil) stencil_.push_back(vertex);
     for (const Real coefficient : reduction) reduction_.push_back(coefficient);
     for (const Real field : fields) fields_.push_back(field);
+    if constexpr (has_coefficients) coefficients_.add(reduction);
     rest_measure_.push_back(measure);
     changed();
   }
@@ -84,6 +85,7 @@ class Batch final : public ConstraintGroup {
     batch->stencil_ = in_order(stencil(), order, n);
     for (Index& vertex : batch->stencil_) vertex = numbers[static_cast<std::size_t>(vertex)];
     batch->reduction_ = in_order(reduction(), order, n * Type::rows);
+    if constexpr (has_coefficients) batch->coefficients_.add_all(batch->reduction_);
     batch->rest_measure_ = in_order(rest_measure(), order, 1);
     batch->fields_ = in_order(fields(), order, Type::fields);
     return batch;
@@ -127,6 +129,9 @@ class Batch final : public ConstraintGroup {
   static constexpr std::size_t size = Type::rows * 3;
   static constexpr bool has_targets = requires { Type::has_targets; };
   static constexpr bool has_kernel = requires { Type::kernel; };
+  static constexpr bool is_difference = requires { Type::is_difference; };
+  static constexpr bool has_coefficients =  // that its kernel reads
+      has_kernel && !is_difference && Type::vertices != dynamic_vertices;
   static constexpr bool has_linear = requires { Type::is_linear; };
   static constexpr bool rotates_along = requires { Type::rotation_invariant; };
   static constexpr bool has_stretches = requires { Type::limits_stretches; };
@@ -151,12 +156,15 @@ class Batch final : public ConstraintGroup {
     const std::size_t numbers = 3 * (Type::rows == 1 ? 1 : n);
     static const LocalKernels& kernels = *local_kernels().back();
     const auto last = static_cast<std::size_t>(end);
+    std::array<Real, has_coefficients ? local_block * Type::rows*(Type::vertices - 1) : 1> room;
     Real energy = 0;
     for (auto first = static_cast<std::size_t>(begin); first < last; first += local_block) {
       const std::size_t count = std::min(local_block, last - first);
-      const LocalDone done = (kernels.*Type::kernel)({positions.data(), stencil_.data() + n * first,
-                                                      reduction_.data() + n * Type::rows * first, field(first),
-                                                      rest_measure_.data() + first, stiffness(), n, count, out.data()});
+      const Real* reduction = has_coefficients ? nullptr : reduction_.data() + n * Type::rows * first;
+      const Real* coefficients = has_coefficients ? coefficients_.from(first, count, reduction_, room) : nullptr;
+      const LocalDone done =
+          (kernels.*Type::kernel)({positions.data(), stencil_.data() + n * first, reduction, coefficients, field(first),
+                                   rest_measure_.data() + first, stiffness(), n, count, out.data()});
       energy += done.energy;
       for (std::size_t i = done.next(0); i < count; i = done.next(i + 1)) {
         const auto place = static_cast<Index>(first + i);
@@ -169,16 +177,6 @@ class Batch final : public ConstraintGroup {
     return energy;
   }
 
-  void check(std::size_t stencil_size, std::span<const Real> reduction, std::size_t field_count) const {
-    const auto n = static_cast<std::size_t>(vertices());
-    check_numbers(type_, shape(), Type::fields, stencil_size, reduction.size(), field_count);
-    if constexpr (requires { Type::is_difference; }) {
-      if (reduction[0] != -1 || reduction[1] != 1) fail_input(std::string(type_) + ": its coefficients are -1, 1");
-    }
-    for (std::size_t row = 0; Type::translation_invariant && row < Type::rows; ++row)
-      check_sum_of_row(type_, reduction.subspan(row * n, n));
-  }
-
   int vertices() const { return Type::vertices == dynamic_vertices ? vertices_ : Type::vertices; }
   Real* field(std::size_t i) { return fields_.data() + i * Type::fields; }
   const Real* field(std::size_t i) const { return fields_.data() + i * Type::fields; }
@@ -187,6 +185,7 @@ class Batch final : public ConstraintGroup {
   std::string_view type_;
   std::vector<Index> stencil_;
   std::vector<Real> reduction_;
+  LaneCoefficients coefficients_{Type::rows, has_coefficients ? Type::vertices : 1};
   std::vector<Real> rest_measure_;
   std::vector<Real> fields_;
 };

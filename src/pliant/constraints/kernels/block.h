@@ -51,8 +51,9 @@ struct Block : LaneMath<width> {
 
   template <std::size_t vertices, std::size_t rows>
   static Number coefficient(const LocalBlock& block, std::size_t first, std::size_t row, std::size_t j) {
-    constexpr std::size_t size = rows * vertices;
-    return Math::load(block.reduction + size * first, size, row * vertices + j);
+    constexpr std::size_t size = rows * (vertices - 1), lanes = lanes_of_coefficients;
+    const std::size_t place = row * (vertices - 1) + j - 1;
+    return Math::load(block.coefficients + (first / lanes * size + place) * lanes + first % lanes);
   }
 
   /// z = A S q of a type whose rows sum to zero, row after row.

@@ -93,8 +93,8 @@ struct HyperelasticKernels : StrainKernels<width> {
       All::template reduce<vertices, rows>(block, i * width, f);
       const Number J = measure_of(f, c);
       const Strain G = strain_of(f);
-      const double* fields = block.fields + 2 * i * width;
-      const Number mu = Math::load(fields, 2, 0), lambda = Math::load(fields, 2, 1);
+      Number mu, lambda;
+      Math::load_both(block.fields + 2 * i * width, mu, lambda);
       const Number t = 2 * G.trace(), quartic = 4 * G.second() + 8 * G.third();  // J² − 1 is their sum
       const Mask is_near = (G.squares() < near_rest) & (J > 0);
       const Number d = Math::select(is_near, (t + quartic) / (J + 1), J - 1);
@@ -120,8 +120,8 @@ struct HyperelasticKernels : StrainKernels<width> {
       Number f[size], P[size];
       All::template reduce<vertices, rows>(block, i * width, f);
       const Strain G = strain_of(f);
-      const double* fields = block.fields + 2 * i * width;
-      const Number mu = Math::load(fields, 2, 0), lambda = Math::load(fields, 2, 1);
+      Number mu, lambda;
+      Math::load_both(block.fields + 2 * i * width, mu, lambda);
       const Number of_trace = lambda * G.trace();
       const Number S[3][3] = {{2 * mu * G.xx + of_trace, 2 * mu * G.xy, 2 * mu * G.zx},
                               {2 * mu * G.xy, 2 * mu * G.yy + of_trace, 2 * mu * G.yz},

@@ -23,6 +23,11 @@ struct Lanes<2> {
   static Number join(const P* pairs) {
     return pairs[0];
   }
+  template <class N>
+  static void part(const N& low, const N& high, N& even, N& odd) {
+    even = __builtin_shufflevector(low, high, 0, 2);
+    odd = __builtin_shufflevector(low, high, 1, 3);
+  }
 };
 template <>
 struct Lanes<4> {
@@ -32,6 +37,11 @@ struct Lanes<4> {
   static Number join(const P* pairs) {
     return __builtin_shufflevector(pairs[0], pairs[1], 0, 1, 2, 3);
   }
+  template <class N>
+  static void part(const N& low, const N& high, N& even, N& odd) {
+    even = __builtin_shufflevector(low, high, 0, 2, 4, 6);
+    odd = __builtin_shufflevector(low, high, 1, 3, 5, 7);
+  }
 };
 template <>
 struct Lanes<8> {
@@ -40,6 +50,11 @@ struct Lanes<8> {
   template <class P>  // so that the compiler looks at it only where there are registers for it
   static Number join(const P* pairs) {
     return __builtin_shufflevector(Lanes<4>::join(pairs), Lanes<4>::join(pairs + 2), 0, 1, 2, 3, 4, 5, 6, 7);
+  }
+  template <class N>
+  static void part(const N& low, const N& high, N& even, N& odd) {
+    even = __builtin_shufflevector(low, high, 0, 2, 4, 6, 8, 10, 12, 14);
+    odd = __builtin_shufflevector(low, high, 1, 3, 5, 7, 9, 11, 13, 15);
   }
 };
 
@@ -89,6 +104,10 @@ struct LaneMath : Lanes<width> {
   /// Number a of `size` of each lane, which stand one lane after the other.
   static Number load(const double* from, std::size_t size, std::size_t a) {
     return each([&](std::size_t lane) { return from[size * lane + a]; });
+  }
+  /// Both numbers of each lane, which stand one lane after the other.
+  static void load_both(const double* from, Number& first, Number& second) {
+    Lanes<width>::part(load(from), load(from + width), first, second);
   }
   template <std::size_t size>
   static void store(const Number (&numbers)[size], double* to) {

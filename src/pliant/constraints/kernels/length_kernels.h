@@ -49,9 +49,8 @@ struct LengthKernels : Block<width> {
     for (std::size_t i = 0; i < vectors; ++i) {
       Number z[3];
       All::template reduce<vertices, 1>(block, i * width, z);
-      const double* limits = block.fields + 2 * i * width;
-      const Number min = Math::load(limits, 2, 0);
-      const Number max = Math::load(limits, 2, 1);
+      Number min, max;
+      Math::load_both(block.fields + 2 * i * width, min, max);
       resize(
           block, i, z, [&](Number length) { return Math::smaller(Math::larger(length, min), max); }, sums);
     }

@@ -11,12 +11,15 @@ namespace pliant {
 
 /// How many constraints a call takes at most.
 inline constexpr std::size_t local_block = 64;
+/// So many constraints have their coefficients side by side (LaneCoefficients).
+inline constexpr std::size_t lanes_of_coefficients = 8;
 
 /// A run of constraints of one batch; all lists begin with its first.
 struct LocalBlock {
   const double* positions;  ///< of all vertices, m × 3
   const std::int32_t* stencil;
-  const double* reduction;
+  const double* reduction;     ///< of types whose batches have a number of vertices of their own; else null
+  const double* coefficients;  ///< of the others, side by side; else null
   const double* fields;
   const double* measure;
   double stiffness;

@@ -39,10 +39,12 @@ struct Polar : LaneMath<width> {
     const Number scale = 1 / Math::square_root(squares / 3);
     for (int a = 0; a < 9; ++a) m[a] *= scale;
     Number c[9];
-    const Mask is_sound = cofactors(m, c) > smallest_determinant;  // not so where it is not finite
+    Number determinant = cofactors(m, c);
+    const Mask is_sound = determinant > smallest_determinant;  // not so where it is not finite
     Mask is_open = is_sound;
     for (int i = 0; i < most_iterations && Math::any(is_open); ++i) {
-      const Number half = 0.5 / cofactors(m, c);
+      if (i > 0) determinant = cofactors(m, c);
+      const Number half = 0.5 / determinant;
       Number change = {};
       for (int a = 0; a < 9; ++a) {
         const Number next = Math::multiply_add(half, c[a], 0.5 * m[a]);

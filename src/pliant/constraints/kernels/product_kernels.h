@@ -61,8 +61,8 @@ struct ProductKernels : StrainKernels<width> {
       Number f[size], x[size], c[size];
       All::template reduce<vertices, rows>(block, i * width, f);
       for (std::size_t a = 0; a < size; ++a) x[a] = f[a];
-      const double* limits = block.fields + 2 * i * width;
-      const Number least = Math::load(limits, 2, 0), most = Math::load(limits, 2, 1);
+      Number least, most;
+      Math::load_both(block.fields + 2 * i * width, least, most);
       const Number given = product_of(x, c);
       const Number squares = dot(f, f);
       const Number target = Math::select(given < least, least, most);

@@ -36,9 +36,9 @@ struct StrainKernels : Block<width> {
   template <std::size_t vertices, std::size_t size>
   static void stretch(const LocalBlock& block, std::size_t i, const Number (&z)[size], Number (&p)[size], Mask is_left,
                       Sums& sums) {
-    const double* limits = block.fields + 2 * i * width;
-    const Number stretch = Math::load(limits, 2, 0);
-    is_left |= stretch != Math::load(limits, 2, 1);
+    Number stretch, largest;
+    Math::load_both(block.fields + 2 * i * width, stretch, largest);
+    is_left |= stretch != largest;
     for (std::size_t a = 0; a < size; ++a) p[a] = Math::multiply_add(stretch, p[a], -z[a]);
     settle<vertices>(block, i, p, is_left, sums);
   }

@@ -81,6 +81,7 @@ class LocalStep::Layout {
       chunk.coefficients = std::max(chunk.coefficients, std::abs(coefficient) == 1 ? one : Coefficients::any);
     });
     std::ranges::sort(touched_);
+    std::ranges::stable_sort(touched_, {}, [&](Index vertex) { return entry_counts_[at(vertex)]; });
     place_entries(chunk);
     for (const Index vertex : touched_) {
       entry_counts_[static_cast<std::size_t>(vertex)] = 0;
@@ -295,19 +296,20 @@ Real LocalStep::project(Chunk& chunk, const Positions& q, std::vector<Real>& slo
 
 template <LocalStep::Coefficients kind>
 void LocalStep::collect(const Chunk& chunk, const Real* slots) {
-  constexpr std::array<Real, 2> signs = {1, -1};
   const std::uint16_t* const entries = entries_.data() + chunk.first_entry;
   const Real* const coefficients = coefficients_.data() + chunk.first_coefficient;
   std::uint32_t entry = 0;
   for (std::size_t partial = chunk.first_partial; partial < chunk.last_partial; ++partial) {
     VectorSum sum;
     for (; entry < partial_ends_[partial]; ++entry) {
-      const std::uint16_t code = entries[entry];
+      const std::size_t code = entries[entry];
       const Real* const slot = slots + 3 * (code / 2);
       if constexpr (kind == Coefficients::ones) {
         sum.add(slot);
+      } else if constexpr (kind == Coefficients::signs) {
+        sum.add_signed(code % 2, slot);
       } else {
-        sum.add(kind == Coefficients::signs ? signs[code % 2] : coefficients[entry], slot);
+        sum.add(coefficients[entry], slot);
       }
     }
     sum.write(partials_.data() + 3 * partial);
