@@ -386,7 +386,8 @@ bool RigidBalance::judge_motions() {
     is_sliding_other |= part.sliding != before;
   }
   if (has_any_come && !has_any_stayed && !is_sliding_other) std::swap(resistances_, trial_result_);
-  return is_sliding_other || (has_any_come && has_any_stayed);
+  const bool are_couplings_other = has_any_stayed && !links_.empty();  // those of the trial
+  return is_sliding_other || are_couplings_other || (has_any_come && has_any_stayed);
 }
 
 }  // namespace pliant
