@@ -132,6 +132,8 @@ class Batch final : public ConstraintGroup {
   static constexpr bool is_difference = requires { Type::is_difference; };
   static constexpr bool has_coefficients =  // that its kernel reads
       has_kernel && !is_difference && Type::vertices != dynamic_vertices;
+  static constexpr auto coefficients_size =
+      static_cast<std::size_t>(has_coefficients ? Type::rows * (Type::vertices - 1) : 0);
   static constexpr bool has_linear = requires { Type::is_linear; };
   static constexpr bool rotates_along = requires { Type::rotation_invariant; };
   static constexpr bool has_stretches = requires { Type::limits_stretches; };
@@ -156,7 +158,7 @@ class Batch final : public ConstraintGroup {
     const std::size_t numbers = 3 * (Type::rows == 1 ? 1 : n);
     static const LocalKernels& kernels = *local_kernels().back();
     const auto last = static_cast<std::size_t>(end);
-    std::array<Real, has_coefficients ? local_block * Type::rows*(Type::vertices - 1) : 1> room;
+    std::array<Real, local_block * coefficients_size + 1> room;
     Real energy = 0;
     for (auto first = static_cast<std::size_t>(begin); first < last; first += local_block) {
       const std::size_t count = std::min(local_block, last - first);
