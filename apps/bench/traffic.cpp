@@ -15,10 +15,13 @@ std::int64_t size_of(std::size_t count) {
   return static_cast<std::int64_t>(count);
 }
 
-/// What the projections read of a group. Its reduction is not counted where it is (−1, 1), which kernels know.
+/// What the projections must read of a group. Its reduction is not counted where it is (−1, 1), which kernels know, and
+/// of each row else one coefficient less, as rows sum to zero.
 std::int64_t bytes_of(ConstraintGroup& group) {
   const bool is_difference = std::ranges::all_of(group.reduction(), [](Real c) { return c == 1 || c == -1; });
-  const std::size_t reduction = is_difference ? 0 : group.reduction().size();
+  const GroupShape shape = group.shape();
+  const auto rows = static_cast<std::size_t>(shape.count) * static_cast<std::size_t>(shape.rows);
+  const std::size_t reduction = is_difference ? 0 : group.reduction().size() - rows;
   return index * size_of(group.stencil().size()) + real * size_of(reduction + group.rest_measure().size()) +
          real * size_of(group.parameters().size());  // the fields
 }

@@ -14,7 +14,7 @@ void check_sum_of_row(std::string_view type, std::span<const Real> coefficients)
 void check_numbers(std::string_view type, const GroupShape& shape, std::size_t fields, std::size_t stencil_size,
                    std::size_t reduction_size, std::size_t field_count);
 
-/// Both, and Error(input) on other coefficients than those that the kernel of the type does not read.
+/// Both; and of differences, whose kernel reads no coefficients, Error(input) on others than −1, 1.
 template <class Type>
 void check_constraint(std::string_view type, const GroupShape& shape, std::size_t stencil_size,
                       std::span<const Real> reduction, std::size_t field_count) {

@@ -23,7 +23,8 @@ class LaneCoefficients {
     const std::size_t step = rows_ * vertices_;
     for (std::size_t first = 0; first < reductions.size(); first += step) add(reductions.subspan(first, step));
   }
-  /// Those of the constraints from `first` on; in `room`, as `count` of them, if they do not begin a row of lanes.
+  /// Those of `count` constraints from `first` on, until the next add(). Where they do not begin a row of lanes they
+  /// are copied to `room`, which has k (n − 1) numbers for each, their count rounded up to whole rows.
   const Real* from(std::size_t first, std::size_t count, std::span<const Real> reductions, std::span<Real> room) const {
     if (first % lanes_of_coefficients == 0) return numbers_.data() + first * size();
     const std::size_t step = rows_ * vertices_;

@@ -22,7 +22,7 @@ class VectorSum {
     xy_ += two_numbers_at(v);
     z_ += v[2];
   }
-  /// v, or −v where `sign` is 1 and not 0.
+  /// v where `sign` is 0, −v where it is 1.
   void add_signed(std::size_t sign, const Real* v) {
     xy_ += reinterpret_cast<TwoNumbers>(reinterpret_cast<TwoSigns>(two_numbers_at(v)) ^ signs[sign]);
     const TwoNumbers z{v[2], 0};

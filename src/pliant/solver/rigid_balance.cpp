@@ -7,9 +7,10 @@
 namespace pliant {
 namespace {
 
-/// As `worthwhile`, of a motion after the first, which costs next to nothing.
+/// As `worthwhile`: what a motion after the first must gain, which costs next to nothing.
 constexpr Real worth_going_on = 1e-13;
-/// The same after so many trials in a row that have gained nothing, as where a vertex rests where no move may lead.
+/// As `worthwhile`, after so many trials in a row that have gained nothing, as where a vertex rests where no move may
+/// lead.
 constexpr Real worth_insisting = 1e-9;
 constexpr int few_trials_in_vain = 3;
 /// Of the size of a component that touches nothing.

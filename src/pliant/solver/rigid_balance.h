@@ -97,7 +97,7 @@ class RigidBalance {
   std::vector<Index> touching_;                // vertices
   Positions trial_;                            // of those
   RigidSystem system_;                         // of parts that push each other
-  RigidCouplings couplings_;                   // of components, where they have come to
+  RigidCouplings couplings_;                   // of components, where they have come to; without links, anything
   std::vector<RigidLink> links_;               // of parts
   std::vector<std::size_t> linked_;            // of each link, its coupling
   std::vector<Motion> motions_;                // of each part; scratch

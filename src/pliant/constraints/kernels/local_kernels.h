@@ -18,8 +18,8 @@ inline constexpr std::size_t lanes_of_coefficients = 8;
 struct LocalBlock {
   const double* positions;  ///< of all vertices, m × 3
   const std::int32_t* stencil;
-  const double* reduction;     ///< of types whose batches have a number of vertices of their own; else null
-  const double* coefficients;  ///< of the others, side by side; else null
+  const double* reduction;     ///< of types whose batches have a number of vertices of their own; others do not read it
+  const double* coefficients;  ///< of the others, side by side; differences read neither
   const double* fields;
   const double* measure;
   double stiffness;
