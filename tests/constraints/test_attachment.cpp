@@ -11,6 +11,7 @@
 #include "pliant/core/error.h"
 #include "pliant/mesh/nearest_face.h"
 #include "pliant/mesh/shapes.h"
+#include "tests/pairs/pair_scene.h"
 
 namespace test_attachment {
 
@@ -363,6 +364,24 @@ TEST_CASE("the nearest point of a triangle, degenerate ones too, is nearer than 
       CHECK((y - place).squaredNorm() >= found.squared - 1e-9);
     }
   }
+}
+
+// What the scenes of contact are held to: an edge that is tied to a vertex is its neighbor, as on one mesh.
+TEST_CASE("crossings beside a tie do not count, others do") {
+  Simulation simulation(SolverSettings{.threads = 1});
+  const Mesh sheet = grid({.columns = 5, .rows = 6, .size = {0.4, 0.5}, .plane = Plane::xy});
+  const Vec3 corner = sheet.vertices.row(2 * 5 + 2).transpose();
+  Mesh lines;
+  lines.vertices.resize(4, 3);
+  lines.vertices << (corner - Vec3(0, 0, 5e-4)).transpose(), (corner + Vec3(0.01, 0.005, 0.3)).transpose(), 0.05, 0.33,
+      -0.1, 0.06, 0.33, 0.1;
+  lines.edges = {{0, 1}, {2, 3}};
+  simulation.add_body(sheet, Mass::area_density(0.2), {.name = "sheet"});
+  const BodyId rope = simulation.add_body(lines, Mass::per_vertex(0.01), {.name = "lines"});
+  simulation.set_contact(ContactSettings{.distance = 0.005});
+  CHECK(count_crossings(simulation) == 2);
+  simulation.add(rope, Attachment{.on = std::vector<Index>{0}, .to = front, .mode = AttachmentMode::nearest_vertex});
+  CHECK(count_crossings(simulation) == 1);
 }
 
 }  // namespace test_attachment

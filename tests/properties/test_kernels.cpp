@@ -262,27 +262,40 @@ TEST_CASE("a batch takes from a kernel what it does, and does the rest by itself
   }
 }
 
-TEST_CASE("the same of a part of a batch, wherever that begins") {
+TEST_CASE_TEMPLATE("the same of a part of a batch, wherever that begins, and in another order", Type,
+                   EdgeStrainProjection, FibreStrainProjection, TriangleStrainProjection, TetrahedronStrainProjection) {
+  constexpr std::size_t n = Many<Type>::n, size = n * Type::rows;
+  constexpr std::size_t numbers = Type::rows == 1 ? 3 : 3 * n;
   Random random;
-  const Many<TriangleStrainProjection> many = samples<TriangleStrainProjection>(random, 203);
-  Batch<TriangleStrainProjection> batch(many.stiffness);
-  for (std::size_t i = 0; i < many.count(); ++i) {
-    batch.add(std::span(many.stencil).subspan(3 * i, 3), std::span(many.reduction).subspan(6 * i, 6), many.measure[i],
-              {many.field(i), 2});
-  }
-  for (const Index begin : {0, 1, 7, 8, 61, 100}) {
+  const Many<Type> many = samples<Type>(random, 203);
+  const auto add = [&](std::size_t i, Batch<Type>& to) {
+    to.add(std::span(many.stencil).subspan(n * i, n), std::span(many.reduction).subspan(size * i, size),
+           many.measure[i], {many.field(i), Type::fields});
+  };
+  const auto project = [&](const Batch<Type>& batch, std::span<Real> out, Index begin, Index end) {
+    return Type::rows == 1 ? batch.project(many.positions, out, begin, end)
+                           : batch.project_to_forces(many.positions, out, begin, end);
+  };
+  Batch<Type> batch(many.stiffness);
+  for (std::size_t i = 0; i < many.count(); ++i) add(i, batch);
+  const auto all = static_cast<Index>(many.count());
+  for (const Index begin : {1, 7, 61, 100}) {
     CAPTURE(begin);
-    Batch<TriangleStrainProjection> part(many.stiffness);
-    for (auto i = static_cast<std::size_t>(begin); i < many.count(); ++i) {
-      part.add(std::span(many.stencil).subspan(3 * i, 3), std::span(many.reduction).subspan(6 * i, 6), many.measure[i],
-               {many.field(i), 2});
-    }
-    const Index count = static_cast<Index>(many.count()) - begin;
-    std::vector<Real> forces(9 * at(count)), of_part(9 * at(count));
-    const Real energy = batch.project_to_forces(many.positions, forces, begin, begin + count);
-    CHECK(energy == part.project_to_forces(many.positions, of_part, 0, count));
+    Batch<Type> part(many.stiffness);
+    for (auto i = static_cast<std::size_t>(begin); i < many.count(); ++i) add(i, part);
+    std::vector<Real> forces(numbers * at(all - begin)), of_part(forces);
+    CHECK(project(batch, forces, begin, all) == project(part, of_part, 0, all - begin));
     CHECK(forces == of_part);
   }
+  std::vector<Index> backwards, same(at(static_cast<Index>(many.positions.rows())));
+  for (Index i = all; i-- > 0;) backwards.push_back(i);
+  for (std::size_t v = 0; v < same.size(); ++v) same[v] = static_cast<Index>(v);
+  const auto other = batch.reordered(backwards, same);
+  Batch<Type> expected(many.stiffness);
+  for (std::size_t i = many.count(); i-- > 0;) add(i, expected);
+  std::vector<Real> forces(numbers * many.count()), of_expected(forces);
+  CHECK(project(dynamic_cast<const Batch<Type>&>(*other), forces, 0, all) == project(expected, of_expected, 0, all));
+  CHECK(forces == of_expected);
 }
 
 TEST_CASE_TEMPLATE("no element near its area or volume at rest is left", Type, TriangleAreaProjection,
