@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "pliant/core/error.h"
 #include "pliant/core/stopwatch.h"
@@ -80,8 +81,8 @@ class LocalStep::Layout {
       const auto one = coefficient == 1 ? Coefficients::ones : Coefficients::signs;
       chunk.coefficients = std::max(chunk.coefficients, std::abs(coefficient) == 1 ? one : Coefficients::any);
     });
-    std::ranges::sort(touched_);
-    std::ranges::stable_sort(touched_, {}, [&](Index vertex) { return entry_counts_[at(vertex)]; });
+    // By their number of entries, so that the loop over those ends where it is foreseen to.
+    std::ranges::sort(touched_, {}, [&](Index vertex) { return std::pair(entry_counts_[at(vertex)], vertex); });
     place_entries(chunk);
     for (const Index vertex : touched_) {
       entry_counts_[static_cast<std::size_t>(vertex)] = 0;
