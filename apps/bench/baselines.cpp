@@ -124,7 +124,7 @@ class BaselineMaker {
     SetUpTimes times;
     const Components nothing_is_free;
     own.factorize(reference_.matrix, settings.precision, {}, nothing_is_free, one_thread, times);
-    const Positions b = right_hand_sides(reference_.matrix.size());
+    Positions b = right_hand_sides(reference_.matrix.size());
     Positions x = Positions::Zero(b.rows(), 3);
     own.solve(b, 1, x, one_thread);
     return x;

@@ -5,11 +5,12 @@
 //     contact_scenes all --vary --share 2/4
 //     contact_scenes tower arch --vertices 1300 --friction 0.6 --every 600
 //     contact_scenes everything --share 1/8 --log out/contact.log
+//     contact_scenes all --vertices 1600 --bits --frames 60 --drag 1e4
 //
 // `everything` is what must hold before a release: scripts/check_contact.sh runs it. With --log a run whose line is
 // there already is not done again, so what was broken off goes on.
 //
-// Exits with 1 when anything crossed.
+// Exits with 1 when anything crossed, or with --bits when anything has other bits.
 #include <algorithm>
 #include <cstdio>
 #include <ctime>
@@ -25,6 +26,7 @@
 #include <fmt/ranges.h>
 
 #include "pliant/core/error.h"
+#include "tests/pairs/bits.h"
 #include "tests/pairs/builtin_pair_scenes.h"
 #include "tests/pairs/masonry_scenes.h"
 #include "tests/pairs/pair_scene.h"
@@ -68,6 +70,7 @@ struct Arguments {
   Index piles = 1;
   bool is_list = false;
   bool has_variations = false;
+  bool is_bits = false;
   PairOptions options;
 };
 
@@ -151,12 +154,17 @@ struct Outcome {
   bool is_clean = false;
 };
 
+/// How many frames of the scene are asked for.
+Index frames_of(const Run& run, const PairScene& scene, const Arguments& arguments) {
+  const Index asked = run.frames > 0 ? run.frames : arguments.frames;
+  return asked > 0 ? asked : scene.frames();
+}
+
 Outcome run(const Run& each, const Arguments& arguments) {
   try {
     PairScene scene = each.make();
     const bool begins_apart = count_crossings(scene.simulation) == 0;
-    const Index asked = each.frames > 0 ? each.frames : arguments.frames;
-    const Figures figures = measure(scene, asked > 0 ? asked : scene.frames(), arguments.every, arguments.slow);
+    const Figures figures = measure(scene, frames_of(each, scene, arguments), arguments.every, arguments.slow);
     const double longest = *std::max_element(figures.seconds.begin(), figures.seconds.end());
     return {fmt::format("{:42} {:6} vertices {:5} frames {:6} crossings in {:4}, unknown {}, let go in {:4} gap "
                         "{:8.2e} m lag {:7.1e} "
@@ -168,6 +176,41 @@ Outcome run(const Run& each, const Arguments& arguments) {
                         rms_speed(scene.simulation), figures.momentum_lost, figures.energy, figures.most_energy,
                         figures.energy_taken, begins_apart ? "" : " BEGINS CROSSED"),
             begins_apart && (figures.crossings == 0 || (each.may_let_go() && figures.unknown == 0))};
+  } catch (const std::exception& error) {
+    return {fmt::format("{:42} FAILED: {}", each.title(), error.what()), false};
+  }
+}
+
+/// Whether it has the same bits with other numbers of threads, and where its state is restored in the middle into a
+/// scene that was made anew. What built-in scenes do over time is no part of the state: `pliant resume` has it.
+Outcome compare_bits(Run each, const Arguments& arguments) {
+  Index most_threads = 1;
+  const auto bits_with = [&](Index threads, bool is_restored) {
+    each.options.settings.threads = threads;
+    PairScene scene = each.make();
+    const Index frames = frames_of(each, scene, arguments);
+    for (Index i = 0; i < frames; ++i) {
+      if (is_restored && i == frames / 2) {
+        const State state = scene.simulation.state();
+        scene = each.make();
+        scene.simulation.restore(state);
+      }
+      scene.step();
+    }
+    most_threads = std::max(most_threads, scene.simulation.thread_count());
+    return bits_of(scene.simulation);
+  };
+  try {
+    const std::vector<Real> bits = bits_with(1, false);
+    std::string others;
+    for (const Index threads : {2, 3, 8}) {
+      if (!same_bits(bits_with(threads, false), bits)) others += fmt::format(" with {} threads", threads);
+    }
+    if (!each.is_builtin() && !same_bits(bits_with(1, true), bits)) others += " after it was restored";
+    return {fmt::format(
+                "{:42} {}", each.title(),
+                others.empty() ? fmt::format("the same bits, up to {} threads", most_threads) : "OTHER BITS" + others),
+            others.empty()};
   } catch (const std::exception& error) {
     return {fmt::format("{:42} FAILED: {}", each.title(), error.what()), false};
   }
@@ -263,6 +306,7 @@ void read(int argc, char** argv, Arguments& to, CLI::App& app) {
   app.add_option("scenes", to.scenes, "names of scenes, `all`, or `everything`");
   app.add_flag("--list", to.is_list, "print what would be run, or all scenes, and stop");
   app.add_flag("--vary", to.has_variations, "each scene also with other iterations, time steps, distances, speeds");
+  app.add_flag("--bits", to.is_bits, "compare bits: with 1, 2, 3 and 8 threads, and restored in the middle");
   app.add_option("--vertices", to.options.vertices, "about so many in all")->check(CLI::Range(16, 10'000'000));
   app.add_option("--iterations", to.options.settings.iterations, "in each step")->check(CLI::Range(1, 1'000'000));
   app.add_option("--time-step", to.options.settings.time_step, "h [s]")->check(CLI::PositiveNumber);
@@ -283,7 +327,8 @@ void read(int argc, char** argv, Arguments& to, CLI::App& app) {
       ->check(CLI::NonNegativeNumber);
   app.add_option("--seed", to.options.seed, "of what is drawn by chance");
   app.add_option("--piles", to.piles, "so many piles, each of another seed")->check(CLI::Range(1, 1'000'000));
-  app.add_option("--log", to.log, "a file to which lines are added; runs whose line is there are not done again");
+  app.add_option("--log", to.log, "a file to which lines are added; runs whose line is there are not done again")
+      ->excludes("--bits");
   app.add_option("--share", to.share, "i/n: the i-th of n parts of the runs");
   app.parse(argc, argv);
   if (to.integrator == "bdf2") to.options.settings.integrator = Integrator::bdf2;
@@ -325,7 +370,7 @@ bool do_runs(const Arguments& arguments) {
       is_clean &= !found->second.starts_with("NOT ");
       continue;
     }
-    const Outcome outcome = run(each, arguments);
+    const Outcome outcome = arguments.is_bits ? compare_bits(each, arguments) : run(each, arguments);
     is_clean &= outcome.is_clean;
     const std::string line = (outcome.is_clean ? "" : "NOT CLEAN: ") + outcome.line;
     fmt::print("{}\n", line);

@@ -84,7 +84,7 @@ struct Trial {
     step.analyze(matrix);
     step.factorize(matrix, precision, weights, components, threads, times);
   }
-  Positions solve(const Positions& r) {
+  Positions solve(Positions r) {
     Positions x(r.rows(), 3);
     step.solve(r, r.cwiseAbs().maxCoeff(), x, threads);
     return x;

@@ -1,8 +1,7 @@
 // Contact between surfaces changes nothing where nothing touches, and gives the same bits whatever the threads.
-#include <cstring>
-
 #include <doctest/doctest.h>
 
+#include "tests/pairs/bits.h"
 #include "tests/pairs/parts.h"
 #include "tests/scene/whole_scenes.h"
 
@@ -12,20 +11,6 @@ using namespace pliant;
 using namespace pliant_tests;
 
 namespace {
-
-/// All bits that a run leaves behind.
-std::vector<Real> bits_of(const Simulation& simulation) {
-  const State& state = simulation.state();
-  std::vector<Real> bits(simulation.objective_history().begin(), simulation.objective_history().end());
-  for (const Positions* x : {&state.positions, &state.velocities}) {
-    bits.insert(bits.end(), x->data(), x->data() + x->size());
-  }
-  return bits;
-}
-
-bool same_bits(const std::vector<Real>& a, const std::vector<Real>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Real)) == 0;
-}
 
 /// Takes steps, and returns how many of them had pairs that push.
 Index advance(PairScene& scene, Index steps) {

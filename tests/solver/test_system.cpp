@@ -73,7 +73,7 @@ TEST_CASE("solving is what the factor of M/h² and the springs says") {
   Eigen::Matrix3d Y;
   Y << 4 + 10, -10, 0, -10, 8 + 20, -10, 0, -10, 12 + 10;
   Random random;
-  const Positions r = random.positions(3, 1);
+  Positions r = random.positions(3, 1);
   Positions x(3, 3);
   row.system.solve(r, x, row.threads);
   CHECK((Y * x - r).cwiseAbs().maxCoeff() < 1e-12);

@@ -72,6 +72,13 @@ std::vector<Edit> edits() {
     change(changed);
     s.set_settings(changed);
   };
+  const auto add_drag = [](Simulation& s, int) {
+    const Vec3 target = row(s.state().positions, 5050) + Vec3(0, 0.1, 0);
+    s.add(curtain, Drag{.stencils = {{5050, 5051, 5151}}, .targets = target}, "drag");
+  };
+  const auto remove_drag = [](Simulation& s) {
+    if (const auto drag = s.find_group("drag")) s.remove(*drag);
+  };
   return {
       {"nothing", [](Simulation&, int) {}},
       {"stiffness of a group", [](Simulation& s, int i) { s.set_stiffness(id(s, "springs"), 1000 + i); }},
@@ -91,6 +98,13 @@ std::vector<Edit> edits() {
       {"pin moved",
        [](Simulation& s, int i) {
          s.set_target(id(s, "pins"), 0, {0, 1e-4 * i, 1});
+       }},
+      {"drag added", add_drag, remove_drag},
+      {"drag let go", [=](Simulation& s, int) { remove_drag(s); }, [=](Simulation& s) { add_drag(s, 0); }},
+      {"stiffness of a drag",
+       [=](Simulation& s, int i) {
+         if (!s.find_group("drag")) add_drag(s, 0);
+         s.set_stiffness(id(s, "drag"), 1000 + i);
        }},
       {"group removed, edges stay connected by others", [](Simulation& s, int) { s.remove(id(s, "skin")); },
        [](Simulation& s) {

@@ -13,6 +13,7 @@
 //     static constexpr bool is_linear = true;         // p = 0 whatever z is
 //     static constexpr bool limits_stretches = true;  // z is a stretch or F, and p has stretches between limits
 //     static constexpr bool is_difference = true;     // A is (−1, 1), which its kernel need not read
+//     static constexpr bool comes_and_goes = true;    // stays out of the factor
 //     static void begin_step(const Positions& q, std::span<const Index> stencil, Real* fields);
 //     static bool go_to(Real from, Real to, Real* fields);   // what follows from the time alone; whether it changes
 #include <array>
@@ -100,6 +101,7 @@ class Batch final : public ConstraintGroup {
   bool is_linear() const override { return has_linear; }
   bool is_projective() const override { return !has_potential<Type>; }
   bool limits_stretches() const override { return has_stretches; }
+  bool comes_and_goes() const override { return passes; }
   void begin_step(const StateView& state, [[maybe_unused]] Real time_step) override {
     const auto n = static_cast<std::size_t>(vertices());
     bool is_driven = false;
@@ -136,6 +138,7 @@ class Batch final : public ConstraintGroup {
       static_cast<std::size_t>(has_coefficients ? Type::rows * (Type::vertices - 1) : 0);
   static constexpr bool has_linear = requires { Type::is_linear; };
   static constexpr bool rotates_along = requires { Type::rotation_invariant; };
+  static constexpr bool passes = requires { Type::comes_and_goes; };
   static constexpr bool has_stretches = requires { Type::limits_stretches; };
   static constexpr bool has_begin_step = requires { &Type::begin_step; };
   static constexpr bool goes_with_time = requires { &Type::go_to; };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -9,6 +10,11 @@
 #include "pliant/core/error.h"
 
 namespace pliant {
+
+std::uint64_t ConstraintGroup::next_revision() {
+  static std::atomic<std::uint64_t> last = 0;
+  return ++last;
+}
 
 void ConstraintGroup::begin_step(const StateView&, Real) {}
 

@@ -48,6 +48,11 @@ class ConstraintGroup {
   /// projections: then no plain global step raises the objective. Where a group says no, moves that do are shortened.
   virtual bool is_projective() const { return true; }
 
+  /// Whether it is a drag or the like: of a few rows with targets, and comes and goes while a simulation runs. Then it
+  /// stays out of the factor, whose solves are corrected for it, if it can be reordered() and pins nothing. It is
+  /// projected constraint by constraint, without begin_local_step().
+  virtual bool comes_and_goes() const { return false; }
+
   /// Called once at the start of a step, before anything reads the group: the place to freeze normals.
   virtual void begin_step(const StateView& state, Real time_step);
   /// Whether begin_step() only freezes numbers that follow from the positions, as normals do. Then energy projection
@@ -117,23 +122,27 @@ class ConstraintGroup {
 
   /// Common factor of all weights; 1 where each constraint has a stiffness of its own.
   Real stiffness() const { return stiffness_; }
-  /// A changed stiffness is taken up at the next step, with one numeric factorization. Refuses what is not positive.
+  /// A changed stiffness is taken up at the next step, with one numeric factorization unless the group comes and goes.
+  /// Refuses what is not positive.
   void set_stiffness(Real stiffness);
 
-  /// Raised whenever stencil, reduction, measure or the pinned vertices change: the matrix is then summed anew.
+  /// Raised whenever stencil, reduction, measure or the pinned vertices change: the matrix is then summed anew. No two
+  /// groups that differ in these have the same one.
   std::uint64_t revision() const { return revision_; }
 
  protected:
   explicit ConstraintGroup(Real stiffness = 1) { set_stiffness(stiffness); }
-  void changed() { ++revision_; }
+  void changed() { revision_ = next_revision(); }
   void set_driven(bool is_driven) { is_driven_ = is_driven; }
 
  private:
   /// Those of rest_measure(); none from a group that does not let them be scaled.
   virtual std::span<Real> own_measures() { return {}; }
 
+  static std::uint64_t next_revision();
+
   Real stiffness_ = 1;
-  std::uint64_t revision_ = 0;
+  std::uint64_t revision_ = next_revision();
   bool is_driven_ = false;
 };
 

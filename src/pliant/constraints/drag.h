@@ -39,6 +39,7 @@ struct DragProjection {
   static constexpr int fields = 3;  // the target
   static constexpr bool translation_invariant = false;
   static constexpr bool has_targets = true;
+  static constexpr bool comes_and_goes = true;
   static void project(const Real* target, const Real* z, Real* p) { PositionProjection::project(target, z, p); }
 };
 

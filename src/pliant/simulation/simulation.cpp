@@ -110,7 +110,10 @@ void Simulation::set_settings(const SolverSettings& settings) {
 
 void Simulation::update_problem() {
   if (bodies_.empty()) fail_input("the simulation has no body; add one before the first step");
-  if (masses_changed_) groups_changed_ = forces_changed_ = true;
+  if (masses_changed_) {
+    solver_->forget_factor();
+    forces_changed_ = true;
+  }
   masses_changed_ = false;
   if (groups_changed_) {
     std::vector<ConstraintGroup*> groups;

@@ -50,13 +50,19 @@ DivergenceCause find_cause(const StepContext& step, const WorkingState& work) {
             .force = endless_force(step, vertex),
             .remark = "its velocity has grown without bound; reduce the forces or the time step"};
   }
-  const std::span<ConstraintGroup* const> groups = system.groups_of_simulation();
+  const std::span<ConstraintGroup* const> groups = system.groups_in_layout();
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const Index local = system.projections().first_not_finite(g, work.positions);
     if (local < 0) continue;
     const Index constraint = order.constraint(g, local);
     const Index vertex = stencil_of(*groups[g], at(constraint)).front();
     return {.vertex = vertex, .force = owner(step.forces, groups[g]), .group = groups[g], .constraint = constraint};
+  }
+  const PassingGroups& passing = system.passing_groups();
+  if (const auto found = passing.first_not_finite(work.positions)) {
+    const ConstraintGroup* group = passing.of_simulation()[found->group];
+    const Index vertex = stencil_of(*group, at(found->constraint)).front();
+    return {.vertex = vertex, .group = group, .constraint = found->constraint};
   }
   for (Index i = 0; i < system.vertex_count(); ++i) {
     if (!std::isfinite(system.inertia_weights()[at(i)])) {

@@ -29,7 +29,9 @@ void Solver::set_settings(const SolverSettings& settings) {
 
 void Solver::set_groups(Index vertex_count, std::vector<ConstraintGroup*> groups) {
   if (vertex_count != system_.vertex_count()) work_.resize(vertex_count);
+  const Components free_before = system_.free_components();
   system_.set_groups(vertex_count, std::move(groups));
+  if (!system_.needs_layout() && system_.free_components() != free_before) energy_.set_system(system_);
 }
 
 StepContext Solver::context(const State& state) {
@@ -53,6 +55,9 @@ void Solver::prepare(const State& state, StepReport& report) {
   contact_.gather(state, system_, work_);
   if (system_.needs_factor(step, work_.in_factor)) {
     system_.factorize(work_.begin.masses, work_.in_factor, step, settings_.precision, threads_.pool(), times);
+  } else {
+    system_.set_inertia(work_.begin.masses, step);  // that of the factor, whatever the last step was
+    system_.correct_factor(threads_.pool());
   }
   history_.clear();
   if (times.numeric > 0 || report.seconds_factor == 0) report.set_up = times;
@@ -75,7 +80,7 @@ void Solver::lay_out() {
 Evaluation Solver::evaluate(const State& state) {
   const bool is_new = system_.needs_layout();
   const bool is_predicted = work_.predicted_step > 0;
-  if (!is_predicted || is_new) system_.begin_step(state, settings_.integrator, substep());
+  if (!is_predicted || is_new || system_.needs_begin_step()) system_.begin_step(state, settings_.integrator, substep());
   if (is_new) {
     lay_out();
   } else {

@@ -23,7 +23,8 @@ class Solver {
   void set_settings(const SolverSettings& settings);
 
   /// The problem. Groups and forces must outlive the solver or be replaced here first. New groups cost a numeric
-  /// factorization, and an ordering when they connect vertices that were not connected; new forces cost nothing.
+  /// factorization, and an ordering when they connect vertices that were not connected; a few that come and go a solve
+  /// for three of their rows; new forces nothing.
   void set_groups(Index vertex_count, std::vector<ConstraintGroup*> groups);
   void set_forces(std::vector<Force*> forces) { forces_.set(std::move(forces)); }
   /// Colliders by number, and how near to them each vertex comes to rest [m]. They cost nothing.
@@ -49,6 +50,8 @@ class Solver {
   /// One local step at the positions of the state, against the prediction that the last step made for it; without
   /// one, after a state was replaced, there is no inertia term.
   Evaluation evaluate(const State& state);
+  /// To be told when masses are others.
+  void forget_factor() { system_.forget_factor(); }
   /// To be told when the state is another than the last step left.
   void forget_prediction() { work_.predicted_step = 0; }
   /// What touched in the last step.

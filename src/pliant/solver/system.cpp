@@ -1,7 +1,9 @@
 #include "pliant/solver/system.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "pliant/core/stopwatch.h"
 #include "pliant/solver/constraint_rows.h"
@@ -34,10 +36,47 @@ void add_translation_weights(const ConstraintGroup& group, std::span<Real> weigh
 }  // namespace
 
 void System::set_groups(Index vertex_count, std::vector<ConstraintGroup*> groups) {
+  simulation_groups_ = groups;
+  passing_groups_ = PassingGroups::take_out_of(groups, vertex_count);
+  needs_begin_step_ = true;
+  if (has_layout_of(vertex_count, groups)) return take_passing();
+  passing_.clear();
   if (vertex_count != vertex_count_) groups_.set({});
   vertex_count_ = vertex_count;
-  simulation_groups_ = std::move(groups);
+  layout_groups_ = std::move(groups);
   is_laid_out_ = false;
+}
+
+bool System::has_layout_of(Index vertex_count, std::span<ConstraintGroup* const> groups) const {
+  if (!is_laid_out_ || vertex_count != vertex_count_) return false;
+  return std::ranges::equal(groups, layout_groups_) && has_stamped_revisions();
+}
+
+/// What they hold is not free.
+void System::take_passing() {
+  passing_.set(passing_groups_, groups_);
+  passing_revisions_.clear();
+  for (const ConstraintGroup* group : passing_groups_) passing_revisions_.push_back(group->revision());
+  all_groups_.assign(groups_.in_use().begin(), groups_.in_use().end());
+  all_groups_.insert(all_groups_.end(), passing_.in_use().begin(), passing_.in_use().end());
+  std::vector<char> is_held(at(vertex_count_), 0);
+  for (const ConstraintGroup* group : passing_.in_use()) {
+    for (const Index v : group->stencil()) is_held[at(v)] = 1;
+  }
+  free_components_ = {};
+  freedom_.clear();
+  for (std::size_t i = 0; i < free_in_layout_.count(); ++i) {
+    const std::span<const Index> component = free_in_layout_.component(i);
+    if (std::ranges::any_of(component, [&](Index v) { return is_held[at(v)] != 0; })) continue;
+    free_components_.vertices.insert(free_components_.vertices.end(), component.begin(), component.end());
+    free_components_.starts.push_back(free_components_.vertices.size());
+    freedom_.push_back(freedom_in_layout_[i]);
+  }
+}
+
+void System::sync_parameters() {
+  groups_.sync_parameters();
+  passing_.sync_parameters();
 }
 
 void System::set_factorization(std::unique_ptr<Factorization> factorization) {
@@ -53,6 +92,7 @@ void System::begin_step(const State& state, Integrator integrator, Real h) {
   if (is_bdf2) view.previous_positions = &state.previous_positions;
   for (ConstraintGroup* group : simulation_groups_) group->begin_step(view, h);
   local_step_.begin_step();
+  needs_begin_step_ = false;
 }
 
 void System::freeze_shapes(const Positions& q, const State& state, Real h) {
@@ -63,54 +103,64 @@ void System::freeze_shapes(const Positions& q, const State& state, Real h) {
   for (ConstraintGroup* group : simulation_groups_) {
     if (freezes(group)) group->begin_step(view, h);
   }
-  groups_.sync_parameters();
+  sync_parameters();
 }
 
 bool System::needs_layout() const {
-  if (!is_laid_out_) return true;
-  for (std::size_t g = 0; g < simulation_groups_.size(); ++g) {
-    if (simulation_groups_[g]->revision() != stamps_[g].revision) return true;
+  if (!is_laid_out_ || !has_stamped_revisions()) return true;
+  for (std::size_t g = 0; g < passing_groups_.size(); ++g) {
+    if (passing_groups_[g]->revision() != passing_revisions_[g]) return true;
   }
   return false;
 }
 
+bool System::has_stamped_revisions() const {
+  for (std::size_t g = 0; g < layout_groups_.size(); ++g) {
+    if (layout_groups_[g]->revision() != stamps_[g].revision) return false;
+  }
+  return true;
+}
+
 void System::lay_out() {
   added_diagonal_.clear();
+  layout_groups_ = simulation_groups_;  // one that has grown may stay out of the factor no longer
+  passing_groups_ = PassingGroups::take_out_of(layout_groups_, vertex_count_);
   choose_order();
-  if (matrix_.set_groups(vertex_count_, groups())) is_analyzed_ = false;
+  if (matrix_.set_groups(vertex_count_, groups_.in_use())) is_analyzed_ = false;
   stamps_.clear();
   places_.clear();
-  for (const ConstraintGroup* group : simulation_groups_) {
+  for (const ConstraintGroup* group : layout_groups_) {
     places_.emplace(group, stamps_.size());
     stamps_.push_back({group->revision(), group->stiffness()});
   }
   find_pinned();
   components_ = find_components(matrix_.matrix());
-  free_components_ = find_free_components(components_, groups(), is_pinned_);
-  freedom_ = find_freedom(free_components_, groups());
+  free_in_layout_ = find_free_components(components_, groups_.in_use(), is_pinned_);
+  freedom_in_layout_ = find_freedom(free_in_layout_, groups_.in_use());
   component_of_vertex_ = component_of_vertex(components_);
   local_step_.set_components(component_of_vertex_);
+  take_passing();
   is_laid_out_ = true;
   factor_step_ = 0;
 }
 
 /// That of the simulation, unless its constraints are scattered and an order of our own is much better.
 void System::choose_order() {
-  groups_.set(simulation_groups_);
-  local_step_.set_groups(vertex_count_, groups());
+  groups_.set(layout_groups_);
+  local_step_.set_groups(vertex_count_, groups_.in_use());
   const Real chunks = local_step_.chunks_of_vertex();
   if (chunks <= scattered_chunks || !groups_.reorder(vertex_count_)) return;
-  local_step_.set_groups(vertex_count_, groups());
+  local_step_.set_groups(vertex_count_, groups_.in_use());
   if (local_step_.chunks_of_vertex() <= better_order * chunks) return;
-  groups_.set(simulation_groups_);
-  local_step_.set_groups(vertex_count_, groups());
+  groups_.set(layout_groups_);
+  local_step_.set_groups(vertex_count_, groups_.in_use());
 }
 
 void System::find_pinned() {
   none_pinned_.assign(at(vertex_count_), 0);
   is_pinned_ = none_pinned_;
   no_weights_.assign(at(vertex_count_), 0);
-  for (const ConstraintGroup* group : groups()) {
+  for (const ConstraintGroup* group : groups_.in_use()) {
     for (const Index vertex : group->pinned_vertices()) is_pinned_[at(vertex)] = 1;
   }
 }
@@ -119,7 +169,7 @@ void System::set_inertia(std::span<const Real> masses, Real step) {
   inertia_weights_.resize(masses.size());
   for (std::size_t i = 0; i < masses.size(); ++i) inertia_weights_[i] = is_pinned_[i] ? 0 : masses[i] / (step * step);
   translation_weights_ = inertia_weights_;
-  for (ConstraintGroup* group : groups()) {
+  for (ConstraintGroup* group : groups_.in_use()) {
     if (!group->is_external() || !group->targets().empty()) continue;
     add_translation_weights(*group, translation_weights_);
   }
@@ -128,8 +178,8 @@ void System::set_inertia(std::span<const Real> masses, Real step) {
 
 bool System::needs_factor(Real step, std::span<const Real> diagonal) const {
   if (factor_step_ != step || !std::ranges::equal(added_diagonal_, diagonal)) return true;
-  for (std::size_t g = 0; g < simulation_groups_.size(); ++g) {
-    if (simulation_groups_[g]->stiffness() != stamps_[g].stiffness) return true;
+  for (std::size_t g = 0; g < layout_groups_.size(); ++g) {
+    if (layout_groups_[g]->stiffness() != stamps_[g].stiffness) return true;
   }
   return false;
 }
@@ -147,10 +197,11 @@ void System::factorize(std::span<const Real> masses, std::span<const Real> diago
 }
 
 void System::sum(std::span<const Real> masses, Real step) {
-  for (std::size_t g = 0; g < simulation_groups_.size(); ++g) stamps_[g].stiffness = simulation_groups_[g]->stiffness();
+  for (std::size_t g = 0; g < layout_groups_.size(); ++g) stamps_[g].stiffness = layout_groups_[g]->stiffness();
   factor_step_ = 0;  // until this succeeds
-  matrix_.assemble(masses, step, groups(), is_pinned_);
-  matrix_.copy_diagonal(diagonal_);
+  matrix_.assemble(masses, step, groups_.in_use(), is_pinned_);
+  matrix_.copy_diagonal(diagonal_in_factor_);
+  diagonal_ = diagonal_in_factor_;
 }
 
 void System::factorize_sum(Precision precision, ThreadPool& threads, SetUpTimes& times) {
@@ -158,29 +209,48 @@ void System::factorize_sum(Precision precision, ThreadPool& threads, SetUpTimes&
   if (!is_analyzed_) global_step_.analyze(matrix_.matrix());
   is_analyzed_ = true;
   times.symbolic = watch.seconds();
-  global_step_.factorize(matrix_.matrix(), precision, translation_weights_, free_components_, threads, times);
+  global_step_.factorize(matrix_.matrix(), precision, translation_weights_, free_in_layout_, threads, times);
+  correct_factor(threads);
+}
+
+/// Where it fails there is no factor.
+void System::correct_factor(ThreadPool& threads) {
+  if (passing_.is_empty() && !global_step_.is_corrected()) return;
+  const Real step = std::exchange(factor_step_, 0);
+  const FactorRows& rows = passing_.rows(is_pinned_);
+  const bool is_other = global_step_.correct(rows, threads);
+  factor_step_ = step;
+  if (!is_other) return;
+  diagonal_ = diagonal_in_factor_;
+  rows.add_to_diagonal(diagonal_);
 }
 
 LocalResult System::local_step(const Positions& q, const Positions& s, Positions& r, ThreadPool& threads) {
-  return local_step_.run(q, s, inertia_weights_, is_pinned_, r, threads);
+  LocalResult result = local_step_.run(q, s, inertia_weights_, is_pinned_, r, threads);
+  if (passing_.is_empty()) return result;
+  result.elastic += passing_.add_forces(q, is_pinned_, r);
+  result.residual = std::sqrt(r.rowwise().squaredNorm().maxCoeff<Eigen::PropagateNaN>());
+  return result;
 }
 
 void System::elastic_step(const Positions& q, Positions& forces, std::span<Real> energies, ThreadPool& threads) {
   local_step_.run(q, q, no_weights_, none_pinned_, forces, threads);
+  passing_.add_forces(q, none_pinned_, forces);
   local_step_.elastic_energies(q, energies);
 }
 
-SolveTimes System::global_step(const Positions& r, Real largest, Positions& q, ThreadPool& threads) {
+SolveTimes System::global_step(Positions& r, Real largest, Positions& q, ThreadPool& threads) {
   return global_step_.move(r, largest, q, threads);
 }
 
-SolveTimes System::solve(const Positions& r, Real largest, Positions& x, ThreadPool& threads) {
+SolveTimes System::solve(Positions& r, Real largest, Positions& x, ThreadPool& threads) {
   return global_step_.solve(r, largest, x, threads);
 }
 
 Real System::elastic_energy(const ConstraintGroup& group) const {
   const auto found = places_.find(&group);
-  if (!is_laid_out_ || found == places_.end()) return 0;
+  if (!is_laid_out_) return 0;
+  if (found == places_.end()) return passing_.elastic_energy(group);
   return local_step_.elastic_energy(found->second);
 }
 

@@ -13,9 +13,26 @@ namespace {
 
 using Vector = Eigen::VectorX<Real>;
 
+/// What resists a displacement: a matrix, and rows a with k beside it.
+struct Elasticity {
+  const LowerMatrix& matrix;
+  const FactorRows& rows;
+};
+
 /// y = M^-½ K M^-½ x, where `scale` is M^-½, and 0 at pinned vertices.
-void multiply(const LowerMatrix& K, const Vector& scale, const Vector& x, Vector& y) {
+void multiply(const Elasticity& elasticity, const Vector& scale, const Vector& x, Vector& y) {
+  const LowerMatrix& K = elasticity.matrix;
+  const FactorRows& rows = elasticity.rows;
   y.setZero();
+  for (std::size_t i = 0; i < rows.count(); ++i) {
+    Real along = 0;
+    for (std::size_t e = rows.starts[i]; e < rows.starts[i + 1]; ++e) {
+      along += rows.coefficients[e] * scale[rows.vertices[e]] * x[rows.vertices[e]];
+    }
+    for (std::size_t e = rows.starts[i]; e < rows.starts[i + 1]; ++e) {
+      y[rows.vertices[e]] += rows.weights[i] * rows.coefficients[e] * scale[rows.vertices[e]] * along;
+    }
+  }
   for_each_entry(K, [&](Index row, Index column, std::size_t e) {
     const Real value = K.values[e] * scale[row] * scale[column];
     y[row] += value * x[column];
@@ -25,10 +42,10 @@ void multiply(const LowerMatrix& K, const Vector& scale, const Vector& x, Vector
 
 /// The largest eigenvalue by the Lanczos process (Golub & Van Loan, Matrix Computations, Sec. 10.1), which finds it
 /// without keeping its vectors orthogonal.
-Real largest_eigenvalue(const LowerMatrix& K, const Vector& scale) {
+Real largest_eigenvalue(const Elasticity& K, const Vector& scale) {
   constexpr Index most_steps = 60;
-  const auto steps = std::min<Eigen::Index>(most_steps, K.size());
-  Vector v = Vector::Zero(K.size());
+  const auto steps = std::min<Eigen::Index>(most_steps, scale.size());
+  Vector v = Vector::Zero(scale.size());
   for (Eigen::Index i = 0; i < v.size(); ++i) {
     if (scale[i] > 0) v[i] = 1 + 0.5 * std::sin(static_cast<Real>(i * i + 1)) * (i % 2 == 0 ? 1 : -2);
   }
@@ -58,7 +75,7 @@ Real largest_eigenvalue(const LowerMatrix& K, const Vector& scale) {
 
 }  // namespace
 
-SystemInfo System::describe(std::span<const Real> masses) const {
+SystemInfo System::describe(std::span<const Real> masses) {
   SystemInfo info;
   info.matrix_entries = static_cast<std::int64_t>(matrix_.matrix().rows.size());
   global_step_.describe(info);
@@ -79,11 +96,11 @@ SystemInfo System::describe(std::span<const Real> masses) const {
   std::ranges::sort(info.free_components, {}, &FreeComponent::first_vertex);
 
   SystemMatrix elastic = matrix_;
-  elastic.assemble(masses, std::numeric_limits<Real>::infinity(), groups(),
+  elastic.assemble(masses, std::numeric_limits<Real>::infinity(), groups_.in_use(),
                    is_pinned_);  // M/h² vanishes
   Vector scale(vertex_count_);
   for (Index i = 0; i < vertex_count_; ++i) scale[i] = is_pinned_[at(i)] ? 0 : 1 / std::sqrt(masses[at(i)]);
-  info.fastest_frequency = std::sqrt(largest_eigenvalue(elastic.matrix(), scale));
+  info.fastest_frequency = std::sqrt(largest_eigenvalue({elastic.matrix(), passing_.rows(is_pinned_)}, scale));
   return info;
 }
 

@@ -10,6 +10,7 @@ struct Components {
   std::vector<Index> vertices;
   std::vector<std::size_t> starts = {0};  ///< of each component in `vertices`, and the end of the last one
 
+  bool operator==(const Components&) const = default;
   std::size_t count() const { return starts.size() - 1; }
   std::span<const Index> component(std::size_t i) const {
     return std::span(vertices).subspan(starts[i], starts[i + 1] - starts[i]);

@@ -51,9 +51,11 @@ void GlobalStep::analyze(const LowerMatrix& matrix) {
 void GlobalStep::factorize(const LowerMatrix& matrix, Precision precision, std::span<const Real> weights,
                            const Components& components, ThreadPool& threads, SetUpTimes& times) {
   Stopwatch watch;
+  vertex_count_ = matrix.size();
   weights_ = weights;
   components_ = &components;
-  correction_.resize(components.count() == 0 ? 0 : matrix.size(), 3);
+  correction_.clear();
+  if (components.count() > 0) move_.resize(matrix.size(), 3);
   contraction_ = 0;
   factorization_->factorize(matrix);
   times.numeric = watch.lap();
@@ -88,18 +90,39 @@ auto GlobalStep::visit_panels(Visit&& visit) {
   return precision_ == Precision::double_ ? visit(double_) : visit(single_);
 }
 
-SolveTimes GlobalStep::solve(const Positions& r, Real largest, Positions& x, ThreadPool& threads) {
+bool GlobalStep::correct(const FactorRows& rows, ThreadPool& threads) {
+  if (rows.has_same_rows(correction_.rows())) {
+    const bool is_other = rows.weights != correction_.rows().weights;
+    if (is_other) correction_.set_weights(rows.weights);
+    return is_other;
+  }
+  for (Positions* x : {&trial_, &move_}) x->resize(vertex_count_, 3);
+  correction_.set(rows, trial_, move_, [&] { solve_factorized(trial_, 1, move_, threads); });
+  return true;
+}
+
+SolveTimes GlobalStep::solve_factorized(const Positions& r, Real largest, Positions& x, ThreadPool& threads) {
   const SolveTimes times = visit_panels([&](auto& panels) { return panels.solve(r, largest, x, threads); });
   correct_means(r, x);
   return times;
 }
 
-SolveTimes GlobalStep::move(const Positions& r, Real largest, Positions& q, ThreadPool& threads) {
-  if (components_->count() == 0) {
+SolveTimes GlobalStep::solve(Positions& r, Real largest, Positions& x, ThreadPool& threads) {
+  if (correction_.is_empty()) return solve_factorized(r, largest, x, threads);
+  const Real taken = correction_.take_out(r);
+  if (taken > largest / 2) largest = r.cwiseAbs().maxCoeff();
+  const SolveTimes times = solve_factorized(r, largest, x, threads);
+  correction_.put_back(r);
+  correction_.finish(x);
+  return times;
+}
+
+SolveTimes GlobalStep::move(Positions& r, Real largest, Positions& q, ThreadPool& threads) {
+  if (components_->count() == 0 && correction_.is_empty()) {
     return visit_panels([&](auto& panels) { return panels.solve(r, largest, q, threads, Store::onto); });
   }
-  const SolveTimes times = solve(r, largest, correction_, threads);
-  q += correction_;
+  const SolveTimes times = solve(r, largest, move_, threads);
+  q += move_;
   return times;
 }
 
@@ -126,7 +149,7 @@ Real GlobalStep::estimate_contraction(const LowerMatrix& matrix, ThreadPool& thr
   for (int i = 0; i < power_iterations; ++i) {
     const Vec3 before = trial_.colwise().norm().transpose();
     multiply(matrix, trial_, image_);
-    solve(image_, image_.cwiseAbs().maxCoeff(), solved_, threads);
+    solve_factorized(image_, image_.cwiseAbs().maxCoeff(), solved_, threads);
     trial_ -= solved_;
     const Vec3 after = trial_.colwise().norm().transpose();
     if (!after.allFinite()) return std::numeric_limits<Real>::infinity();

@@ -2,6 +2,7 @@
 // The global step: x = Y⁻¹ r, as exactly as the factor is. In residual form the factor is a preconditioner: one in
 // single precision changes the speed of convergence, not what is converged to.
 #include "pliant/solver/global/components.h"
+#include "pliant/solver/global/factor_correction.h"
 #include "pliant/solver/global/factorization/factorization.h"
 #include "pliant/solver/global/factorization/panel_factor.h"
 #include "pliant/solver/system_info.h"
@@ -25,10 +26,15 @@ class GlobalStep {
   void factorize(const LowerMatrix& matrix, Precision precision, std::span<const Real> weights,
                  const Components& components, ThreadPool& threads, SetUpTimes& times);
 
-  /// r, x: m × 3. largest: about the largest number in r. Never allocates.
-  SolveTimes solve(const Positions& r, Real largest, Positions& x, ThreadPool& threads);
+  /// From now on, until the next factorization, solves are with Y + Σ k aᵀa. Where only k has changed no system is
+  /// solved for that. Returns whether anything has. Throws as FactorCorrection::set() does.
+  bool correct(const FactorRows& rows, ThreadPool& threads);
+  bool is_corrected() const { return !correction_.is_empty(); }
+
+  /// r, x: m × 3. largest: about the largest number in r, which is as it was afterwards. Never allocates.
+  SolveTimes solve(Positions& r, Real largest, Positions& x, ThreadPool& threads);
   /// q ← q + x, the same.
-  SolveTimes move(const Positions& r, Real largest, Positions& q, ThreadPool& threads);
+  SolveTimes move(Positions& r, Real largest, Positions& q, ThreadPool& threads);
 
   /// Of the panels in use: `double_` when those in single precision would not do.
   Precision precision() const { return precision_; }
@@ -40,6 +46,7 @@ class GlobalStep {
  private:
   void fill(const LowerMatrix& matrix, Precision precision, ThreadPool& threads);
   Real estimate_contraction(const LowerMatrix& matrix, ThreadPool& threads);
+  SolveTimes solve_factorized(const Positions& r, Real largest, Positions& x, ThreadPool& threads);
   template <class Visit>
   auto visit_panels(Visit&& visit);
   void correct_means(const Positions& r, Positions& x) const;
@@ -49,9 +56,11 @@ class GlobalStep {
   PanelFactor<double> double_;
   Precision precision_ = Precision::double_;
   Real contraction_ = 0;
+  Index vertex_count_ = 0;
   std::span<const Real> weights_;
   const Components* components_ = nullptr;
-  Positions correction_;              // of free components
+  FactorCorrection correction_;
+  Positions move_;                    // where components are free, or the factor is corrected
   Positions trial_, image_, solved_;  // of the estimate
 };
 

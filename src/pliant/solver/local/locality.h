@@ -32,6 +32,10 @@ class LocalGroups {
   std::span<const Index> vertices() const {
     return is_reordered() ? std::span<const Index>(order_.vertices) : std::span<const Index>();
   }
+  /// The inverse of vertices().
+  std::span<const Index> numbers() const {
+    return is_reordered() ? std::span<const Index>(order_.numbers) : std::span<const Index>();
+  }
   /// The constraint of the group of the simulation, for one of the group in use.
   Index constraint(std::size_t group, Index local) const;
   bool is_reordered() const { return !copies_.empty(); }
