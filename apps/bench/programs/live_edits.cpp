@@ -62,6 +62,22 @@ void measure(const Edit& edit, int repeats) {
   fmt::print("{:44} {:8.2f} {:9.2f} {:8.2f}\n", edit.name, 1e3 * best(call), 1e3 * best(factor), 1e3 * best(step));
 }
 
+std::vector<Edit> edits_of_drags() {
+  const auto add_drag = [](Simulation& s, int) {
+    const Vec3 target = row(s.state().positions, 5050) + Vec3(0, 0.1, 0);
+    s.add(curtain, Drag{.stencils = {{5050, 5051, 5151}}, .targets = target}, "drag");
+  };
+  const auto remove_drag = [](Simulation& s) {
+    if (const auto drag = s.find_group("drag")) s.remove(*drag);
+  };
+  return {{"drag added", add_drag, remove_drag},
+          {"drag let go", [=](Simulation& s, int) { remove_drag(s); }, [=](Simulation& s) { add_drag(s, 0); }},
+          {"stiffness of a drag", [=](Simulation& s, int i) {
+             if (!s.find_group("drag")) add_drag(s, 0);
+             s.set_stiffness(id(s, "drag"), 1000 + i);
+           }}};
+}
+
 std::vector<Edit> edits() {
   const auto map = [](const Simulation& s, int repeat) {
     const auto count = static_cast<std::size_t>(s.groups().at(id(s, "springs")).set.count);
@@ -71,13 +87,6 @@ std::vector<Edit> edits() {
     SolverSettings changed = s.settings();
     change(changed);
     s.set_settings(changed);
-  };
-  const auto add_drag = [](Simulation& s, int) {
-    const Vec3 target = row(s.state().positions, 5050) + Vec3(0, 0.1, 0);
-    s.add(curtain, Drag{.stencils = {{5050, 5051, 5151}}, .targets = target}, "drag");
-  };
-  const auto remove_drag = [](Simulation& s) {
-    if (const auto drag = s.find_group("drag")) s.remove(*drag);
   };
   return {
       {"nothing", [](Simulation&, int) {}},
@@ -98,13 +107,6 @@ std::vector<Edit> edits() {
       {"pin moved",
        [](Simulation& s, int i) {
          s.set_target(id(s, "pins"), 0, {0, 1e-4 * i, 1});
-       }},
-      {"drag added", add_drag, remove_drag},
-      {"drag let go", [=](Simulation& s, int) { remove_drag(s); }, [=](Simulation& s) { add_drag(s, 0); }},
-      {"stiffness of a drag",
-       [=](Simulation& s, int i) {
-         if (!s.find_group("drag")) add_drag(s, 0);
-         s.set_stiffness(id(s, "drag"), 1000 + i);
        }},
       {"group removed, edges stay connected by others", [](Simulation& s, int) { s.remove(id(s, "skin")); },
        [](Simulation& s) {
@@ -133,4 +135,5 @@ int main(int argc, char** argv) {
   const int repeats = argc > 1 ? std::max(1, std::atoi(argv[1])) : 11;
   fmt::print("{:44} {:>8} {:>9} {:>8}\n", "edit", "call ms", "factor ms", "step ms");
   for (const Edit& edit : edits()) measure(edit, repeats);
+  for (const Edit& edit : edits_of_drags()) measure(edit, repeats);
 }
