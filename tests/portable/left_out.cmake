@@ -73,6 +73,7 @@ if(EMSCRIPTEN)
     "pair search: bodies that take no notice of themselves*"
     "pair search: the same for any number of threads"
     "pair search: too many pairs end in a message*"
+    "passing groups: the same bits for any number of threads*"
     "rigid balance: the same bits for any number of threads"
     "the same bits for every number of threads*")
 endif()

@@ -72,7 +72,7 @@ FactorRows some_rows(std::size_t count, Real weight, Random& random) {
 struct Factor {
   GlobalStep step;
   Components none;
-  ThreadPool threads{2};
+  ThreadPool threads{1};
 
   Factor(const LowerMatrix& matrix, Precision precision) {
     SetUpTimes times;
