@@ -112,6 +112,22 @@ struct AllFeatures {
   bool are_joined(const Crossing& crossing) const {
     return !joined.is_empty() && joined.are_joined(crossing.edge, triangles[at(crossing.triangle)]);
   }
+  /// Whether the scene says that these may pass through each other.
+  bool do_not_meet(const Simulation& simulation, const Crossing& crossing) const {
+    const std::size_t a = body_of(simulation, crossing.edge[0]);
+    const std::size_t b = body_of(simulation, triangles[at(crossing.triangle)][0]);
+    const BodyContact& first = simulation.bodies()[a].contact;
+    const BodyContact& second = simulation.bodies()[b].contact;
+    if (a == b) return !first.self;
+    const auto ignores = [](const BodyContact& contact, std::size_t other) {
+      return std::ranges::find(contact.ignores, static_cast<BodyId>(other)) != contact.ignores.end();
+    };
+    return ignores(first, b) || ignores(second, a);
+  }
+  static std::size_t body_of(const Simulation& simulation, Index vertex) {
+    const auto after = std::ranges::upper_bound(simulation.bodies(), vertex, {}, &Body::first_vertex);
+    return static_cast<std::size_t>(after - simulation.bodies().begin()) - 1;
+  }
 };
 
 }  // namespace
@@ -124,7 +140,7 @@ std::int64_t count_crossings(const Simulation& simulation) {
   visit_crossings({simulation.state().positions, all.triangles, all.edges}, [&](const Crossing& crossing) {
     const bool are_both_held = std::ranges::all_of(crossing.edge, is_held) &&
                                std::ranges::all_of(all.triangles[at(crossing.triangle)], is_held);
-    if (!are_both_held && !all.are_joined(crossing)) ++count;
+    if (!are_both_held && !all.are_joined(crossing) && !all.do_not_meet(simulation, crossing)) ++count;
   });
   return count;
 }
@@ -141,7 +157,7 @@ std::int64_t count_unknown_crossings(const Simulation& simulation) {
         is_known = is_known && known.contains({std::min(a, b), std::max(a, b)});
       }
     }
-    if (!is_known && !all.are_joined(crossing)) ++count;
+    if (!is_known && !all.are_joined(crossing) && !all.do_not_meet(simulation, crossing)) ++count;
   });
   return count;
 }

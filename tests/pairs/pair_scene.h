@@ -42,8 +42,9 @@ std::span<const PairSceneEntry> pair_scenes();
 /// Throws Error(input) on a name that there is not.
 PairScene make_pair_scene(std::string_view name, const PairOptions& options);
 
-/// Crossings of all surfaces and ropes of a simulation, by the exact checker, but for those between what is pinned, and
-/// of features that a tie joins, which are neighbors: a line crosses the sail that it is tied to by what the tie gives.
+/// Crossings of all surfaces and ropes of a simulation, by the exact checker, but for those between what is pinned, of
+/// bodies that ignore each other or themselves, and of features that a tie joins, which are neighbors: a line crosses
+/// the sail that it is tied to by what the tie gives.
 std::int64_t count_crossings(const pliant::Simulation& simulation);
 /// Those of which a vertex of the edge and one of the triangle have not been let go.
 std::int64_t count_unknown_crossings(const pliant::Simulation& simulation);
