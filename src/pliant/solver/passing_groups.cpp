@@ -17,8 +17,8 @@ std::vector<Index> in_order(Index count) {
 }
 
 /// Whether it is what it says it is. Copies in another order are asked for later.
-bool comes_and_goes(ConstraintGroup& group, Index vertex_count) {
-  if (!group.comes_and_goes() || group.targets().empty() || !group.pinned_vertices().empty()) return false;
+bool may_pass(ConstraintGroup& group, Index vertex_count) {
+  if (group.targets().empty() || !group.pinned_vertices().empty()) return false;
   return group.is_external() && group.reordered(in_order(group.shape().count), in_order(vertex_count)) != nullptr;
 }
 
@@ -28,8 +28,9 @@ std::vector<ConstraintGroup*> PassingGroups::take_out_of(std::vector<ConstraintG
   std::vector<ConstraintGroup*> taken;
   Index room = FactorCorrection::most_rows;
   std::erase_if(groups, [&](ConstraintGroup* group) {
+    if (!group->comes_and_goes()) return false;
     const GroupShape shape = group->shape();
-    if (shape.count > room / shape.rows || !comes_and_goes(*group, vertex_count)) return false;
+    if (shape.count > room / shape.rows || !may_pass(*group, vertex_count)) return false;
     room -= shape.count * shape.rows;
     taken.push_back(group);
     return true;

@@ -55,7 +55,7 @@ void Solver::prepare(const State& state, StepReport& report) {
   contact_.gather(state, system_, work_);
   if (system_.needs_factor(step, work_.in_factor)) {
     system_.factorize(work_.begin.masses, work_.in_factor, step, settings_.precision, threads_.pool(), times);
-  } else {
+  } else if (system_.is_factor_corrected()) {
     system_.set_inertia(work_.begin.masses, step);  // that of the factor, whatever the last step was
     system_.correct_factor(threads_.pool());
   }

@@ -215,7 +215,7 @@ void System::factorize_sum(Precision precision, ThreadPool& threads, SetUpTimes&
 
 /// Where it fails there is no factor.
 void System::correct_factor(ThreadPool& threads) {
-  if (passing_.is_empty() && !global_step_.is_corrected()) return;
+  if (!is_factor_corrected()) return;
   const Real step = std::exchange(factor_step_, 0);
   const FactorRows& rows = passing_.rows(is_pinned_);
   const bool is_other = global_step_.correct(rows, threads);

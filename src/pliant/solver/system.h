@@ -53,7 +53,9 @@ class System {
   void factorize(std::span<const Real> masses, std::span<const Real> diagonal, Real step, Precision precision,
                  ThreadPool& threads, SetUpTimes& times);
 
-  /// Lets solves know of what is not in the factor; to be called in every step.
+  /// Whether something is not in the factor, or was so in the last step.
+  bool is_factor_corrected() const { return !passing_.is_empty() || global_step_.is_corrected(); }
+  /// Lets solves know of what is not in the factor; to be called in every step with such.
   void correct_factor(ThreadPool& threads);
 
   /// r = M/η² (s − q) + Σ w SᵀAᵀ (p − z), zero at pinned vertices.
