@@ -14,6 +14,8 @@ constexpr Real free_share = 0.9;
 constexpr Real kept_share = 0.05;
 /// Of a gap: what must be left of it where the ways end. A little less than the half-spaces leave, lest rounding count.
 constexpr Real end_share = 0.09;
+/// The same across the closest points, where nothing else is asked: so much suffices for any of the rules of choose().
+constexpr Real clear_share = 0.1;
 /// Of the distance, or of r if that is less: the gap of a plane that is worth to hold something back.
 constexpr Real least_gap_share = 0.3;
 constexpr int sweeps = 4;
@@ -62,7 +64,7 @@ Shortened Planes::shorten(const PlanesInput& input, Positions& y, ThreadPool& th
   add_half_spaces();
   move_changed(y, threads);
   for (;;) {
-    find_endangered(done.passes, threads);
+    find_endangered(threads);
     if (endangered_.empty()) break;
     if (done.passes == 0) find_normals();
     ++done.passes;
@@ -126,12 +128,17 @@ bool Planes::is_near(Near& near) const {
   // absolute ways: once some corners are held back, the others move against them
   const Real most = reach(input_->pairs[at(near.pair)], reaches_);
   if (most < free_share * near.distance) return false;
-  is_endangered(near);  // measures it if that matters now
+  near.is_waiting = is_endangered(near);  // measures it if that matters now
   return !(most < free_share * near.distance);
 }
 
-/// Whether the sides could come together: no points of them move farther against each other than two of their corners.
+/// Whether a plane may be needed now.
 bool Planes::is_endangered(Near& near) const {
+  return is_in_reach(near) && !is_clear(near);
+}
+
+/// Whether the sides could come together: no points of them move farther against each other than two of their corners.
+bool Planes::is_in_reach(Near& near) const {
   const Pair& pair = input_->pairs[at(near.pair)];
   const int first_side = pair.first_side();
   Real squared_motion = 0;
@@ -149,9 +156,33 @@ bool Planes::is_endangered(Near& near) const {
   };
   if (is_far()) return false;
   if (near.is_measured) return true;
-  near.distance = measure(input_->begin, pair).distance;
+  const Gap gap = measure(input_->begin, pair);
+  near.distance = gap.distance;
+  near.normal = gap.normal;
   near.is_measured = true;
   return !is_far();
+}
+
+/// Whether a measured pair is apart across its closest points at q and at the ends of the ways: what choose() finds
+/// first, without the rest.
+bool Planes::is_clear(const Near& near) const {
+  const Pair& pair = input_->pairs[at(near.pair)];
+  const Positions& q = input_->begin;
+  const Vec3 origin = row(q, pair.vertices[0]);
+  constexpr Real far = std::numeric_limits<Real>::infinity();
+  std::array<Real, 2> above{far, far};
+  std::array<Real, 2> below{-far, -far};
+  const int first_side = pair.first_side();
+  for (int j = 0; j < 4; ++j) {
+    const Index vertex = pair.vertices[at(j)];
+    const Real height = near.normal.dot(row(q, vertex) - origin);
+    const Real end = height + near.normal.dot(row(moves_, vertex));
+    if (j < first_side) above = {std::min(above[0], height), std::min(above[1], end)};
+    if (j >= first_side) below = {std::max(below[0], height), std::max(below[1], end)};
+  }
+  const Real slack = reach(pair, slacks_);  // 1000 u: more than any rule below asks for
+  const Real gap = above[0] - below[0];
+  return gap >= slack && above[1] - below[1] >= std::max(clear_share * gap, slack);
 }
 
 void Planes::add_bound(Index vertex, const Vec3& normal, Real room) {
@@ -174,8 +205,8 @@ void Planes::add_half_spaces() {
   }
 }
 
-/// Which pairs need a plane now: in passes 0 and 1 any, then those with a corner that was changed in the last one.
-void Planes::find_endangered(int pass, ThreadPool& threads) {
+/// Which pairs may need a plane now, of those that waited or have a corner that was changed in the last pass.
+void Planes::find_endangered(ThreadPool& threads) {
   const Index count = count_of(near_);
   const Index chunks = (count + pairs_of_chunk - 1) / pairs_of_chunk;
   if (count_of(endangered_chunks_) < chunks) endangered_chunks_.resize(at(chunks));
@@ -186,7 +217,9 @@ void Planes::find_endangered(int pass, ThreadPool& threads) {
       Near& near = near_[at(i)];
       if (near.is_done) continue;
       const auto& vertices = input_->pairs[at(near.pair)].vertices;
-      if (pass > 1 && std::ranges::none_of(vertices, [&](Index v) { return is_changed_[at(v)] != 0; })) continue;
+      const auto is_changed = [&](Index vertex) { return is_changed_[at(vertex)] != 0; };
+      if (!near.is_waiting && std::ranges::none_of(vertices, is_changed)) continue;
+      near.is_waiting = false;
       if (is_endangered(near)) found.push_back(i);
     }
   });
@@ -323,6 +356,7 @@ void Planes::add_planes(ThreadPool& threads, Shortened& done) {
     Near& near = near_[at(endangered_[at(i)])];
     const Plane& plane = planes_[at(i)];
     near.is_done = plane.is_touching || plane.passed != 0;
+    near.is_waiting = plane.is_waiting;
     if (plane.is_touching) ++done.touching;
     if (plane.passed == 0) continue;
     ++done.planes;

@@ -73,8 +73,10 @@ class Planes {
   struct Near {
     Index pair = 0;
     Real distance = 0;
-    bool is_measured = false;  ///< else distance is a lower bound
-    bool is_done = false;      ///< has a plane that holds, or touches
+    Vec3 normal = Vec3::Zero();  ///< of the gap at q
+    bool is_measured = false;    ///< else distance is a lower bound, and there is no normal
+    bool is_waiting = false;     ///< for the next pass
+    bool is_done = false;        ///< has a plane that holds, or touches
   };
   /// Of a pair.
   struct Plane {
@@ -97,8 +99,10 @@ class Planes {
   bool is_near(Near& near) const;
   Real reach(const Pair& pair, const std::vector<Real>& lengths) const;
   bool is_endangered(Near& near) const;
+  bool is_in_reach(Near& near) const;
+  bool is_clear(const Near& near) const;
   void add_half_spaces();
-  void find_endangered(int pass, ThreadPool& threads);
+  void find_endangered(ThreadPool& threads);
   void find_normals();
   Plane choose(const Pair& pair, int pass) const;
   Real longest_way(const Pair& pair) const;
