@@ -1,5 +1,6 @@
 // What an edit costs while a curtain of 100 × 100 vertices runs: the call, what the step after it takes to sum and
-// factorize the matrix anew, and for comparison a step without. Minima over repeats, one thread.
+// factorize the matrix anew, and for comparison a step without. Minima over repeats, one thread. Then what a ramp of a
+// stiffness costs: the mean of its steps by the median of plain ones.
 //
 //     bench_live_edits [repeats]
 #include <algorithm>
@@ -129,6 +130,35 @@ std::vector<Edit> edits() {
        [](Simulation& s, int i) { s.replace(*s.find_force("gravity"), Gravity{Vec3(0, 1e-3 * i, -9.81)}); }}};
 }
 
+/// A ramp over a second, to ten times the stiffness and back.
+void measure_ramps(int repeats) {
+  constexpr int steps = 60;
+  for (const Real to : {1e4, 1e3}) {
+    std::vector<double> ratios;
+    int factorizations = 0;
+    for (int i = 0; i < std::max(1, repeats / 5); ++i) {
+      Simulation simulation = make();
+      Timeline timeline;
+      simulation.set_stiffness(id(simulation, "springs"), to == 1e4 ? 1e3 : 1e4);
+      for (int step = 0; step < 5; ++step) timeline.step(simulation);
+      std::vector<double> plain;
+      for (int step = 0; step < 21; ++step) plain.push_back(timeline.step(simulation).seconds_total);
+      std::ranges::nth_element(plain, plain.begin() + 10);
+      timeline.ramp_stiffness(simulation, id(simulation, "springs"), to, 1);
+      double seconds = 0;
+      factorizations = 0;
+      for (int step = 0; step < steps; ++step) {
+        const StepReport report = timeline.step(simulation);
+        seconds += report.seconds_total;
+        factorizations += report.set_up.numeric > 0 ? 1 : 0;
+      }
+      ratios.push_back(seconds / steps / plain[10]);
+    }
+    fmt::print("ramp to {:.0e} N/m in {} steps: {} factorizations, {:.2f} times a plain step\n", to, steps,
+               factorizations, best(ratios));
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -136,4 +166,5 @@ int main(int argc, char** argv) {
   fmt::print("{:44} {:>8} {:>9} {:>8}\n", "edit", "call ms", "factor ms", "step ms");
   for (const Edit& edit : edits()) measure(edit, repeats);
   for (const Edit& edit : edits_of_drags()) measure(edit, repeats);
+  measure_ramps(repeats);
 }

@@ -87,6 +87,7 @@ std::unique_ptr<ConstraintGroup> ConstraintGroup::reordered(std::span<const Inde
 
 void ConstraintGroup::sync_parameters(const ConstraintGroup& from, std::span<const Index>) {
   stiffness_ = from.stiffness_;
+  factor_stiffness_ = from.factor_stiffness_;
   is_driven_ = from.is_driven_;
 }
 
@@ -159,6 +160,15 @@ void ConstraintGroup::set_stiffness(Real stiffness) {
         fmt::format("stiffness: {} is not a positive finite number; give one, or remove the constraints", stiffness));
   }
   stiffness_ = stiffness;
+  factor_stiffness_ = stiffness;
+}
+
+void ConstraintGroup::set_passing_stiffness(Real stiffness) {
+  set_stiffness(stiffness);
+  int exponent = 0;
+  const bool is_power = std::frexp(stiffness, &exponent) == Real{0.5};
+  const Real next = std::ldexp(Real{1}, exponent);
+  if (!is_power && std::isfinite(next)) factor_stiffness_ = next;
 }
 
 }  // namespace pliant

@@ -125,6 +125,11 @@ class ConstraintGroup {
   /// A changed stiffness is taken up at the next step, with one numeric factorization unless the group comes and goes.
   /// Refuses what is not positive.
   void set_stiffness(Real stiffness);
+  /// The same of one that changes in each step: the factor has factor_stiffness().
+  void set_passing_stiffness(Real stiffness);
+  /// What the factor is to have of it: the stiffness, or the next power of two from it on while it is a passing one.
+  /// With more than there is no plain global step raises the objective, and the solution stays the same.
+  Real factor_stiffness() const { return factor_stiffness_; }
 
   /// Raised whenever stencil, reduction, measure or the pinned vertices change: the matrix is then summed anew. No two
   /// groups that differ in these have the same one.
@@ -142,6 +147,7 @@ class ConstraintGroup {
   static std::uint64_t next_revision();
 
   Real stiffness_ = 1;
+  Real factor_stiffness_ = 1;
   std::uint64_t revision_ = next_revision();
   bool is_driven_ = false;
 };

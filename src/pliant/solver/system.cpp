@@ -27,7 +27,7 @@ void add_translation_weights(const ConstraintGroup& group, std::span<Real> weigh
       const std::span<const Real> row = reduction_row(group, i, r);
       const Real sum = std::accumulate(row.begin(), row.end(), Real(0));
       for (std::size_t a = 0; a < row.size(); ++a) {
-        weights[at(stencil[a])] += group.stiffness() * group.rest_measure()[i] * sum * row[a];
+        weights[at(stencil[a])] += group.factor_stiffness() * group.rest_measure()[i] * sum * row[a];
       }
     }
   }
@@ -131,7 +131,7 @@ void System::lay_out() {
   places_.clear();
   for (const ConstraintGroup* group : layout_groups_) {
     places_.emplace(group, stamps_.size());
-    stamps_.push_back({group->revision(), group->stiffness()});
+    stamps_.push_back({group->revision(), group->factor_stiffness()});
   }
   find_pinned();
   components_ = find_components(matrix_.matrix());
@@ -179,7 +179,7 @@ void System::set_inertia(std::span<const Real> masses, Real step) {
 bool System::needs_factor(Real step, std::span<const Real> diagonal) const {
   if (factor_step_ != step || !std::ranges::equal(added_diagonal_, diagonal)) return true;
   for (std::size_t g = 0; g < layout_groups_.size(); ++g) {
-    if (layout_groups_[g]->stiffness() != stamps_[g].stiffness) return true;
+    if (layout_groups_[g]->factor_stiffness() != stamps_[g].stiffness) return true;
   }
   return false;
 }
@@ -197,7 +197,7 @@ void System::factorize(std::span<const Real> masses, std::span<const Real> diago
 }
 
 void System::sum(std::span<const Real> masses, Real step) {
-  for (std::size_t g = 0; g < layout_groups_.size(); ++g) stamps_[g].stiffness = layout_groups_[g]->stiffness();
+  for (std::size_t g = 0; g < layout_groups_.size(); ++g) stamps_[g].stiffness = layout_groups_[g]->factor_stiffness();
   factor_step_ = 0;  // until this succeeds
   matrix_.assemble(masses, step, groups_.in_use(), is_pinned_);
   matrix_.copy_diagonal(diagonal_in_factor_);

@@ -244,7 +244,7 @@ void Timeline::move_colliders(Simulation& simulation) {
 void Timeline::move_all(Simulation& simulation) {
   prepare(simulation);
   go_on(simulation);
-  end_what_arrived();
+  end_what_arrived(simulation);
 }
 
 Index Timeline::skip_due(const Simulation& simulation) {
@@ -289,7 +289,7 @@ StepReport Timeline::step(Simulation& simulation) {
       throw;
     }
   }
-  end_what_arrived();
+  end_what_arrived(simulation);
   return report;
 }
 
@@ -338,7 +338,8 @@ void Timeline::go_on(Simulation& simulation) {
   for (auto& [id, ramp] : ramps_) {
     const Real elapsed = end_of_step - ramp.numbers.begin;
     ramp.has_arrived = is_past(elapsed, ramp.numbers.duration);
-    simulation.set_stiffness(id, ramp.has_arrived ? ramp.numbers.to : stiffness_at(ramp.numbers, elapsed));
+    const Real stiffness = ramp.has_arrived ? ramp.numbers.to : stiffness_at(ramp.numbers, elapsed);
+    simulation.set_stiffness(id, stiffness, !ramp.has_arrived);
   }
   collider_motions_.go_on(simulation);
 }
@@ -355,9 +356,11 @@ void Timeline::go_back(Simulation& simulation) {
   collider_motions_.go_back(simulation);
 }
 
-void Timeline::end_what_arrived() {
+/// A ramp that is ended before the next step leaves a stiffness that does not pass any longer.
+void Timeline::end_what_arrived(Simulation& simulation) {
   std::erase_if(motions_, [](const Motion& motion) { return motion.has_arrived; });
   std::erase_if(ramps_, [](const auto& entry) { return entry.second.has_arrived; });
+  for (const auto& [id, ramp] : ramps_) simulation.set_stiffness(id, *simulation.stiffness(id));
   collider_motions_.end_what_arrived();
 }
 

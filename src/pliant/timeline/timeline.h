@@ -89,7 +89,7 @@ class Timeline {
   }
   /// Leaves targets where they are now; without numbers all of the group, whose ramp ends as well.
   void stop(const Simulation& simulation, GroupId group, const std::vector<Index>& numbers = {});
-  /// Lets the stiffness of a group go to another value in a time [s] > 0. Costs a numeric factorization each step.
+  /// Lets the stiffness of a group go to another value in a time [s] > 0. Costs a numeric factorization each doubling.
   void ramp_stiffness(const Simulation& simulation, GroupId group, Real to, Real duration, Ease ease = Ease::linear);
   void stop_ramp(GroupId group) { ramps_.erase(group); }
 
@@ -169,7 +169,7 @@ class Timeline {
   void prepare(const Simulation& simulation);
   void go_on(Simulation& simulation);
   void go_back(Simulation& simulation);
-  void end_what_arrived();
+  void end_what_arrived(Simulation& simulation);
 
   std::vector<Event> events_;
   std::multimap<std::int64_t, Index> by_step_;  // waiting

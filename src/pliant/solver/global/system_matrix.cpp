@@ -112,7 +112,7 @@ void SystemMatrix::assemble(std::span<const Real> masses, Real time_step,
   }
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const UnitMatrix& unit = units_[g];
-    const Real stiffness = groups[g]->stiffness();
+    const Real stiffness = groups[g]->factor_stiffness();
     for (std::size_t e = 0; e < unit.places.size(); ++e) {
       matrix_.values[at(unit.places[e])] += stiffness * unit.values[e];
     }
