@@ -166,9 +166,9 @@ void ConstraintGroup::set_stiffness(Real stiffness) {
 void ConstraintGroup::set_passing_stiffness(Real stiffness) {
   set_stiffness(stiffness);
   int exponent = 0;
-  const bool is_power = std::frexp(stiffness, &exponent) == Real{0.5};
-  const Real next = std::ldexp(Real{1}, exponent);
-  if (!is_power && std::isfinite(next)) factor_stiffness_ = next;
+  const Real fraction = std::frexp(stiffness, &exponent);
+  const Real nearest = std::ldexp(Real{1}, fraction * fraction < Real{0.5} ? exponent - 1 : exponent);
+  if (std::isfinite(nearest)) factor_stiffness_ = nearest;
 }
 
 }  // namespace pliant

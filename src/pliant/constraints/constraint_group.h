@@ -127,8 +127,8 @@ class ConstraintGroup {
   void set_stiffness(Real stiffness);
   /// The same of one that changes in each step: the factor has factor_stiffness().
   void set_passing_stiffness(Real stiffness);
-  /// What the factor is to have of it: the stiffness, or the next power of two from it on while it is a passing one.
-  /// With more than there is no plain global step raises the objective, and the solution stays the same.
+  /// What the factor is to have of it: the stiffness, or the nearest power of two while it is a passing one. That is
+  /// at least 0.7 of it, and above a half no plain global step raises the objective, whose minimum stays the same.
   Real factor_stiffness() const { return factor_stiffness_; }
 
   /// Raised whenever stencil, reduction, measure or the pinned vertices change: the matrix is then summed anew. No two
