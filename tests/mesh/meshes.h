@@ -1,9 +1,12 @@
 #pragma once
 // Small meshes that no shape function makes, and what an error says.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <numeric>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -85,6 +88,20 @@ inline std::string error_of(const std::function<void()>& act, pliant::ErrorKind 
 
 inline bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
+}
+
+/// Vertices and triangles in an order of no sense.
+inline void number_at_random(pliant::Mesh& mesh) {
+  std::mt19937 random(5);
+  std::vector<pliant::Index> numbers(pliant::at(mesh.vertex_count()));
+  std::iota(numbers.begin(), numbers.end(), 0);
+  std::shuffle(numbers.begin(), numbers.end(), random);
+  const pliant::Positions before = mesh.vertices;
+  for (pliant::Index v = 0; v < mesh.vertex_count(); ++v) mesh.vertices.row(numbers[pliant::at(v)]) = before.row(v);
+  for (pliant::Triangle& triangle : mesh.triangles) {
+    for (pliant::Index& v : triangle) v = numbers[pliant::at(v)];
+  }
+  std::shuffle(mesh.triangles.begin(), mesh.triangles.end(), random);
 }
 
 }  // namespace pliant_tests

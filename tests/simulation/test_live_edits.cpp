@@ -224,7 +224,7 @@ TEST_CASE("pins that follow the vertices of another body") {
 }
 
 TEST_CASE("a stiffness that is ramped") {
-  // the factor has more of it on the way, which all steps come to the same with
+  // the factor has another stiffness on the way; converged steps are the same
   Make options;
   options.settings.iterations = 100000;
   options.settings.tolerance = 1e-11;

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <numeric>
-#include <random>
 
 #include <doctest/doctest.h>
 
@@ -81,20 +79,6 @@ struct Factor {
     step.factorize(matrix, precision, {}, none, threads, times);
   }
 };
-
-/// Vertices and triangles in an order of no sense.
-void number_at_random(Mesh& mesh) {
-  std::mt19937 random(5);
-  std::vector<Index> numbers(at(mesh.vertex_count()));
-  std::iota(numbers.begin(), numbers.end(), 0);
-  std::shuffle(numbers.begin(), numbers.end(), random);
-  const Positions before = mesh.vertices;
-  for (Index v = 0; v < mesh.vertex_count(); ++v) mesh.vertices.row(numbers[at(v)]) = before.row(v);
-  for (Triangle& triangle : mesh.triangles) {
-    for (Index& v : triangle) v = numbers[at(v)];
-  }
-  std::shuffle(mesh.triangles.begin(), mesh.triangles.end(), random);
-}
 
 /// Sheets that hang by two vertices, one of which is dragged by a point of a triangle.
 struct Hung {

@@ -1,5 +1,5 @@
-// A stiffness that is led to another one: the factor has the nearest power of two meanwhile, so that most steps factorize
-// nothing, and the steps come to the same.
+// A stiffness that is led to another one: the factor has the nearest power of two meanwhile, so that most steps
+// factorize nothing, and the steps come to the same.
 #include <cmath>
 #include <limits>
 
@@ -7,10 +7,12 @@
 
 #include "pliant/pliant.h"
 #include "pliant/timeline/timeline.h"
+#include "tests/mesh/meshes.h"
 
 namespace test_ramps {
 
 using namespace pliant;
+using namespace pliant_tests;
 
 namespace {
 
@@ -140,6 +142,48 @@ TEST_CASE("ramps: one that is ended, or goes on elsewhere, leaves nothing of its
   timeline.step(ramped);
   fresh.step();
   CHECK(ramped.state().positions == fresh.state().positions);
+}
+
+/// Of a ramp on a mesh that has an order of its own in the solver, the positions after `steps`, the last of them with a
+/// simulation that begins in the middle of the ramp.
+Positions end_of_ramp(bool is_resumed) {
+  Mesh mesh = grid({.columns = 52, .rows = 52});
+  number_at_random(mesh);
+  const auto make_shuffled = [&] {
+    Simulation simulation({.iterations = 6, .threads = 1});
+    simulation.add_body(mesh, Mass::area_density(0.3));
+    simulation.add(sheet, EdgeSpring{.stiffness = begin_stiffness}, "springs");
+    simulation.add(sheet, TriangleStrain{.stiffness = 20});
+    simulation.add(sheet, Position{.on = {0, 51}});
+    simulation.add(Gravity{});
+    return simulation;
+  };
+  Simulation simulation = make_shuffled();
+  Timeline timeline;
+  timeline.step(simulation);
+  timeline.ramp_stiffness(simulation, springs(simulation), end_stiffness, duration(simulation));
+  for (int i = 0; i < steps / 2; ++i) timeline.step(simulation);
+  if (is_resumed) {
+    const State state = simulation.state();
+    const Real stiffness = *simulation.stiffness(springs(simulation));
+    simulation = make_shuffled();
+    simulation.set_stiffness(springs(simulation), stiffness);
+    simulation.restore(state);
+  }
+  for (int i = 0; i < steps / 4; ++i) timeline.step(simulation);
+  return simulation.state().positions;
+}
+
+TEST_CASE("ramps: the same bits where a run is resumed on the way, in the solver's own order too") {
+  CHECK((end_of_ramp(true).array() == end_of_ramp(false).array()).all());
+}
+
+TEST_CASE("ramps: with Chebyshev, which needs all of the stiffness in the factor, each step factorizes") {
+  Simulation simulation = make({.acceleration = Acceleration::chebyshev, .threads = 1});
+  Timeline timeline;
+  timeline.step(simulation);
+  timeline.ramp_stiffness(simulation, springs(simulation), end_stiffness, duration(simulation));
+  for (int i = 0; i < steps; ++i) CHECK(timeline.step(simulation).set_up.numeric > 0);
 }
 
 }  // namespace test_ramps

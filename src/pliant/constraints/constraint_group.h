@@ -125,10 +125,11 @@ class ConstraintGroup {
   /// A changed stiffness is taken up at the next step, with one numeric factorization unless the group comes and goes.
   /// Refuses what is not positive.
   void set_stiffness(Real stiffness);
-  /// The same of one that changes in each step: the factor has factor_stiffness().
+  /// The same of one that is set anew before each step, as in a ramp: the factor has factor_stiffness(), so that only
+  /// each doubling factorizes. For that step: no checkpoint knows of it, so set_stiffness() is to follow.
   void set_passing_stiffness(Real stiffness);
   /// What the factor is to have of it: the stiffness, or the nearest power of two while it is a passing one. That is
-  /// at least 0.7 of it, and above a half no plain global step raises the objective, whose minimum stays the same.
+  /// at least 0.7 of it, and above a half no plain global step raises the objective. Chebyshev needs all of it.
   Real factor_stiffness() const { return factor_stiffness_; }
 
   /// Raised whenever stencil, reduction, measure or the pinned vertices change: the matrix is then summed anew. No two

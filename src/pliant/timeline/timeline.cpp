@@ -335,11 +335,12 @@ void Timeline::go_on(Simulation& simulation) {
       simulation.set_target(motion.group, motion.indices[i], motion.path->at(motion.state.numbers.points[i]));
     }
   }
+  const bool may_keep_factor = simulation.settings().acceleration != Acceleration::chebyshev;
   for (auto& [id, ramp] : ramps_) {
     const Real elapsed = end_of_step - ramp.numbers.begin;
     ramp.has_arrived = is_past(elapsed, ramp.numbers.duration);
     const Real stiffness = ramp.has_arrived ? ramp.numbers.to : stiffness_at(ramp.numbers, elapsed);
-    simulation.set_stiffness(id, stiffness, !ramp.has_arrived);
+    simulation.set_stiffness(id, stiffness, may_keep_factor && !ramp.has_arrived);
   }
   collider_motions_.go_on(simulation);
 }

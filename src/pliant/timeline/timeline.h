@@ -89,7 +89,7 @@ class Timeline {
   }
   /// Leaves targets where they are now; without numbers all of the group, whose ramp ends as well.
   void stop(const Simulation& simulation, GroupId group, const std::vector<Index>& numbers = {});
-  /// Lets the stiffness of a group go to another value in a time [s] > 0. Costs a numeric factorization each doubling.
+  /// Lets the stiffness of a group go to another value in a time [s] > 0. Factorizes at each doubling.
   void ramp_stiffness(const Simulation& simulation, GroupId group, Real to, Real duration, Ease ease = Ease::linear);
   void stop_ramp(GroupId group) { ramps_.erase(group); }
 

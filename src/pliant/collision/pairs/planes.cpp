@@ -14,7 +14,7 @@ constexpr Real free_share = 0.9;
 constexpr Real kept_share = 0.05;
 /// Of a gap: what must be left of it where the ways end. A little less than the half-spaces leave, lest rounding count.
 constexpr Real end_share = 0.09;
-/// The same across the closest points, where nothing else is asked: so much suffices for any of the rules of choose().
+/// The same across the closest points: what has so much needs no plane by the first rule of choose().
 constexpr Real clear_share = 0.1;
 /// Of the distance, or of r if that is less: the gap of a plane that is worth to hold something back.
 constexpr Real least_gap_share = 0.3;
@@ -180,7 +180,7 @@ bool Planes::is_clear(const Near& near) const {
     if (j < first_side) above = {std::min(above[0], height), std::min(above[1], end)};
     if (j >= first_side) below = {std::max(below[0], height), std::max(below[1], end)};
   }
-  const Real slack = reach(pair, slacks_);  // 1000 u: more than any rule below asks for
+  const Real slack = reach(pair, slacks_);  // at least 500 u; choose() asks for certain_units and end_units
   const Real gap = above[0] - below[0];
   return gap >= slack && above[1] - below[1] >= std::max(clear_share * gap, slack);
 }

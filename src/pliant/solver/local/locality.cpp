@@ -137,6 +137,7 @@ bool LocalGroups::reorder(Index vertex_count) {
   copies_ = std::move(copies);
   order_ = std::move(order);
   for (std::size_t g = 0; g < copies_.size(); ++g) in_use_[g] = copies_[g].get();
+  sync_parameters();  // what reordered() does not copy
   return true;
 }
 
