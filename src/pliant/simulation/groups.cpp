@@ -310,13 +310,12 @@ void Simulation::exchange_group(GroupId id, Group renewed) {
   groups_changed_ = true;
 }
 
-void Simulation::set_stiffness(GroupId id, Real stiffness, bool is_passing) {
+void Simulation::set_stiffness(GroupId id, Real stiffness) {
   const Group& owner = group(id);
   if (!this->stiffness(id)) fail_input("group '" + owner.name + "' has no stiffness; hard pins have none");
   if (transaction_ != nullptr) transaction_->save_numbers(id, owner);
   for (const auto& batch : owner.set.batches) {
-    if (batch->shape().count == 0) continue;
-    is_passing ? batch->set_passing_stiffness(stiffness) : batch->set_stiffness(stiffness);
+    if (batch->shape().count > 0) batch->set_stiffness(stiffness);
   }
 }
 

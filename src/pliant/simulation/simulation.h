@@ -71,8 +71,8 @@ class Simulation : public Colliders {
   }
   /// Lets vertices of a group of positions go; the others stay as they are. Vertices have the indices of their body.
   void release(GroupId id, std::span<const Index> vertices);
-  /// New common factor of a group's weights. is_passing: see ConstraintGroup::set_passing_stiffness().
-  void set_stiffness(GroupId id, Real stiffness, bool is_passing = false);
+  /// New common factor of a group's weights: costs one numeric factorization at the next step.
+  void set_stiffness(GroupId id, Real stiffness);
   std::optional<Real> stiffness(GroupId id) const;  ///< that factor; none for hard pins
   /// Multiplies the stiffness of each constraint of a group on one body by the mean of these, > 0, over its vertices:
   /// one for each vertex of the body, or none. They stay when the group is replaced, whether it has a stiffness or not.

@@ -340,7 +340,11 @@ void Timeline::go_on(Simulation& simulation) {
     const Real elapsed = end_of_step - ramp.numbers.begin;
     ramp.has_arrived = is_past(elapsed, ramp.numbers.duration);
     const Real stiffness = ramp.has_arrived ? ramp.numbers.to : stiffness_at(ramp.numbers, elapsed);
-    simulation.set_stiffness(id, stiffness, may_keep_factor && !ramp.has_arrived);
+    simulation.set_stiffness(id, stiffness);
+    if (!may_keep_factor || ramp.has_arrived) continue;
+    for (const auto& batch : simulation.groups().at(id).set.batches) {
+      if (batch->shape().count > 0) batch->set_passing_stiffness(stiffness);
+    }
   }
   collider_motions_.go_on(simulation);
 }
