@@ -1,5 +1,6 @@
 #pragma once
 // The kernels of local_kernels.h, for any number of lanes; compiled as lanes.h says.
+#include "pliant/constraints/kernels/collect_kernel.h"
 #include "pliant/constraints/kernels/hyperelastic_kernels.h"
 #include "pliant/constraints/kernels/length_kernels.h"
 #include "pliant/constraints/kernels/linear_kernel.h"
@@ -15,6 +16,7 @@ constexpr LocalKernels kernels_of(const char* instruction_set) {
   using Strains = StrainKernels<width>;
   using Products = ProductKernels<width>;
   using Elastics = HyperelasticKernels<width>;
+  using Collects = CollectKernel<width>;
   return {.edge_spring = Lengths::edge_spring,
           .edge_strain = Lengths::template strain<2>,
           .fibre_strain = Lengths::template strain<3>,
@@ -30,6 +32,9 @@ constexpr LocalKernels kernels_of(const char* instruction_set) {
           .absolute_curvature = Lengths::template curvature<4>,
           .signed_curvature = Lengths::template curvature<8>,
           .linear_forces = LinearKernel<width>::run,
+          .collect_ones = Collects::ones,
+          .collect_signs = Collects::signs,
+          .collect_any = Collects::any,
           .instruction_set = instruction_set};
 }
 

@@ -52,6 +52,16 @@ struct LinearRows {
   double* forces;                ///< of row `begin` first, 3 numbers each
 };
 
+/// The sums of a chunk: what each of its vertices gets from the slots of its constraints.
+struct CollectedVertices {
+  const double* slots;           ///< 3 numbers each, and one more after the last
+  const std::uint16_t* entries;  ///< twice the slot, plus one where the coefficient is −1
+  const double* coefficients;    ///< of the entries; read by collect_any alone
+  const std::uint32_t* ends;     ///< of each vertex's entries, which begin where those of the last one end, or at 0
+  std::size_t count;             ///< vertices
+  double* sums;                  ///< of each vertex, 3 numbers
+};
+
 struct LocalKernels {
   using Kernel = LocalDone(const LocalBlock& block);
   Kernel* edge_spring;
@@ -69,6 +79,10 @@ struct LocalKernels {
   Kernel* absolute_curvature;
   Kernel* signed_curvature;
   double (*linear_forces)(const LinearRows& rows);  ///< returns the energy
+  using Collect = void(const CollectedVertices& vertices);
+  Collect* collect_ones;   ///< all coefficients are 1
+  Collect* collect_signs;  ///< 1 or −1
+  Collect* collect_any;
   const char* instruction_set;
 };
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "pliant/constraints/kernels/local_kernels.h"
 #include "pliant/core/error.h"
 #include "pliant/core/stopwatch.h"
 #include "pliant/core/two_numbers.h"
@@ -219,7 +220,7 @@ LocalResult LocalStep::run(const Positions& q, const Positions& s, std::span<con
   LocalResult result;
   const Stopwatch projections;
   slots_.resize(static_cast<std::size_t>(threads.thread_count()));
-  for (std::vector<Real>& slots : slots_) slots.resize(3 * most_chunk_slots);
+  for (std::vector<Real>& slots : slots_) slots.resize(3 * most_chunk_slots + 1);
   {
     const OpenLocalStep open(groups_, q);
     threads.parallel_for(static_cast<Index>(chunks_.size()), [&](Index i, int thread) {
@@ -281,39 +282,25 @@ Real LocalStep::project(Chunk& chunk, const Positions& q, std::vector<Real>& slo
     return found.energy;
   }
   const Real energy = project_to_slots(group, q, slots, chunk.begin, chunk.end);
-  switch (chunk.coefficients) {
-    case Coefficients::ones:
-      collect<Coefficients::ones>(chunk, slots.data());
-      break;
-    case Coefficients::signs:
-      collect<Coefficients::signs>(chunk, slots.data());
-      break;
-    case Coefficients::any:
-      collect<Coefficients::any>(chunk, slots.data());
-      break;
-  }
+  collect(chunk, slots.data());
   return energy;
 }
 
-template <LocalStep::Coefficients kind>
 void LocalStep::collect(const Chunk& chunk, const Real* slots) {
-  const std::uint16_t* const entries = entries_.data() + chunk.first_entry;
-  const Real* const coefficients = coefficients_.data() + chunk.first_coefficient;
-  std::uint32_t entry = 0;
-  for (std::size_t partial = chunk.first_partial; partial < chunk.last_partial; ++partial) {
-    VectorSum sum;
-    for (; entry < partial_ends_[partial]; ++entry) {
-      const std::size_t code = entries[entry];
-      const Real* const slot = slots + 3 * (code / 2);
-      if constexpr (kind == Coefficients::ones) {
-        sum.add(slot);
-      } else if constexpr (kind == Coefficients::signs) {
-        sum.add_signed(code % 2, slot);
-      } else {
-        sum.add(coefficients[entry], slot);
-      }
-    }
-    sum.write(partials_.data() + 3 * partial);
+  static const LocalKernels& kernels = *local_kernels().back();
+  const CollectedVertices vertices{.slots = slots,
+                                   .entries = entries_.data() + chunk.first_entry,
+                                   .coefficients = coefficients_.data() + chunk.first_coefficient,
+                                   .ends = partial_ends_.data() + chunk.first_partial,
+                                   .count = chunk.last_partial - chunk.first_partial,
+                                   .sums = partials_.data() + 3 * chunk.first_partial};
+  switch (chunk.coefficients) {
+    case Coefficients::ones:
+      return kernels.collect_ones(vertices);
+    case Coefficients::signs:
+      return kernels.collect_signs(vertices);
+    case Coefficients::any:
+      return kernels.collect_any(vertices);
   }
 }
 

@@ -86,7 +86,6 @@ class LocalStep {
   void still_linear();
   void lay_out_vertices(Index vertex_count, std::span<const Index> partial_vertices);
   Real project(Chunk& chunk, const Positions& q, std::vector<Real>& slots);
-  template <Coefficients kind>
   void collect(const Chunk& chunk, const Real* slots);
   VertexSums gather(Index begin, Index end, const Positions& q, const Positions& s,
                     std::span<const Real> inertia_weights, std::span<const char> is_pinned, Positions& r) const;
