@@ -35,6 +35,7 @@ constexpr LocalKernels kernels_of(const char* instruction_set) {
           .collect_ones = Collects::ones,
           .collect_signs = Collects::signs,
           .collect_any = Collects::any,
+          .gather = Collects::gather,
           .instruction_set = instruction_set};
 }
 

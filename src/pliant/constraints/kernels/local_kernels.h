@@ -62,6 +62,24 @@ struct CollectedVertices {
   double* sums;                  ///< of each vertex, 3 numbers
 };
 
+/// Vertices that get r ← Σ sums + w (s − q), or 0 where they are pinned.
+struct GatheredVertices {
+  const double* sums;           ///< of all chunks, 3 numbers each, and one more after the last
+  const std::size_t* offsets;   ///< vertex i has the places [offsets[i], offsets[i + 1])
+  const std::uint32_t* places;  ///< of its sums
+  const double* q;              ///< m × 3, as s and r
+  const double* s;
+  const double* weights;  ///< w of each vertex
+  const char* is_pinned;
+  double* r;
+  std::size_t begin, end;  ///< the vertices at hand
+};
+
+struct GatheredSums {
+  double squared_residual = 0;  ///< the largest ‖r‖²; NaN if one is
+  double inertia = 0;           ///< Σ w/2 ‖s − q‖²
+};
+
 struct LocalKernels {
   using Kernel = LocalDone(const LocalBlock& block);
   Kernel* edge_spring;
@@ -83,6 +101,7 @@ struct LocalKernels {
   Collect* collect_ones;   ///< all coefficients are 1
   Collect* collect_signs;  ///< 1 or −1
   Collect* collect_any;
+  GatheredSums (*gather)(const GatheredVertices& vertices);
   const char* instruction_set;
 };
 

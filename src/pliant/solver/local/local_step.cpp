@@ -6,10 +6,8 @@
 #include <limits>
 #include <utility>
 
-#include "pliant/constraints/kernels/local_kernels.h"
 #include "pliant/core/error.h"
 #include "pliant/core/stopwatch.h"
-#include "pliant/core/two_numbers.h"
 #include "pliant/solver/constraint_rows.h"
 
 namespace pliant {
@@ -54,6 +52,11 @@ class OpenLocalStep {
   std::span<ConstraintGroup* const> groups_;
   std::size_t begun_ = 0;
 };
+
+const LocalKernels& kernels() {
+  static const LocalKernels& fastest = *local_kernels().back();
+  return fastest;
+}
 
 /// The larger one; NaN when one is NaN, so that no tolerance is ever reached with it.
 Real larger(Real a, Real b) {
@@ -203,7 +206,7 @@ void LocalStep::lay_out_vertices(Index vertex_count, std::span<const Index> part
   if (partial_vertices.size() > std::numeric_limits<std::uint32_t>::max()) {
     fail_input("the constraints touch more than 2^32 - 1 vertices; use a coarser mesh");
   }
-  partials_.assign(3 * partial_vertices.size(), 0);
+  partials_.assign(3 * partial_vertices.size() + 1, 0);
   vertex_offsets_.assign(static_cast<std::size_t>(vertex_count) + 1, 0);
   for (const Index vertex : partial_vertices) ++vertex_offsets_[static_cast<std::size_t>(vertex) + 1];
   for (std::size_t i = 1; i < vertex_offsets_.size(); ++i) vertex_offsets_[i] += vertex_offsets_[i - 1];
@@ -230,15 +233,27 @@ LocalResult LocalStep::run(const Positions& q, const Positions& s, std::span<con
   }
   still_linear();
   result.seconds_projections = projections.seconds();
-  const auto vertex_count = static_cast<Index>(q.rows());
+  const auto vertex_count = static_cast<std::size_t>(q.rows());
+  const GatheredVertices vertices{.sums = partials_.data(),
+                                  .offsets = vertex_offsets_.data(),
+                                  .places = vertex_partials_.data(),
+                                  .q = q.data(),
+                                  .s = s.data(),
+                                  .weights = inertia_weights.data(),
+                                  .is_pinned = is_pinned.data(),
+                                  .r = r.data(),
+                                  .begin = 0,
+                                  .end = 0};
   threads.parallel_for(static_cast<Index>(vertex_sums_.size()), [&](Index i) {
-    const Index begin = i * vertices_per_chunk;
-    const Index end = std::min(vertex_count, begin + vertices_per_chunk);
-    vertex_sums_[static_cast<std::size_t>(i)] = gather(begin, end, q, s, inertia_weights, is_pinned, r);
+    const auto chunk = static_cast<std::size_t>(i);
+    GatheredVertices these = vertices;
+    these.begin = chunk * vertices_per_chunk;
+    these.end = std::min(vertex_count, these.begin + vertices_per_chunk);
+    vertex_sums_[chunk] = kernels().gather(these);
   });
   for (const Real energy : chunk_energies_) result.elastic += energy;
   if (result.elastic < 0) result.elastic = 0;  // by rounding, of linear forces
-  for (const VertexSums& sums : vertex_sums_) {
+  for (const GatheredSums& sums : vertex_sums_) {
     result.inertia += sums.inertia;
     result.residual = larger(result.residual, sums.squared_residual);
   }
@@ -287,7 +302,6 @@ Real LocalStep::project(Chunk& chunk, const Positions& q, std::vector<Real>& slo
 }
 
 void LocalStep::collect(const Chunk& chunk, const Real* slots) {
-  static const LocalKernels& kernels = *local_kernels().back();
   const CollectedVertices vertices{.slots = slots,
                                    .entries = entries_.data() + chunk.first_entry,
                                    .coefficients = coefficients_.data() + chunk.first_coefficient,
@@ -296,41 +310,12 @@ void LocalStep::collect(const Chunk& chunk, const Real* slots) {
                                    .sums = partials_.data() + 3 * chunk.first_partial};
   switch (chunk.coefficients) {
     case Coefficients::ones:
-      return kernels.collect_ones(vertices);
+      return kernels().collect_ones(vertices);
     case Coefficients::signs:
-      return kernels.collect_signs(vertices);
+      return kernels().collect_signs(vertices);
     case Coefficients::any:
-      return kernels.collect_any(vertices);
+      return kernels().collect_any(vertices);
   }
-}
-
-LocalStep::VertexSums LocalStep::gather(Index begin, Index end, const Positions& q, const Positions& s,
-                                        std::span<const Real> inertia_weights, std::span<const char> is_pinned,
-                                        Positions& r) const {
-  VertexSums sums;
-  for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-    Real* out = r.data() + 3 * i;
-    if (is_pinned[i]) {
-      std::fill_n(out, 3, Real(0));
-      continue;
-    }
-    VectorSum sum;
-    for (std::size_t place = vertex_offsets_[i]; place < vertex_offsets_[i + 1]; ++place) {
-      sum.add(partials_.data() + 3 * static_cast<std::size_t>(vertex_partials_[place]));
-    }
-    std::array<Real, 3> force;
-    sum.write(force.data());
-    const Real* from = q.data() + 3 * i;
-    const Real* to = s.data() + 3 * i;
-    const Real weight = inertia_weights[i];
-    const Real dx = to[0] - from[0], dy = to[1] - from[1], dz = to[2] - from[2];
-    sums.inertia += weight / 2 * (dx * dx + dy * dy + dz * dz);
-    out[0] = force[0] + weight * dx;
-    out[1] = force[1] + weight * dy;
-    out[2] = force[2] + weight * dz;
-    sums.squared_residual = larger(sums.squared_residual, out[0] * out[0] + out[1] * out[1] + out[2] * out[2]);
-  }
-  return sums;
 }
 
 Index LocalStep::component_of(const Chunk& chunk, Index item) const {

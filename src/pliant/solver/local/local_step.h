@@ -10,6 +10,7 @@
 // So no two threads write to one place, every sum has its fixed order, and the bits are the same for any number of
 // threads. r is minus the gradient of the objective: the true residual, for free.
 #include "pliant/constraints/constraint_group.h"
+#include "pliant/constraints/kernels/local_kernels.h"
 #include "pliant/constraints/linear_forces.h"
 #include "pliant/core/thread_pool.h"
 #include "pliant/solver/system_info.h"
@@ -73,10 +74,6 @@ class LocalStep {
     Index component = mixed;  // of all its constraints
     Coefficients coefficients = Coefficients::any;
   };
-  struct VertexSums {
-    Real squared_residual = 0;
-    Real inertia = 0;
-  };
   class Layout;
 
   Index component_of(const Chunk& chunk, Index item) const;
@@ -87,8 +84,6 @@ class LocalStep {
   void lay_out_vertices(Index vertex_count, std::span<const Index> partial_vertices);
   Real project(Chunk& chunk, const Positions& q, std::vector<Real>& slots);
   void collect(const Chunk& chunk, const Real* slots);
-  VertexSums gather(Index begin, Index end, const Positions& q, const Positions& s,
-                    std::span<const Real> inertia_weights, std::span<const char> is_pinned, Positions& r) const;
 
   std::vector<ConstraintGroup*> groups_;
   std::size_t slot_count_ = 0;
@@ -99,8 +94,8 @@ class LocalStep {
   bool is_rounding_known_ = false;
   Real rounding_ = 0;
   std::span<const Index> component_of_vertex_;
-  std::vector<VertexSums> vertex_sums_;   // of each chunk of vertices
-  std::vector<std::vector<Real>> slots_;  // of the chunk at hand of each thread
+  std::vector<GatheredSums> vertex_sums_;  // of each chunk of vertices
+  std::vector<std::vector<Real>> slots_;   // of the chunk at hand of each thread
 
   std::vector<Real> partials_;               // count × 3, chunk after chunk
   std::vector<std::uint32_t> partial_ends_;  // entries of the partial, counted from the first of its chunk
