@@ -2,7 +2,8 @@
 """Measures drape coefficients: a round cloth that hangs over the rim of a disc, as in the drape test of fabrics.
 
   scripts/drape.py [--pliant PROGRAM] [--out FOLDER] [--fabrics wool,polyester,faille] [--apparatus cusick,jis]
-                   [--diagonals forward,alternating,crossed] [--cells 20] [--starts 1,2,3,4,5] [--steps 900] [--bare]
+                   [--diagonals forward,alternating,crossed] [--cells 20] [--starts 1,2,3,4,5] [--steps 900]
+                   [--iterations 100] [--bare]
 
 The coefficient is the share of the overhanging ring that the shadow from above covers [%]. Cells are counted over the
 overhang. What lies between the two plates of the apparatus is flat and fixed, and leaves it horizontally; the rest lies
@@ -93,7 +94,7 @@ def folds_of(vertices, positions, rim):
     return int(numpy.count_nonzero(outside != numpy.roll(outside, 1))) // 2
 
 
-def scene_of(fabric, is_bare, clamped, steps):
+def scene_of(fabric, is_bare, clamped, steps, iterations):
     clamp = {"type": "position", "on": [int(v) for v in clamped]}
     body = {"name": "cloth", "mesh": {"file": "cloth.obj"}}
     if is_bare:
@@ -106,7 +107,7 @@ def scene_of(fabric, is_bare, clamped, steps):
     platform = {"type": "plane", "name": "platform", "position": [0, 0, -0.002], "velocity": [0, 0, -SPEED], "friction": 0}
     return {"pliant": 1, "steps": steps, "bodies": [body], "colliders": [platform],
             "contact": {"surfaces": False, "distance": 0.001},  # implicit Euler, whose damping brings it to rest:
-            "settings": {"integrator": "implicit_euler", "iterations": 20, "acceleration": "lbfgs", "time_step": TIME_STEP}}
+            "settings": {"integrator": "implicit_euler", "iterations": iterations, "acceleration": "lbfgs", "time_step": TIME_STEP}}
 
 
 def read_vertices(path):
@@ -118,13 +119,13 @@ def measured(options, fabric, apparatus, diagonals, cells, start):
     vertices, faces, clamped = mesh_of(cells, diagonals, disc, rim)
     raised = vertices.copy()
     raised[:, 2] += disturbance(vertices, start, disc, rim)
-    folder = pathlib.Path(options.out) / f"{fabric}_{apparatus}_{diagonals}_{cells}_{start}_{options.steps}{'_bare' if options.bare else ''}"
+    folder = pathlib.Path(options.out) / f"{fabric}_{apparatus}_{diagonals}_{cells}_{start}_{options.steps}_{options.iterations}{'_bare' if options.bare else ''}"
     run, end = folder / "run", folder / "end.obj"
     if not (run / "run.json").exists():
         folder.mkdir(parents=True, exist_ok=True)
         lines = [f"v {x:.9f} {y:.9f} {z:.9f}" for x, y, z in raised] + ["f " + " ".join(str(v + 1) for v in face) for face in faces]
         (folder / "cloth.obj").write_text("\n".join(lines) + "\n")
-        (folder / "scene.json").write_text(json.dumps(scene_of(fabric, options.bare, clamped, options.steps)) + "\n")
+        (folder / "scene.json").write_text(json.dumps(scene_of(fabric, options.bare, clamped, options.steps, options.iterations)) + "\n")
         command = [options.pliant, "run", folder / "scene.json", "--out", run, "--quiet", "--threads", "1",
                    "--every", str(options.steps)]
         subprocess.run(command, check=True, stderr=subprocess.DEVNULL)
@@ -146,6 +147,7 @@ def main():
     parser.add_argument("--cells", default="20")
     parser.add_argument("--starts", default="1,2,3,4,5")
     parser.add_argument("--steps", type=int, default=900)
+    parser.add_argument("--iterations", type=int, default=100)
     parser.add_argument("--bare", action="store_true")
     options = parser.parse_args()
     table = []

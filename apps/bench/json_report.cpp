@@ -164,6 +164,7 @@ Json times_to_error_json(const std::vector<TimeToErrorResult>& cases) {
     list.push_back({{"name", each.name},
                     {"vertices", each.vertices},
                     {"uncertainty", each.uncertainty},
+                    {"usual_error", each.usual_error},
                     {"methods", methods},
                     {"last_errors", last_errors}});
   }

@@ -131,6 +131,7 @@ struct TimeToErrorResult {
   std::string description;
   std::int64_t vertices = 0;
   double uncertainty = 0;  ///< of the end that the step is held against, in the unit of the errors
+  double usual_error = 0;  ///< that the usual iterations leave
   std::vector<MethodResult> methods;
 };
 

@@ -194,14 +194,17 @@ void print_times_to_error(const BenchResult& result, Out out) {
   fmt::format_to(
       out,
       "\nTime to error: iterations and milliseconds (median) of a step until it is so near to its end, as a share "
-      "of\nhow far the prediction is from it, root mean square over the mass; left: what {} iterations leave.\n"
+      "of\nhow far the prediction is from it, root mean square over the mass; usual: what the "
+      "{}\niterations of L-BFGS leave that scenes of materials have; left: what {} iterations leave.\n"
       "xpbd: Gauss-Seidel sweeps, one multiplier a constraint; xpbd rows: one for each number of z - p\n",
-      most_iterations);
+      usual_iterations, most_iterations);
   for (const TimeToErrorResult& each : result.times_to_error) {
     fmt::format_to(out, "\n{}: {}; {} vertices; the end is known to {:.0e}\n  {:<10}", each.name, each.description,
                    each.vertices, each.uncertainty, "");
     for (const ErrorLevel& level : each.methods.front().levels) {
-      fmt::format_to(out, " {:>20}", fmt::format("{:.0e}", level.error));
+      const bool is_usual = level.error == each.usual_error;
+      fmt::format_to(out, " {:>20}",
+                     is_usual ? fmt::format("{:.1e}, usual", level.error) : fmt::format("{:.0e}", level.error));
     }
     out = '\n';
     for (const MethodResult& method : each.methods) print_method(each, method, out);

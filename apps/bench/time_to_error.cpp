@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <memory>
 
@@ -27,9 +28,11 @@ class Step {
     unit_ = 1;
     unit_ = error_of(prediction());
     uncertainty_ = error_of(half);
+    usual_error_ = error_after(Acceleration::lbfgs, usual_iterations);
     simulation.restore(start_);
   }
   double uncertainty() const { return uncertainty_; }
+  double usual_error() const { return usual_error_; }
   double error_of(const Positions& positions) const {
     double sum = 0, mass = 0;
     for (Index i = 0; i < start_.vertex_count(); ++i) {
@@ -80,6 +83,7 @@ class Step {
   Positions reference_;
   double unit_ = 1;  // [m]
   double uncertainty_ = 0;
+  double usual_error_ = 0;
   std::map<std::pair<Acceleration, Index>, double> errors_;
 };
 
@@ -184,19 +188,26 @@ TimeToErrorResult measure_time_to_error(const StepCase& step_case, const BenchOp
   settings.ordering = options.settings.ordering;
   settings.precision = options.settings.precision;
   Step step(scene.simulation, settings);
-  TimeToErrorResult result{
-      step_case.name, step_case.description, scene.simulation.state().vertex_count(), step.uncertainty(), {}};
+  TimeToErrorResult result{.name = step_case.name,
+                           .description = step_case.description,
+                           .vertices = scene.simulation.state().vertex_count(),
+                           .uncertainty = step.uncertainty(),
+                           .usual_error = step.usual_error(),
+                           .methods = {}};
+  std::vector<double> errors(error_levels.begin(), error_levels.end());
+  errors.push_back(result.usual_error);
+  std::ranges::sort(errors, std::greater());
   const std::vector<NamedMethod> methods = methods_of(step, scene.simulation);
   for (const NamedMethod& each : methods) {
     MethodResult method{each.name, {}, {}};
-    for (const double error : error_levels) {
+    for (const double error : errors) {
       const bool can_be_told = error > 2 * step.uncertainty();
       method.levels.push_back({error, can_be_told ? each.method->iterations_for(error) : std::nullopt, {}});
     }
     method.last_error = each.method->last_error();
     result.methods.push_back(std::move(method));
   }
-  for (std::size_t level = 0; level < error_levels.size(); ++level) {
+  for (std::size_t level = 0; level < errors.size(); ++level) {
     std::vector<Samples> samples(methods.size());
     repeat(options.repeats, seconds_a_level, [&] {
       for (std::size_t i = 0; i < methods.size(); ++i) {
