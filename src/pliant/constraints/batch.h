@@ -159,7 +159,7 @@ class Batch final : public ConstraintGroup {
     static_assert(Type::translation_invariant);
     const auto n = static_cast<std::size_t>(vertices());
     const std::size_t numbers = 3 * (Type::rows == 1 ? 1 : n);
-    static const LocalKernels& kernels = *local_kernels().back();
+    const LocalKernels& kernels = fastest_kernels();
     const auto last = static_cast<std::size_t>(end);
     std::array<Real, local_block * coefficients_size + 1> room;
     Real energy = 0;

@@ -107,7 +107,7 @@ LinearForces::Rows LinearForces::add(const ConstraintGroup& group, Index vertex_
 
 LinearForces::Found LinearForces::run(Real stiffness, const Positions& q, std::size_t begin, std::size_t end,
                                       Real* forces) const {
-  static const LocalKernels& kernels = *local_kernels().back();
+  const LocalKernels& kernels = fastest_kernels();
   Found found;
   found.energy = kernels.linear_forces({.positions = q.data(),
                                         .vertices = vertices_.data(),

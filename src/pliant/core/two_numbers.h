@@ -1,6 +1,5 @@
 #pragma once
 // Two numbers side by side in a register, which every processor has.
-
 #include "pliant/core/types.h"
 
 namespace pliant {

@@ -15,7 +15,7 @@ struct CollectKernel {
   static void any(const CollectedVertices& run) { sum_up(run, Factor{run.coefficients}); }
 
   static GatheredSums gather(const GatheredVertices& run) {
-    GatheredSums sums;
+    GatheredSums sums{};  // without a constructor, which the linker might share
     for (std::size_t i = run.begin; i < run.end; ++i) {
       Parts force;
       if (!run.is_pinned[i]) {
@@ -52,13 +52,15 @@ struct CollectKernel {
   static Parts load(const double* from) {
     Parts parts;
     __builtin_memcpy(&parts.first, from, sizeof parts.first);
-    if constexpr (lanes == 2) parts.second[0] = from[2];
+    if constexpr (lanes == 2) parts.second = Number{from[2]};  // set by itself it would go through memory
     return parts;
   }
   /// The same, without the number after it.
   static Parts load_three(const double* from) {
 #ifdef __AVX__
     if constexpr (lanes == 4) return {_mm256_maskload_pd(from, _mm256_setr_epi64x(-1, -1, -1, 0)), Number{}};
+#else
+    static_assert(lanes == 2);
 #endif
     return load(from);
   }
@@ -87,7 +89,7 @@ struct CollectKernel {
     Number operator()(Number part, std::size_t, std::size_t entry) const { return coefficients[entry] * part; }
   };
 
-  /// 3 · code / 2 numbers from the first one on, so said that an address takes a multiplication by 3 and one by 4.
+  /// Where slot ⌊code / 2⌋ begins: 12 bytes times the code without its last bit, in an address times 3 and times 4.
   static const double* slot(const double* slots, std::size_t code) {
     constexpr std::size_t half_a_slot = 3 * sizeof(double) / 2;
     const char* const bytes = reinterpret_cast<const char*>(slots) + (code & ~std::size_t{1}) * half_a_slot;

@@ -4,7 +4,7 @@
 // might share between instruction sets; hence the nameless namespace and the few functions that others have as well.
 #include <cstddef>
 #include <cstdint>
-#ifdef __FMA__
+#ifdef __AVX__
 #include <immintrin.h>
 #endif
 

@@ -13,4 +13,9 @@ std::span<const LocalKernels* const> local_kernels() {
   return std::span(all).first(instruction_set_count());
 }
 
+const LocalKernels& fastest_kernels() {
+  static const LocalKernels& fastest = *local_kernels().back();
+  return fastest;
+}
+
 }  // namespace pliant

@@ -1,7 +1,8 @@
 #pragma once
-// The local step for many constraints of one type side by side, for the instruction set of the processor at hand. A
-// type names its kernel (`static constexpr auto kernel = &LocalKernels::edge_spring;`), and Batch does by itself,
-// one after the other, what a kernel leaves: the end of a run that fills no whole vector, and the odd cases.
+// The local step for many constraints of one type side by side, and the sums of what vertices get from them, for the
+// instruction set of the processor at hand. A type names its kernel (`static constexpr auto kernel =
+// &LocalKernels::edge_spring;`), and Batch does by itself, one after the other, what a kernel leaves: the end of a run
+// that fills no whole vector, and the odd cases.
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -52,19 +53,22 @@ struct LinearRows {
   double* forces;                ///< of row `begin` first, 3 numbers each
 };
 
+/// So many numbers are read, and not used, after the last of a list of slots or sums.
+inline constexpr std::size_t read_after_last = 1;
+
 /// The sums of a chunk: what each of its vertices gets from the slots of its constraints.
 struct CollectedVertices {
-  const double* slots;           ///< 3 numbers each, and one more after the last
+  const double* slots;           ///< 3 numbers each, and read_after_last more
   const std::uint16_t* entries;  ///< twice the slot, plus one where the coefficient is −1
   const double* coefficients;    ///< of the entries; read by collect_any alone
-  const std::uint32_t* ends;     ///< of each vertex's entries, which begin where those of the last one end, or at 0
-  std::size_t count;             ///< vertices
-  double* sums;                  ///< of each vertex, 3 numbers
+  const std::uint32_t* ends;  ///< of each vertex's entries, which begin where those of the vertex before end, or at 0
+  std::size_t count;          ///< vertices
+  double* sums;               ///< of each vertex, 3 numbers
 };
 
 /// Vertices that get r ← Σ sums + w (s − q), or 0 where they are pinned.
 struct GatheredVertices {
-  const double* sums;           ///< of all chunks, 3 numbers each, and one more after the last
+  const double* sums;           ///< of all chunks, 3 numbers each, and read_after_last more
   const std::size_t* offsets;   ///< vertex i has the places [offsets[i], offsets[i + 1])
   const std::uint32_t* places;  ///< of its sums
   const double* q;              ///< m × 3, as s and r
@@ -107,6 +111,7 @@ struct LocalKernels {
 
 /// All that this processor can run, the fastest last.
 std::span<const LocalKernels* const> local_kernels();
+const LocalKernels& fastest_kernels();
 
 extern const LocalKernels portable_kernels;
 extern const LocalKernels avx2_kernels;  // defined where the compiler has the instruction set

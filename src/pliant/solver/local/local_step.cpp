@@ -1,7 +1,6 @@
 #include "pliant/solver/local/local_step.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -52,11 +51,6 @@ class OpenLocalStep {
   std::span<ConstraintGroup* const> groups_;
   std::size_t begun_ = 0;
 };
-
-const LocalKernels& kernels() {
-  static const LocalKernels& fastest = *local_kernels().back();
-  return fastest;
-}
 
 /// The larger one; NaN when one is NaN, so that no tolerance is ever reached with it.
 Real larger(Real a, Real b) {
@@ -206,7 +200,7 @@ void LocalStep::lay_out_vertices(Index vertex_count, std::span<const Index> part
   if (partial_vertices.size() > std::numeric_limits<std::uint32_t>::max()) {
     fail_input("the constraints touch more than 2^32 - 1 vertices; use a coarser mesh");
   }
-  partials_.assign(3 * partial_vertices.size() + 1, 0);
+  partials_.assign(3 * partial_vertices.size() + read_after_last, 0);
   vertex_offsets_.assign(static_cast<std::size_t>(vertex_count) + 1, 0);
   for (const Index vertex : partial_vertices) ++vertex_offsets_[static_cast<std::size_t>(vertex) + 1];
   for (std::size_t i = 1; i < vertex_offsets_.size(); ++i) vertex_offsets_[i] += vertex_offsets_[i - 1];
@@ -223,7 +217,7 @@ LocalResult LocalStep::run(const Positions& q, const Positions& s, std::span<con
   LocalResult result;
   const Stopwatch projections;
   slots_.resize(static_cast<std::size_t>(threads.thread_count()));
-  for (std::vector<Real>& slots : slots_) slots.resize(3 * most_chunk_slots + 1);
+  for (std::vector<Real>& slots : slots_) slots.resize(3 * most_chunk_slots + read_after_last);
   {
     const OpenLocalStep open(groups_, q);
     threads.parallel_for(static_cast<Index>(chunks_.size()), [&](Index i, int thread) {
@@ -249,7 +243,7 @@ LocalResult LocalStep::run(const Positions& q, const Positions& s, std::span<con
     GatheredVertices these = vertices;
     these.begin = chunk * vertices_per_chunk;
     these.end = std::min(vertex_count, these.begin + vertices_per_chunk);
-    vertex_sums_[chunk] = kernels().gather(these);
+    vertex_sums_[chunk] = fastest_kernels().gather(these);
   });
   for (const Real energy : chunk_energies_) result.elastic += energy;
   if (result.elastic < 0) result.elastic = 0;  // by rounding, of linear forces
@@ -310,11 +304,11 @@ void LocalStep::collect(const Chunk& chunk, const Real* slots) {
                                    .sums = partials_.data() + 3 * chunk.first_partial};
   switch (chunk.coefficients) {
     case Coefficients::ones:
-      return kernels().collect_ones(vertices);
+      return fastest_kernels().collect_ones(vertices);
     case Coefficients::signs:
-      return kernels().collect_signs(vertices);
+      return fastest_kernels().collect_signs(vertices);
     case Coefficients::any:
-      return kernels().collect_any(vertices);
+      return fastest_kernels().collect_any(vertices);
   }
 }
 

@@ -97,7 +97,7 @@ class LocalStep {
   std::vector<GatheredSums> vertex_sums_;  // of each chunk of vertices
   std::vector<std::vector<Real>> slots_;   // of the chunk at hand of each thread
 
-  std::vector<Real> partials_;               // count × 3, chunk after chunk
+  std::vector<Real> partials_;               // count × 3 chunk after chunk, and read_after_last more
   std::vector<std::uint32_t> partial_ends_;  // entries of the partial, counted from the first of its chunk
   std::vector<std::uint16_t> entries_;       // twice the slot of the chunk, plus one where the coefficient is −1
   std::vector<Real> coefficients_;           // of the entries of chunks that have any
