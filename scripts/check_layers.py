@@ -18,7 +18,7 @@ LAYERS = {
     "pliant/forces": ["pliant/core", "pliant/mesh", "pliant/constraints/constraint_group.h", "pliant/constraints/batch.h",
                       "pliant/constraints/reorder.h"],
     "pliant/solver": ["pliant/core", "pliant/constraints/constraint_group.h",
-                      "pliant/constraints/linear_forces.h", "pliant/forces/force.h",
+                      "pliant/constraints/kernels/local_kernels.h", "pliant/constraints/linear_forces.h", "pliant/forces/force.h",
                       "pliant/collision/contact", "pliant/collision/pairs"],
     "pliant/simulation": ["pliant/core", "pliant/mesh", "pliant/collision/colliders", "pliant/collision/contact",
                           "pliant/collision/pairs", "pliant/collision/crossings.h",
