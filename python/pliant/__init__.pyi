@@ -197,8 +197,10 @@ class FibreStrain(ConstraintOptions):
         stiffness: Young's modulus times thickness along the fibre; woven cloth about 5e3 [N/m], default 1000.0
         min_stretch: smallest stretch left alone, default 1.0
         max_stretch: largest stretch left alone, default 1.0
+        taut_factor: how many times as stiff it is beyond `taut_stretch`, as threads whose waves are drawn out, default 1.0
+        taut_stretch: stretch at which it is taut, default 1.01
     """
-    def __init__(self, *, on: Selection = ..., stencils: Stencils = ..., direction: Points = ..., grain: Literal["automatic", "uv", "edge"] = ..., angle: float = ..., stiffness: Values = ..., min_stretch: Values = ..., max_stretch: Values = ...) -> None: ...
+    def __init__(self, *, on: Selection = ..., stencils: Stencils = ..., direction: Points = ..., grain: Literal["automatic", "uv", "edge"] = ..., angle: float = ..., stiffness: Values = ..., min_stretch: Values = ..., max_stretch: Values = ..., taut_factor: float = ..., taut_stretch: float = ...) -> None: ...
 
 class Gravity(ForceOptions):
     """Force `gravity`. m g

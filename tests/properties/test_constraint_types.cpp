@@ -69,7 +69,8 @@ template <>
 std::vector<FibreStrain> variants(const Mesh&) {
   return {{.grain = Grain::edge},
           {.direction = Vec3(1, 2, -3), .angle = 30},
-          {.angle = 90, .min_stretch = 0, .max_stretch = 1.1}};
+          {.angle = 90, .min_stretch = 0, .max_stretch = 1.1},
+          {.taut_factor = 7, .taut_stretch = 1.05}};
 }
 template <>
 std::vector<TriangleArea> variants(const Mesh&) {

@@ -83,6 +83,7 @@ class Batch final : public ConstraintGroup {
                                              std::span<const Index> numbers) const override {
     const auto n = static_cast<std::size_t>(vertices());
     auto batch = std::make_unique<Batch>(stiffness(), vertices_, type_);
+    batch->set_factor_share(factor_share());
     batch->stencil_ = in_order(stencil(), order, n);
     for (Index& vertex : batch->stencil_) vertex = numbers[static_cast<std::size_t>(vertex)];
     batch->reduction_ = in_order(reduction(), order, n * Type::rows);
@@ -99,7 +100,7 @@ class Batch final : public ConstraintGroup {
   bool freezes_shape() const override { return has_begin_step; }
   bool is_rotation_invariant() const override { return rotates_along; }
   bool is_linear() const override { return has_linear; }
-  bool is_projective() const override { return !has_potential<Type>; }
+  bool is_projective() const override { return !has_potential<Type> && factor_share() >= 0.5; }
   bool limits_stretches() const override { return has_stretches; }
   bool comes_and_goes() const override { return passes; }
   void begin_step(const StateView& state, [[maybe_unused]] Real time_step) override {

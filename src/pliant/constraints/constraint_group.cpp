@@ -88,6 +88,7 @@ std::unique_ptr<ConstraintGroup> ConstraintGroup::reordered(std::span<const Inde
 void ConstraintGroup::sync_parameters(const ConstraintGroup& from, std::span<const Index>) {
   stiffness_ = from.stiffness_;
   factor_stiffness_ = from.factor_stiffness_;
+  factor_share_ = from.factor_share_;
   is_driven_ = from.is_driven_;
 }
 
@@ -160,7 +161,12 @@ void ConstraintGroup::set_stiffness(Real stiffness) {
         fmt::format("stiffness: {} is not a positive finite number; give one, or remove the constraints", stiffness));
   }
   stiffness_ = stiffness;
-  factor_stiffness_ = stiffness;
+  factor_stiffness_ = factor_share_ * stiffness;
+}
+
+void ConstraintGroup::set_factor_share(Real share) {
+  factor_share_ = share;
+  factor_stiffness_ = share * stiffness_;
 }
 
 void ConstraintGroup::set_passing_stiffness(Real stiffness) {
@@ -168,7 +174,7 @@ void ConstraintGroup::set_passing_stiffness(Real stiffness) {
   int exponent = 0;
   const Real fraction = std::frexp(stiffness, &exponent);
   const Real nearest = std::ldexp(Real{1}, fraction * fraction < Real{0.5} ? exponent - 1 : exponent);
-  if (std::isfinite(nearest)) factor_stiffness_ = nearest;
+  if (std::isfinite(nearest)) factor_stiffness_ = factor_share_ * nearest;
 }
 
 }  // namespace pliant

@@ -131,6 +131,10 @@ class ConstraintGroup {
   /// What the factor is to have of it: the stiffness, or the nearest power of two while it is a passing one. That is
   /// at least 0.7 of it, and above a half no plain global step raises the objective. Chebyshev needs all of it.
   Real factor_stiffness() const { return factor_stiffness_; }
+  /// Of constraints that do nothing most of the time: the factor has this share of the stiffness, above 0 to 1, since
+  /// all of it would hold up what the others want. Below a half moves may raise the objective, and are guarded.
+  void set_factor_share(Real share);
+  Real factor_share() const { return factor_share_; }
 
   /// Raised whenever stencil, reduction, measure or the pinned vertices change: the matrix is then summed anew. No two
   /// groups that differ in these have the same one.
@@ -149,6 +153,7 @@ class ConstraintGroup {
 
   Real stiffness_ = 1;
   Real factor_stiffness_ = 1;
+  Real factor_share_ = 1;
   std::uint64_t revision_ = next_revision();
   bool is_driven_ = false;
 };

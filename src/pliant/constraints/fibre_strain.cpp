@@ -2,10 +2,27 @@
 
 #include <numbers>
 
+#include <fmt/format.h>
+
 #include "pliant/constraints/build.h"
 #include "pliant/constraints/strain_rest.h"
 
 namespace pliant {
+namespace {
+
+/// Of what taut fibres have beyond the others, in the factor: with less, moves are taken back often, with more, the
+/// sheet moves too little.
+constexpr Real taut_share = 0.2;
+
+void check_taut(std::string_view type, const FibreStrain& options, const Limits& limits, Index count) {
+  for (Index i = 0; i < count; ++i) {
+    if (options.taut_stretch >= limits[i][1]) continue;
+    fail_input(fmt::format("{}: taut_stretch: {} is below max_stretch {}; give at least as much", type,
+                           options.taut_stretch, limits[i][1]));
+  }
+}
+
+}  // namespace
 
 ConstraintSet build(const BodyView& body, const FibreStrain& options) {
   constexpr std::string_view type = FibreStrain::info.name;
@@ -16,7 +33,13 @@ ConstraintSet build(const BodyView& body, const FibreStrain& options) {
   const Eigen::Rotation2D<Real> turn(options.angle * std::numbers::pi / 180);
 
   const StiffnessSplit stiffness(type, body, options.stiffness, chosen);
-  auto batch = std::make_unique<Batch<FibreStrainProjection>>(stiffness.common());
+  using Fibres = Batch<FibreStrainProjection>;
+  auto batch = std::make_unique<Fibres>(stiffness.common());
+  auto taut = options.taut_factor > 1 ? std::make_unique<Fibres>(stiffness.common()) : nullptr;
+  if (taut) {
+    check_taut(type, options, limits, chosen.size());
+    taut->set_factor_share(taut_share);
+  }
   for (Index i = 0; i < chosen.size(); ++i) {
     const auto corner = [&](std::size_t j) { return row(body.rest.vertices, chosen[i][j]); };
     const RestElement<3> rest = rest_triangle(corner(0), corner(1), corner(2));
@@ -25,9 +48,15 @@ ConstraintSet build(const BodyView& body, const FibreStrain& options) {
     std::array<Real, 3> along;
     for (std::size_t j = 1; j < 3; ++j) along[j] = d[0] * rest.reduction[j] + d[1] * rest.reduction[3 + j];
     along[0] = -(along[1] + along[2]);
-    batch->add(global_stencil(body, chosen[i]), along, stiffness.of(i) * rest.measure, limits[i]);
+    const Real measure = stiffness.of(i) * rest.measure;
+    batch->add(global_stencil(body, chosen[i]), along, measure, limits[i]);
+    if (!taut) continue;
+    const std::array<Real, 2> until_taut = {0, options.taut_stretch};
+    taut->add(global_stencil(body, chosen[i]), along, (options.taut_factor - 1) * measure, until_taut);
   }
-  return one_batch(std::move(batch));
+  ConstraintSet set = one_batch(std::move(batch));
+  if (taut && set.count > 0) set.batches.push_back(std::move(taut));
+  return set;
 }
 
 }  // namespace pliant

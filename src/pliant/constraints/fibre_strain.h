@@ -5,6 +5,10 @@
 //        x₂
 //       ╱ d╲           z = F d, F = Ds Dm⁻¹ (3 × 2), d a unit vector in the plane of the rest triangle
 //     x₀──↗─x₁         p = z/‖z‖ · clamp(‖z‖, min, max)        E = k a/2 (‖z‖ − ‖p‖)²
+//                                                              + (t − 1) k a/2 max(0, ‖z‖ − s)²
+//
+// The second term is of fibres that are t times as stiff once they are taut, at a stretch of s. It is there now and
+// then, so the factor has a part of it alone: all of it would keep the sheet from moving while it is slack.
 //
 // Source: Bouaziz et al. 2014, Sec. 5.1 in one dimension; the same sheet at any resolution. Shear and whatever lies
 // across d are free: a woven cloth is one entry along the warp, one along the weft (`angle` 90), and a
@@ -37,6 +41,10 @@ struct FibreStrain {
   Values min_stretch = 1;
   /// Largest stretch left alone, from min_stretch.
   Values max_stretch = 1;
+  /// How many times as stiff it is beyond taut_stretch, from 1: woven threads are wavy, and stiff once drawn straight.
+  Real taut_factor = 1;
+  /// From max_stretch.
+  Real taut_stretch = 1.01;
 
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -54,6 +62,11 @@ struct FibreStrain {
           self.stiffness);
     field(OptionInfo{"min_stretch", "", "smallest stretch left alone", not_negative}, self.min_stretch);
     field(OptionInfo{"max_stretch", "", "largest stretch left alone", not_negative}, self.max_stretch);
+    field(OptionInfo{"taut_factor", "",
+                     "how many times as stiff it is beyond `taut_stretch`, as threads whose waves are drawn out",
+                     Range{1}},
+          self.taut_factor);
+    field(OptionInfo{"taut_stretch", "", "stretch at which it is taut", positive}, self.taut_stretch);
   }
 };
 

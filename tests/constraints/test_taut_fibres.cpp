@@ -1,0 +1,161 @@
+// Fibres that are stiffer once they are taut: their energy, a strip that hangs, and what the factor has of them.
+#include <map>
+
+#include <doctest/doctest.h>
+
+#include "../core/random.h"
+#include "elastic.h"
+#include "pliant/constraints/fibre_strain.h"
+#include "pliant/constraints/position.h"
+#include "pliant/core/error.h"
+#include "pliant/forces/builtin.h"
+#include "pliant/mesh/shapes.h"
+#include "pliant/simulation/simulation.h"
+
+namespace test_taut_fibres {
+
+using namespace pliant;
+using namespace pliant_tests;
+
+namespace {
+
+constexpr Real stiffness = 50, taut_factor = 6, taut_stretch = 1.02;
+
+FibreStrain taut_fibres() {
+  return {.direction = Vec3(0, 0, 1), .stiffness = stiffness, .taut_factor = taut_factor, .taut_stretch = taut_stretch};
+}
+
+Mesh strip() {
+  return grid({.columns = 3, .rows = 7, .size = {0.2, 0.6}, .plane = Plane::xz});
+}
+
+std::string refusal(const FibreStrain& options) {
+  const Mesh mesh = strip();
+  try {
+    build(BodyView{mesh, mesh.vertices, 0, "strip"}, options);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "nothing";
+}
+
+/// What triangles of so much area pull a vertical edge together with, k (s − 1) and (t − 1) k (s − taut) beyond, until
+/// it carries `load`; s.
+Real stretch_under(Real load, Real length, Real area) {
+  const Real pull = stiffness * area / length;
+  const Real slack = 1 + load / pull;
+  if (slack <= taut_stretch) return slack;
+  return (load / pull + 1 + (taut_factor - 1) * taut_stretch) / taut_factor;
+}
+
+}  // namespace
+
+TEST_CASE("beyond its limit a taut fibre is so many times as stiff") {
+  const Mesh mesh = strip();
+  Elastic elastic(mesh, taut_fibres());
+  for (const Real s : {0.9, 1.0, 1.01, 1.02, 1.03, 1.2}) {
+    CAPTURE(s);
+    const Mat3 stretched = Vec3(1, 1, s).asDiagonal();
+    const Real beyond = std::max(Real{0}, s - taut_stretch);
+    const Real expected = 0.12 * stiffness / 2 * ((s - 1) * (s - 1) + (taut_factor - 1) * beyond * beyond);
+    CHECK(elastic.energy(mesh.vertices * stretched) == doctest::Approx(expected).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("forces of taut fibres are minus the gradient of their energy") {
+  const Mesh mesh = strip();
+  Elastic elastic(mesh, taut_fibres());
+  Random random;
+  Positions q = mesh.vertices;
+  for (Real& x : q.reshaped()) x = 1.1 * x + random.uniform(-0.03, 0.03);
+  const Positions forces = elastic.forces(q);
+  constexpr Real step = 1e-7;
+  for (Index i = 0; i < mesh.vertex_count(); ++i) {
+    for (Index axis = 0; axis < 3; ++axis) {
+      Positions there = q, here = q;
+      there(i, axis) += step;
+      here(i, axis) -= step;
+      const Real slope = (elastic.energy(there) - elastic.energy(here)) / (2 * step);
+      CHECK(forces(i, axis) == doctest::Approx(-slope).epsilon(1e-5).scale(1));
+    }
+  }
+}
+
+TEST_CASE("a strip of taut fibres hangs as long as its weight asks, whatever the acceleration") {
+  for (const Acceleration acceleration :
+       {Acceleration::none, Acceleration::lbfgs, Acceleration::anderson, Acceleration::chebyshev}) {
+    CAPTURE(static_cast<int>(acceleration));
+    SolverSettings settings;
+    settings.acceleration = acceleration;
+    settings.iterations = 200;
+    Simulation simulation(settings);
+    const Mesh mesh = strip();
+    const BodyId body = simulation.add_body(mesh, Mass::area_density(0.5));
+    simulation.add(body, taut_fibres());
+    std::vector<Index> top;
+    std::map<Real, std::map<Real, Index>> columns;  // by x, then by height
+    for (Index i = 0; i < mesh.vertex_count(); ++i) {
+      columns[mesh.vertices(i, 0)][mesh.vertices(i, 2)] = i;
+      if (mesh.vertices(i, 2) > 0.6 - 1e-9) top.push_back(i);
+    }
+    REQUIRE(top.size() == 3);
+    simulation.add(body, Position{.on = top});
+    simulation.add(Gravity{});
+    for (int i = 0; i < 200; ++i) simulation.step();
+
+    const State& state = simulation.state();
+    int taut = 0, slack = 0;
+    for (const auto& [x, column] : columns) {
+      Real load = 0;
+      for (auto lower = column.begin(), upper = std::next(lower); upper != column.end(); ++lower, ++upper) {
+        load += 9.81 * state.masses[static_cast<std::size_t>(lower->second)];
+        const Real length = upper->first - lower->first;
+        const Real area = length * 0.1 / 2 * (x > 0.05 && x < 0.15 ? 2 : 1);
+        const Real expected = stretch_under(load, length, area);
+        (expected > taut_stretch ? taut : slack) += 1;
+        const Real found = (row(state.positions, upper->second) - row(state.positions, lower->second)).norm() / length;
+        CHECK(found == doctest::Approx(expected).epsilon(1e-6));
+      }
+    }
+    CHECK(taut > 3);
+    CHECK(slack > 3);
+  }
+}
+
+TEST_CASE("the factor has a part of what taut fibres add, also once they are numbered anew") {
+  const Mesh mesh = strip();
+  const ConstraintSet set = build(BodyView{mesh, mesh.vertices, 0, "strip"}, taut_fibres());
+  CHECK(set.count == 24);
+  REQUIRE(set.batches.size() == 2);
+  CHECK(set.batches[0]->factor_share() == 1);
+  CHECK(set.batches[0]->is_projective());
+  ConstraintGroup& taut = *set.batches[1];
+  CHECK_FALSE(taut.is_projective());
+  CHECK(taut.factor_stiffness() == doctest::Approx(0.2 * stiffness));
+  taut.set_stiffness(80);
+  CHECK(taut.factor_stiffness() == doctest::Approx(16));
+  taut.set_passing_stiffness(60);
+  CHECK(taut.factor_stiffness() == doctest::Approx(0.2 * 64));
+
+  std::vector<Index> order(24), numbers(static_cast<std::size_t>(mesh.vertex_count()));
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<Index>(order.size() - 1 - i);
+  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = static_cast<Index>(i);
+  const std::unique_ptr<ConstraintGroup> reordered = taut.reordered(order, numbers);
+  CHECK_FALSE(reordered->is_projective());
+  reordered->sync_parameters(taut, order);
+  CHECK(reordered->factor_stiffness() == taut.factor_stiffness());
+  CHECK(taut.copy()->factor_stiffness() == taut.factor_stiffness());
+}
+
+TEST_CASE("fibres that are as stiff when taut are those there were") {
+  const Mesh mesh = strip();
+  CHECK(build(BodyView{mesh, mesh.vertices, 0, "strip"}, FibreStrain{}).batches.size() == 1);
+}
+
+TEST_CASE("taut fibres that cannot be are refused") {
+  const std::string below = refusal({.max_stretch = 1.2, .taut_factor = 2, .taut_stretch = 1.1});
+  CHECK(below == "fibre_strain: taut_stretch: 1.1 is below max_stretch 1.2; give at least as much");
+  CHECK(refusal({.max_stretch = 1.2, .taut_stretch = 1.1}) == "nothing");  // nothing is taut
+}
+
+}  // namespace test_taut_fibres
