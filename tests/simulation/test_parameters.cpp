@@ -113,7 +113,7 @@ TEST_CASE("every number, choice and vector of every type is a parameter") {
       {"hinge", {"stiffness", "orientation"}},
       {"triangle_bending", {"stiffness", "orientation"}},
       {"triangle_strain", {"stiffness", "min_stretch", "max_stretch"}},
-      {"fibre_strain", {"grain", "angle", "stiffness", "min_stretch", "max_stretch"}},
+      {"fibre_strain", {"grain", "angle", "stiffness", "min_stretch", "max_stretch", "taut_factor", "taut_stretch"}},
       {"triangle_area", {"stiffness", "min_area", "max_area"}},
       {"tetrahedron_strain", {"stiffness", "min_stretch", "max_stretch"}},
       {"tetrahedron_volume", {"stiffness", "min_volume", "max_volume"}},
