@@ -121,33 +121,6 @@ TEST_CASE("no modulus is higher than what the least stretch allows") {
   CHECK(stiffest(1e-12) == stiffest(0));
 }
 
-TEST_CASE("threads that the least stretch makes softer are as stiff as measured once they are taut") {
-  const Material polyester = builtin_material("polyester");
-  const auto& sheet = std::get<SheetMaterial>(polyester.of);
-  const Real shear = 2 * sheet.shear;
-  int threads = 0;
-  const auto check_threads = [&](Real least_stretch, Real taut_warp, Real taut_weft) {
-    for (const MaterialGroup& group : material_groups(polyester, {.least_stretch = least_stretch})) {
-      const auto* fibres = std::get_if<FibreStrain>(&group.options);
-      if (fibres == nullptr) continue;
-      ++threads;
-      const Real taut = fibres->taut_factor * fibres->stiffness[0] + shear;
-      CHECK(taut == doctest::Approx(group.name == "warp" ? taut_warp : taut_weft));
-      CHECK(fibres->taut_stretch == 1.005);
-    }
-  };
-  check_threads(0, sheet.stretch_warp, sheet.stretch_weft);
-  check_threads(1e-3, sheet.stretch_warp, sheet.stretch_weft);
-  // At most ten times as stiff as softened ones: more would take too many moves back.
-  const Real softest = sheet.area_density * 9.81 / 0.1;
-  REQUIRE(softest < shear);  // nothing is left for threads
-  check_threads(0.1, 0, 0);
-  CHECK(threads == 4);
-  const Real soft = sheet.area_density * 9.81 / 5e-3;
-  check_threads(5e-3, 10 * (soft - shear) + shear, 10 * (soft - shear) + shear);
-  CHECK(threads == 6);
-}
-
 TEST_CASE("names are unique, and every number has a source") {
   std::set<std::string> names;
   for (const Material& material : builtin_materials()) {
