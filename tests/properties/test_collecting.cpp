@@ -174,7 +174,7 @@ TEST_CASE("vertices are gathered part by part, and nothing beside a part is writ
   }
 }
 
-TEST_CASE("what is no number at a pinned vertex does not matter") {
+TEST_CASE("NaN at a pinned vertex is ignored") {
   Gathering vertices;
   const std::size_t pinned = 7;
   REQUIRE(vertices.is_pinned[pinned]);
@@ -188,7 +188,7 @@ TEST_CASE("what is no number at a pinned vertex does not matter") {
   }
 }
 
-TEST_CASE("one residual that is no number is one of the whole") {
+TEST_CASE("one NaN residual makes the largest one NaN") {
   Gathering vertices;
   const std::size_t spoiled = 3 * 9 + 1;
   vertices.s[spoiled] = std::numeric_limits<double>::quiet_NaN();
