@@ -71,6 +71,14 @@ template <>
 struct Samples<pliant::TetrahedronVolumeProjection> : ProductSamples<3> {};
 
 /// What is no projection has neither set nor members.
+template <>
+struct Samples<pliant::TautFibrePotential> {
+  static Fields fields(Random& random) {
+    const Fields free = limits(random, 0);
+    return {free[0], free[1], free[1] * random.uniform(1, 1.2), random.uniform(0, 20)};
+  }
+};
+
 template <class Law, int columns>
 struct Samples<pliant::ElasticPotential<Law, columns>> {
   static Fields fields(Random& random) { return {random.uniform(0.05, 1.3), random.uniform(0, 1.1)}; }

@@ -133,7 +133,7 @@ Outcome<Type> run(const LocalKernels& kernels, const Many<Type>& many) {
 
 using Kernelled =
     std::tuple<EdgeSpringProjection, EdgeStrainProjection, TriangleStrainProjection, FibreStrainProjection,
-               TetrahedronStrainProjection, TriangleAreaProjection, TetrahedronVolumeProjection,
+               TautFibrePotential, TetrahedronStrainProjection, TriangleAreaProjection, TetrahedronVolumeProjection,
                ElasticPotential<NeoHookean, 2>, ElasticPotential<NeoHookean, 3>, ElasticPotential<StVenantKirchhoff, 2>,
                ElasticPotential<StVenantKirchhoff, 3>, FlatCurvature, AbsoluteCurvature, SignedFanCurvature>;
 

@@ -33,13 +33,11 @@ ConstraintSet build(const BodyView& body, const FibreStrain& options) {
   const Eigen::Rotation2D<Real> turn(options.angle * std::numbers::pi / 180);
 
   const StiffnessSplit stiffness(type, body, options.stiffness, chosen);
-  using Fibres = Batch<FibreStrainProjection>;
-  auto batch = std::make_unique<Fibres>(stiffness.common());
-  auto taut = options.taut_factor > 1 ? std::make_unique<Fibres>(stiffness.common()) : nullptr;
-  if (taut) {
-    check_taut(type, options, limits, chosen.size());
-    taut->set_factor_share(taut_share);
-  }
+  const bool gets_taut = options.taut_factor > 1;
+  if (gets_taut) check_taut(type, options, limits, chosen.size());
+  auto batch = std::make_unique<Batch<FibreStrainProjection>>(stiffness.common());
+  auto taut = std::make_unique<Batch<TautFibrePotential>>(stiffness.common());
+  taut->set_factor_share(1 + taut_share * (options.taut_factor - 1));
   for (Index i = 0; i < chosen.size(); ++i) {
     const auto corner = [&](std::size_t j) { return row(body.rest.vertices, chosen[i][j]); };
     const RestElement<3> rest = rest_triangle(corner(0), corner(1), corner(2));
@@ -49,14 +47,14 @@ ConstraintSet build(const BodyView& body, const FibreStrain& options) {
     for (std::size_t j = 1; j < 3; ++j) along[j] = d[0] * rest.reduction[j] + d[1] * rest.reduction[3 + j];
     along[0] = -(along[1] + along[2]);
     const Real measure = stiffness.of(i) * rest.measure;
-    batch->add(global_stencil(body, chosen[i]), along, measure, limits[i]);
-    if (!taut) continue;
-    const std::array<Real, 2> until_taut = {0, options.taut_stretch};
-    taut->add(global_stencil(body, chosen[i]), along, (options.taut_factor - 1) * measure, until_taut);
+    if (gets_taut) {
+      const std::array<Real, 4> fields = {limits[i][0], limits[i][1], options.taut_stretch, options.taut_factor - 1};
+      taut->add(global_stencil(body, chosen[i]), along, measure, fields);
+    } else {
+      batch->add(global_stencil(body, chosen[i]), along, measure, limits[i]);
+    }
   }
-  ConstraintSet set = one_batch(std::move(batch));
-  if (taut && set.count > 0) set.batches.push_back(std::move(taut));
-  return set;
+  return gets_taut ? one_batch(std::move(taut)) : one_batch(std::move(batch));
 }
 
 }  // namespace pliant

@@ -8,7 +8,8 @@
 //                                                              + (t − 1) k a/2 max(0, ‖z‖ − s)²
 //
 // The second term is of fibres that are t times as stiff once they are taut, at a stretch of s. It is there now and
-// then, so the factor has a part of it alone: all of it would keep the sheet from moving while it is slack.
+// then, so the factor has a part of it alone: all of it would keep the sheet from moving while it is slack. Both terms
+// are found together, as one potential.
 //
 // Source: Bouaziz et al. 2014, Sec. 5.1 in one dimension; the same sheet at any resolution. Shear and whatever lies
 // across d are free: a woven cloth is one entry along the warp, one along the weft (`angle` 90), and a
@@ -80,6 +81,26 @@ struct FibreStrainProjection {
   static constexpr bool limits_stretches = true;
   static constexpr auto kernel = &LocalKernels::fibre_strain;
   static void project(const Real* field, const Real* z, Real* p) { EdgeStrainProjection::project(field, z, p); }
+};
+
+/// The same with fibres that get taut: energy and pull of both terms, of weight 1.
+struct TautFibrePotential {
+  static constexpr std::string_view name = FibreStrainProjection::name;
+  static constexpr int vertices = 3;
+  static constexpr int rows = 1;
+  static constexpr int fields = 4;  // min, max, s, t − 1
+  static constexpr bool translation_invariant = true;
+  static constexpr bool rotation_invariant = true;
+  static constexpr bool limits_stretches = true;
+  static constexpr auto kernel = &LocalKernels::taut_fibre;
+  static Real potential(const Real* field, const Real* z, Real* d) {
+    Real squared = find_pull<FibreStrainProjection>(field, z, d);
+    const Real stretch = std::sqrt(z[0] * z[0] + z[1] * z[1] + z[2] * z[2]);
+    const Real beyond = stretch - field[2];
+    if (!(beyond > 0)) return squared;
+    for (std::size_t axis = 0; axis < 3; ++axis) d[axis] -= field[3] * beyond / stretch * z[axis];
+    return squared + field[3] * beyond * beyond / 2;
+  }
 };
 
 /// Throws Error(input) on a triangle without area, one that the direction is normal to, `uv` where a triangle has none,

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "pliant/collision/pairs/pair_resistance.h"
 #include "pliant/core/stopwatch.h"
@@ -251,6 +252,16 @@ bool ContactSolver::is_refresh_due(Index iteration, Index iterations, bool has_c
   const Real share = refreshed_after[at(refreshes_)];
   const auto due = std::max<Index>(1, static_cast<Index>(std::lround(share * static_cast<Real>(iterations))));
   return iteration >= due || has_converged;
+}
+
+bool ContactSolver::stiffen(const System& system, WorkingState& work, LocalResult& local, ThreadPool& threads) {
+  if (!is_active() || contact_.held_back() == 0) return false;
+  const AddedTime timed(seconds_);
+  const std::optional<ContactSums> sums = contact_.stiffen(work.residual, system.diagonal(), threads);
+  if (!sums) return false;
+  if (has_pairs()) pairs_.subtract(work.residual);
+  finish(work, local, *sums);
+  return true;
 }
 
 void ContactSolver::refresh(WorkingState& work, LocalResult& local, ThreadPool& threads) {

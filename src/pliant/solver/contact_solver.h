@@ -57,6 +57,9 @@ class ContactSolver {
   /// Whether it is time to refresh the loads of friction: at three and eight tenths of the iterations, or once they
   /// have converged before.
   bool is_refresh_due(Index iteration, Index iterations, bool has_converged) const;
+  /// Where a collider holds vertices back that it pushes too little, makes it push more: true, with another objective
+  /// and residual from here on.
+  bool stiffen(const System& system, WorkingState& work, LocalResult& local, ThreadPool& threads);
   void refresh(WorkingState& work, LocalResult& local, ThreadPool& threads);
   /// The loads alone: without friction the objective stays as it is.
   void refresh_loads(WorkingState& work, LocalResult& local, ThreadPool& threads);

@@ -129,6 +129,7 @@ LocalResult Solver::local_step(const State& state, Index iteration, StepReport& 
   threads_.begin_iteration();
   const Stopwatch watch;
   LocalResult local = descent_.local_step(context(state), work_, report);
+  if (contact_.stiffen(system_, work_, local, threads_.pool())) descent_.forget();
   if (contact_.is_refresh_due(iteration, iterations(state), local.residual <= settings_.tolerance)) {
     descent_.settle(context(state), work_, local);
     const bool touches = local.contact > 0;

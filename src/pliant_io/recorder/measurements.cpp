@@ -109,6 +109,19 @@ void check_finite(const Measurements& row) {
 
 namespace {
 
+/// ‖z − p‖ of one constraint, where its energy says that it is at most `most`: fibres that get taut have more energy.
+Real move_of(const ConstraintGroup& batch, const Positions& positions, Index i, Real most) {
+  const auto* taut = dynamic_cast<const Batch<TautFibrePotential>*>(&batch);
+  if (taut == nullptr) return most;
+  constexpr std::size_t n = TautFibrePotential::vertices;
+  const auto first = static_cast<std::size_t>(i);
+  Vec3 z;
+  sum_stencil<1, true>(positions.data(), batch.stencil().subspan(n * first, n), batch.reduction().data() + n * first,
+                       z.data());
+  const Real* limits = taut->fields().data() + TautFibrePotential::fields * first;
+  return std::abs(z.norm() - std::clamp(z.norm(), limits[0], limits[1]));
+}
+
 /// The larger of `largest` and the largest ‖z − p‖ of these constraints. Energies of many together are found in lanes;
 /// only where one of them alone could be past the largest so far are they taken apart.
 Real largest_move(const ConstraintGroup& batch, const Positions& positions, Real largest) {
@@ -123,7 +136,7 @@ Real largest_move(const ConstraintGroup& batch, const Positions& positions, Real
     const Real most = std::sqrt(2 * energy / (batch.stiffness() * std::ranges::min(measures)));
     if (!(most > largest)) return;
     if (end - begin == 1) {
-      largest = most;
+      largest = std::max(largest, move_of(batch, positions, begin, most));
       return;
     }
     const Index part = end - begin > in_lanes ? in_lanes : 1;

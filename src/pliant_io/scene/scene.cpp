@@ -141,23 +141,16 @@ void read_entries(const Node& root, std::string_view key, SceneReader& reader, v
   });
 }
 
-/// Of a scene with a surface that a lattice carries, whose light vertices leave it in impacts of whole steps.
-constexpr Index substeps_of_carried = 4;
-
-/// What a scene of materials leaves open is as they look right, unless a force refuses it. Carried surfaces throw
-/// bodies up under BDF2.
+/// What a scene of materials leaves open is as they look right, unless a force refuses it.
 void choose_open_settings(const Node& root, std::optional<Real> damping, Simulation& simulation) {
-  const auto is_carried = [](const Body& body) { return !body.mesh.embedding.is_empty(); };
   const auto is_explicit = [](const auto& entry) { return entry.second->is_explicit_spring(); };
-  const bool has_carried = std::ranges::any_of(simulation.bodies(), is_carried);
   const auto given = root.find("settings");
   const auto is_open = [&](const char* key) { return !given || !given->has(key); };
   const SolverSettings good = settings_for_materials();
   SolverSettings settings = simulation.settings();
-  if (has_carried && is_open("substeps")) settings.substeps = substeps_of_carried;
   if (damping) {
     if (is_open("damping")) settings.damping = *damping;
-    const bool takes_bdf2 = !has_carried && std::ranges::none_of(simulation.forces(), is_explicit);
+    const bool takes_bdf2 = std::ranges::none_of(simulation.forces(), is_explicit);
     if (is_open("integrator") && takes_bdf2) settings.integrator = good.integrator;
     if (is_open("acceleration")) settings.acceleration = good.acceleration;
     if (is_open("iterations")) settings.iterations = good.iterations;

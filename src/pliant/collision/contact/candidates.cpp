@@ -175,10 +175,15 @@ ContactCandidate Contact::make_candidate(Index vertex, Index collider, const Vec
   made.begin_distance = begin_distance;
   made.radius = std::min(radius, begin_distance + radius);
   made.floor = std::min(least_gap * radius, begin_distance);
-  made.stiffness = stiffness_ratio * step_->masses[at(vertex)] / (step_->time_step * step_->time_step);
+  made.stiffness = least_stiffness(vertex);
   if (!stiffening_.empty()) made.stiffness *= stiffening_[number];
   made.coefficient = coefficient(vertex, colliders_[at(collider)]);
   return made;
+}
+
+/// k where κ = 1.
+Real Contact::least_stiffness(Index vertex) const {
+  return stiffness_ratio * step_->masses[at(vertex)] / (step_->time_step * step_->time_step);
 }
 
 Real Contact::coefficient(Index vertex, const ContactCollider& collider) const {

@@ -8,6 +8,9 @@
 namespace pliant {
 namespace {
 
+/// Of r: a vertex so near to where moves are cut has been held back.
+constexpr Real at_floor = 1e-3;
+
 Vec3 across(const Vec3& v, const Vec3& normal) {
   return v - normal * normal.dot(v);
 }
@@ -20,6 +23,12 @@ void Contact::set_colliders(std::vector<ContactCollider> colliders) {
   if (!colliders_.empty()) return;
   points_.clear();
   wrenches_.clear();
+}
+
+Contact::Force Contact::force(const Candidate& candidate) {
+  const Potential pushed = candidate.push();
+  const Friction rubbed = candidate.friction();
+  return {candidate.vertex, pushed.force * candidate.normal + rubbed.force, pushed.energy + rubbed.energy};
 }
 
 void Contact::find_forces(const Positions& q, ThreadPool& threads) {
@@ -112,15 +121,51 @@ void Contact::mark_driven(std::span<const Index> component_of_vertex, std::span<
   }
 }
 
+void Contact::renew_force(Chunk& chunk, std::size_t i, Positions& r) {
+  const Vec3 before = chunk.forces[i].force;
+  chunk.forces[i] = force(chunk.candidates[i]);
+  r.row(chunk.forces[i].vertex) += (chunk.forces[i].force - before).transpose();
+}
+
+std::optional<ContactSums> Contact::stiffen(Positions& r, std::span<const Real> diagonal, ThreadPool& threads) {
+  if (stiffening_.empty()) stiffening_.assign(step_->masses.size(), 1);
+  for_each_chunk(threads, [&](Chunk& chunk, Index begin, Index end) {
+    chunk.is_stiffer = stiffen(chunk, r, diagonal);
+    if (!chunk.is_stiffer) return;
+    for (std::size_t i = 0; i < chunk.candidates.size(); ++i) renew_force(chunk, i, r);
+    add_up(chunk, begin, end, r);
+  });
+  if (std::ranges::none_of(chunks_, &Chunk::is_stiffer)) return std::nullopt;
+  return total();
+}
+
+/// Where the floor holds a vertex, and not the potential, each move is cut there again, and iterates do not get on.
+bool Contact::stiffen(Chunk& chunk, const Positions& r, std::span<const Real> diagonal) {
+  bool is_stiffer = false;
+  for (const Candidate& each : chunk.candidates) {
+    if (each.room > 0 || each.distance > each.floor + at_floor * each.radius) continue;
+    if (!(each.normal.dot(row(r, each.vertex)) < 0)) continue;
+    const Real least = least_stiffness(each.vertex);
+    const Real most = std::max<Real>(1, diagonal[at(each.vertex)] / least);
+    Real& factor = stiffening_[at(number_of(each.vertex))];
+    const Real now = std::min(stiffer * each.stiffness / least, most);
+    if (!(now > factor)) continue;
+    factor = now;
+    is_stiffer = true;
+  }
+  if (!is_stiffer) return false;
+  for (Candidate& each : chunk.candidates) {
+    each.stiffness = least_stiffness(each.vertex) * stiffening_[at(number_of(each.vertex))];
+  }
+  return true;
+}
+
 ContactSums Contact::refresh(Positions& r, ThreadPool& threads) {
   for_each_chunk(threads, [&](Chunk& chunk, Index begin, Index end) {
     if (chunk.candidates.empty()) return;
     for (std::size_t i = 0; i < chunk.candidates.size(); ++i) {
-      Candidate& candidate = chunk.candidates[i];
-      const Vec3 before = chunk.forces[i].force;
-      freeze(candidate);
-      chunk.forces[i] = force(candidate);
-      r.row(candidate.vertex) += (chunk.forces[i].force - before).transpose();
+      freeze(chunk.candidates[i]);
+      renew_force(chunk, i, r);
     }
     add_up(chunk, begin, end, r);
   });

@@ -89,6 +89,9 @@ class Contact {
   void add_stored_energies(std::span<const Index> component_of_vertex, std::span<Real> components) const;
   /// Marks components that are near a collider that moves, or whose surface does.
   void mark_driven(std::span<const Index> component_of_vertex, std::span<char> components) const;
+  /// After add(): where vertices are held back and r [N] drives them on all the same, makes their contacts stiffer and
+  /// corrects r. diagonal: of Y [N/m]. Returns the new sums; nothing where there are no such vertices.
+  std::optional<ContactSums> stiffen(Positions& r, std::span<const Real> diagonal, ThreadPool& threads);
   /// After add(): takes the present loads for friction and corrects r. Returns the new sums.
   ContactSums refresh(Positions& r, ThreadPool& threads);
 
@@ -127,6 +130,7 @@ class Contact {
     ContactSums sums;
     Index held_back = 0;
     HeldBack done;
+    bool is_stiffer = false;
   };
 
   struct Turn {
@@ -150,14 +154,13 @@ class Contact {
   void hold_back(Chunk& chunk, Index begin, Index end, Positions& q);
   void hold_back(std::span<Candidate> of_vertex, Chunk& chunk, Positions& q) const;
   Real coefficient(Index vertex, const ContactCollider& collider) const;
+  Real least_stiffness(Index vertex) const;
   Real curvature(const Candidate& candidate, const Vec3& way) const;
   void freeze(Candidate& candidate) const;
   Vec3 carried(const Candidate& candidate, const Vec3& point) const;
-  Force force(const Candidate& candidate) const {
-    const Potential pushed = candidate.push();
-    const Friction rubbed = candidate.friction();
-    return {candidate.vertex, pushed.force * candidate.normal + rubbed.force, pushed.energy + rubbed.energy};
-  }
+  static Force force(const Candidate& candidate);
+  static void renew_force(Chunk& chunk, std::size_t i, Positions& r);
+  bool stiffen(Chunk& chunk, const Positions& r, std::span<const Real> diagonal);
   static void add_up(Chunk& chunk, Index begin, Index end, const Positions& r);
   void keep(Candidate& candidate, ContactState& state);
   void stiffen(const Candidate& candidate, std::span<const Real> diagonal, ContactState& state) const;

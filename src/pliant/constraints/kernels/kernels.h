@@ -20,6 +20,7 @@ constexpr LocalKernels kernels_of(const char* instruction_set) {
   return {.edge_spring = Lengths::edge_spring,
           .edge_strain = Lengths::template strain<2>,
           .fibre_strain = Lengths::template strain<3>,
+          .taut_fibre = Lengths::taut_fibre,
           .triangle_strain = Strains::triangle_strain,
           .tetrahedron_strain = Strains::tetrahedron_strain,
           .triangle_area = Products::triangle_area,

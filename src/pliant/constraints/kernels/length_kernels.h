@@ -17,15 +17,20 @@ struct LengthKernels : Block<width> {
   template <class Wanted>
   static void resize(const LocalBlock& block, std::size_t i, Number (&z)[3], Wanted wanted, Sums& sums,
                      Mask is_left = Mask{}) {
-    constexpr double smallest = All::rounding / 16 * (All::rounding / 16);
     const Number length = Math::square_root(z[0] * z[0] + z[1] * z[1] + z[2] * z[2]);
-    const Number exact = wanted(length) - length;
-    const Number change = Math::select(exact * exact <= smallest * length * length, Number{}, exact);
+    const Number change = without_rounding(wanted(length) - length, length);
     const Number w = All::weight(block, i * width);
-    const Number factor = w * change / length;
+    pull(block, i, z, w * change / length);
+    sums.add(i, is_left | ~(length > 0), w / 2 * change * change);
+  }
+
+  static Number without_rounding(Number change, Number length) {
+    constexpr double smallest = All::rounding / 16 * (All::rounding / 16);
+    return Math::select(change * change <= smallest * length * length, Number{}, change);
+  }
+  static void pull(const LocalBlock& block, std::size_t i, Number (&z)[3], Number factor) {
     for (Number& number : z) number *= factor;
     Math::store(z, block.out + 3 * i * width);
-    sums.add(i, is_left | ~(length > 0), w / 2 * change * change);
   }
 
   static LocalDone edge_spring(const LocalBlock& block) {
@@ -53,6 +58,26 @@ struct LengthKernels : Block<width> {
       Math::load_both(block.fields + 2 * i * width, min, max);
       resize(
           block, i, z, [&](Number length) { return Math::smaller(Math::larger(length, min), max); }, sums);
+    }
+    return sums.done(vectors);
+  }
+
+  /// The stretch along a fibre between its limits, with what it has beyond where it is taut.
+  static LocalDone taut_fibre(const LocalBlock& block) {
+    Sums sums;
+    const std::size_t vectors = block.count / width;
+    for (std::size_t i = 0; i < vectors; ++i) {
+      Number z[3];
+      All::template reduce<3, 1>(block, i * width, z);
+      const Number length = Math::square_root(z[0] * z[0] + z[1] * z[1] + z[2] * z[2]);
+      const double* of = block.fields + 4 * i * width;
+      const auto field = [&](std::size_t a) { return Math::load(of, 4, a); };
+      const Number nearest = Math::smaller(Math::larger(length, field(0)), field(1));
+      const Number change = without_rounding(nearest - length, length);
+      const Number beyond = without_rounding(Math::smaller(field(2) - length, Number{}), length);
+      const Number more = field(3) * beyond, w = All::weight(block, i * width);
+      pull(block, i, z, w * (change + more) / length);
+      sums.add(i, ~(length > 0), w / 2 * (change * change + more * beyond));
     }
     return sums.done(vectors);
   }

@@ -89,6 +89,7 @@ struct LocalKernels {
   Kernel* edge_spring;
   Kernel* edge_strain;
   Kernel* fibre_strain;
+  Kernel* taut_fibre;
   Kernel* triangle_strain;     ///< with one stretch allowed; others are left
   Kernel* tetrahedron_strain;  ///< the same
   Kernel* triangle_area;       ///< far from its limits, inverted or nearly flat elements are left
