@@ -79,7 +79,7 @@ TEST_CASE("from a change on a sheet moves as one that was made of that material"
     fresh.steps(20);
     const Real apart =
         (changed.simulation.state().positions - fresh.simulation.state().positions).cwiseAbs().maxCoeff();
-    CHECK(apart < 1e-10);  // groups are summed in the order in which they came
+    CHECK(apart < 1e-6);  // groups are summed in the order in which they came, and threads are taut or not
   }
 }
 

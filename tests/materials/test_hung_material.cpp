@@ -99,4 +99,24 @@ TEST_CASE("a hung sheet of wool is as long as its modulus says, and its first pe
   }
 }
 
+TEST_CASE("cotton that falls and is caught by two corners does not stretch like rubber") {
+  Simulation simulation(Strip::settings(20));
+  const Mesh mesh = grid({.columns = 31, .rows = 31, .size = {1, 1}, .plane = Plane::xy});
+  const BodyId body = simulation.add_body(mesh, mass_of(builtin_material("cotton")));
+  add_material(simulation, body, builtin_material("cotton"));
+  simulation.add(body, Position{.on = std::vector<Index>{0, 30}});
+  simulation.add(Gravity{});
+  Real longest = 0;
+  for (int i = 0; i < 90; ++i) {
+    simulation.step();
+    for (Index row_of = 0; row_of < 31; ++row_of) {
+      for (Index v = 31 * row_of; v < 31 * row_of + 30; ++v) {  // along the weft
+        const Real length = (row(simulation.state().positions, v + 1) - row(simulation.state().positions, v)).norm();
+        longest = std::max(longest, length * 30);
+      }
+    }
+  }
+  CHECK(longest < 1.035);
+}
+
 }  // namespace test_hung_material

@@ -121,6 +121,24 @@ TEST_CASE("no modulus is higher than what the least stretch allows") {
   CHECK(stiffest(1e-12) == stiffest(0));
 }
 
+TEST_CASE(
+    "threads that are softer than measured have what was measured once they are taut, up to five times their own") {
+  const auto warp_of = [](const char* name, Real least_stretch) {
+    for (const MaterialGroup& group : material_groups(builtin_material(name), {.least_stretch = least_stretch})) {
+      if (group.name == "warp") return std::get<FibreStrain>(group.options);
+    }
+    FAIL("no warp");
+    return FibreStrain{};
+  };
+  CHECK(warp_of("cotton", 0).taut_factor == 1);
+  const Real measured = std::get<SheetMaterial>(builtin_material("cotton").of).stretch_warp;
+  const Real softened = 9.81 * std::get<SheetMaterial>(builtin_material("cotton").of).area_density / 2e-3;
+  REQUIRE(measured > 10 * softened);
+  CHECK(warp_of("cotton", 2e-3).taut_factor == 5);
+  CHECK(warp_of("cotton", 2e-3).taut_stretch == 1.005);
+  CHECK(warp_of("cotton", 2e-3 * softened / (measured / 3)).taut_factor == doctest::Approx(3));
+}
+
 TEST_CASE("names are unique, and every number has a source") {
   std::set<std::string> names;
   for (const Material& material : builtin_materials()) {

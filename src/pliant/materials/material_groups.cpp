@@ -16,6 +16,9 @@ namespace {
 /// A Poisson's ratio is expressed where warp and weft agree so far.
 constexpr Real alike = 1.001;
 constexpr Real gravity = 9.81;  // [m/s²]
+/// Threads that were made softer have the modulus that was measured from this stretch on, or so many times their own.
+constexpr Real taut_stretch = 1.005;
+constexpr Real largest_taut_factor = 5;
 
 /// The modulus with which a meter that hangs is longer by `stretch`; `density` a square or a cubic meter.
 Real modulus_of(Real stretch, Real density) {
@@ -25,22 +28,25 @@ Real modulus_of(Real stretch, Real density) {
 std::vector<MaterialGroup> sheet_groups(SheetMaterial sheet, const MaterialPlacement& placement) {
   std::vector<MaterialGroup> groups;
   const Real most = modulus_of(placement.least_stretch, sheet.area_density);
+  const Real measured_warp = sheet.stretch_warp, measured_weft = sheet.stretch_weft;
   sheet.stretch_warp = std::min(sheet.stretch_warp, most);
   sheet.stretch_weft = std::min(sheet.stretch_weft, most);
   const Real softer = std::min(sheet.stretch_warp, sheet.stretch_weft);
   const Real stiffer = std::max(sheet.stretch_warp, sheet.stretch_weft);
   const bool is_plate = sheet.poisson > 0 && stiffer <= alike * softer;
   const Real strain = is_plate ? softer / (1 + sheet.poisson) : std::min(2 * sheet.shear, softer);
-  const auto add_fibres = [&](std::string_view name, Real stretch, Real angle) {
+  const auto add_fibres = [&](std::string_view name, Real stretch, Real measured, Real angle) {
     if (!(stretch > alike * strain)) return;
     groups.push_back({name, FibreStrain{.direction = placement.direction,
                                         .grain = placement.grain,
                                         .angle = placement.angle + angle,
-                                        .stiffness = stretch - strain}});
+                                        .stiffness = stretch - strain,
+                                        .taut_factor = std::min(measured / stretch, largest_taut_factor),
+                                        .taut_stretch = taut_stretch}});
   };
   if (!is_plate) {
-    add_fibres("warp", sheet.stretch_warp, 0);
-    add_fibres("weft", sheet.stretch_weft, 90);
+    add_fibres("warp", sheet.stretch_warp, measured_warp, 0);
+    add_fibres("weft", sheet.stretch_weft, measured_weft, 90);
   }
   groups.push_back({is_plate ? "stretch" : "shear", TriangleStrain{.stiffness = strain}});
   if (is_plate) {
