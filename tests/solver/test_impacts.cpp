@@ -92,42 +92,57 @@ TEST_CASE("impacts: a stiff box that falls on a corner keeps its shape and gains
   }
 }
 
-TEST_CASE("impacts: contact becomes as stiff as it must within a step, and no stiffer than the body") {
-  FallingBox box(2, {3, 3, 2}, usual_settings(Integrator::bdf2));
-  while (box.stiffest_contact() == 1) {
-    REQUIRE(box.simulation.state().step < 60);
-    box.simulation.step();
-  }
-  CHECK(box.stiffest_contact() > 4);
-  const Real mass = 0.5, h = box.simulation.settings().time_step;
-  for (int i = 0; i < 60; ++i) {
-    box.simulation.step();
-    // Y of a corner has at most the stiffnesses of all its tetrahedra, whose heights are of a cell at least.
-    CHECK(box.stiffest_contact() * 50 * mass / 48 / (h * h) < 50 * 2e5 * 0.2);
+TEST_CASE("impacts: what contact has gained in stiffness within a step is not for the next one") {
+  for (const Integrator integrator : {Integrator::implicit_euler, Integrator::bdf2}) {
+    FallingBox box(2, {3, 3, 2}, usual_settings(integrator));
+    Real before = 1;
+    for (int i = 0; i < 60; ++i) {
+      box.simulation.step();
+      CHECK(box.stiffest_contact() <= 2 * before);
+      before = box.stiffest_contact();
+    }
   }
 }
 
-TEST_CASE("impacts: a limp sheet, which hangs on little, does not make contact stiffer within a step") {
-  Simulation simulation(usual_settings(Integrator::bdf2));
-  Mesh sheet = grid({.columns = 9, .rows = 9, .size = {0.5, 0.5}, .plane = Plane::xy});
-  sheet.vertices.col(2).setConstant(0.1);
-  const BodyId body = simulation.add_body(std::move(sheet), Mass::area_density(0.2));
-  simulation.add(body, TriangleStrain{.stiffness = 1});
-  simulation.add(Gravity{});
-  simulation.add(SphereCollider{.center = Vec3(0.25, 0.25, 0), .radius = 0.08});
-  simulation.set_contact({.distance = 0.005, .surfaces = false});
-  const State& state = simulation.state();
-  Positions velocities = state.velocities;
-  velocities.col(2).setConstant(-3);
-  simulation.set_state(state.positions, velocities);
-  Index held_back = 0;
-  for (int i = 0; i < 30; ++i) {
-    const std::vector<Real> before = simulation.state().contact.stiffening;
-    held_back += simulation.step().contact.held_back;
-    const std::vector<Real>& after = simulation.state().contact.stiffening;
-    for (std::size_t v = 0; v < after.size(); ++v) CHECK(after[v] <= 2 * (before.empty() ? 1 : before[v]));
+TEST_CASE("impacts: a box that falls on a sheet on the ground, where surfaces touch too") {
+  for (const Integrator integrator : {Integrator::implicit_euler, Integrator::bdf2}) {
+    CAPTURE(static_cast<int>(integrator));
+    FallingBox box(2, {3, 3, 2}, usual_settings(integrator));
+    Simulation& simulation = box.simulation;
+    Mesh mesh = grid({.columns = 13, .rows = 13, .size = {0.6, 0.6}, .plane = Plane::xy});
+    mesh.vertices.rowwise() += Eigen::RowVector3d(-0.3, -0.3, 0.006);
+    const BodyId sheet = simulation.add_body(std::move(mesh), Mass::area_density(0.2));
+    const GroupId stretch = simulation.add(sheet, TriangleStrain{.stiffness = 200});
+    simulation.set_contact({.distance = 0.005, .surfaces = true});
+    const auto energy = [&] { return box.energy() + simulation.elastic_energy(stretch); };
+    const Real at_first = energy();
+    Real most = 0, strain = 0;
+    for (int i = 0; i < 60; ++i) {
+      simulation.step();
+      most = std::max(most, energy());
+      strain = std::max(strain, box.largest_strain());
+    }
+    CHECK(most < 1.1 * at_first);  // a step that is not converged may hold more for a moment
+    CHECK(energy() < 0.8 * at_first);
+    CHECK(strain < 0.3);
   }
-  CHECK(held_back > 0);
+}
+
+TEST_CASE("impacts: a stiff box that begins inside the ground is led out, and keeps its shape") {
+  for (const Real depth : {0.5, 3.0}) {
+    CAPTURE(depth);
+    FallingBox box(0, {3, 3, 2}, usual_settings(Integrator::bdf2));
+    Positions x = box.simulation.state().positions;
+    x.col(2).array() -= x.col(2).minCoeff() + depth * 0.005;
+    box.simulation.set_state(x, Positions::Zero(x.rows(), 3));
+    Real strain = 0;
+    for (int i = 0; i < 60; ++i) {
+      box.simulation.step();
+      strain = std::max(strain, box.largest_strain());
+    }
+    CHECK(box.simulation.state().positions.col(2).minCoeff() > 0);
+    CHECK(strain < 0.1);
+  }
 }
 
 TEST_CASE("impacts: the same bits with any number of threads, and from each state") {
@@ -141,7 +156,6 @@ TEST_CASE("impacts: the same bits with any number of threads, and from each stat
       box.simulation.step();
       CHECK(resumed.simulation.state().positions == box.simulation.state().positions);
     }
-    CHECK(box.stiffest_contact() > 2);
     if (threads == 1) first = box.simulation.state().positions;
     CHECK(box.simulation.state().positions == first);
   }

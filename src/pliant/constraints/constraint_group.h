@@ -131,8 +131,9 @@ class ConstraintGroup {
   /// What the factor is to have of it: the stiffness, or the nearest power of two while it is a passing one. That is
   /// at least 0.7 of it, and above a half no plain global step raises the objective. Chebyshev needs all of it.
   Real factor_stiffness() const { return factor_stiffness_; }
-  /// Of constraints that do nothing most of the time: the factor has this share of the stiffness, above 0 to 1, since
-  /// all of it would hold up what the others want. Below a half moves may raise the objective, and are guarded.
+  /// The factor has this share of the stiffness: below 1 for what does nothing most of the time, and would hold up what
+  /// the others want; above 1 for potentials that curve more than w/2 ‖z‖². > 0. Below a half moves may raise the
+  /// objective, and are guarded.
   void set_factor_share(Real share);
   Real factor_share() const { return factor_share_; }
 

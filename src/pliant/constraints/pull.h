@@ -2,7 +2,8 @@
 // What a constraint pulls its z with, of weight 1: p − z with p its projection, or minus the gradient of its potential,
 // where the type is a struct with
 //     static Real potential(const Real* fields, const Real* z, Real* d);   // writes −du/dz, returns u; z, d: k × 3
-// in place of project. Its energy is w u, and w/2 ‖z‖² is what the system matrix has for it.
+// in place of project. Its energy is w u, and w/2 ‖z‖², times its factor share, is what the
+// system matrix has for it.
 #include <array>
 
 #include "pliant/core/types.h"

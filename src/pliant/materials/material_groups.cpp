@@ -16,9 +16,11 @@ namespace {
 /// A Poisson's ratio is expressed where warp and weft agree so far.
 constexpr Real alike = 1.001;
 constexpr Real gravity = 9.81;  // [m/s²]
-/// Threads that were made softer have the modulus that was measured from this stretch on, or so many times their own.
-constexpr Real taut_stretch = 1.005;
-constexpr Real largest_taut_factor = 5;
+/// From so much, or so many times `least_stretch`, on threads that were made softer have the modulus that was measured,
+/// or so many times their own.
+constexpr Real least_taut = 0.005;
+constexpr Real taut_beyond = 5;
+constexpr Real most_taut = 5;
 
 /// The modulus with which a meter that hangs is longer by `stretch`; `density` a square or a cubic meter.
 Real modulus_of(Real stretch, Real density) {
@@ -35,13 +37,14 @@ std::vector<MaterialGroup> sheet_groups(SheetMaterial sheet, const MaterialPlace
   const Real stiffer = std::max(sheet.stretch_warp, sheet.stretch_weft);
   const bool is_plate = sheet.poisson > 0 && stiffer <= alike * softer;
   const Real strain = is_plate ? softer / (1 + sheet.poisson) : std::min(2 * sheet.shear, softer);
+  const Real taut_stretch = 1 + std::max(least_taut, taut_beyond * placement.least_stretch);
   const auto add_fibres = [&](std::string_view name, Real stretch, Real measured, Real angle) {
     if (!(stretch > alike * strain)) return;
     groups.push_back({name, FibreStrain{.direction = placement.direction,
                                         .grain = placement.grain,
                                         .angle = placement.angle + angle,
                                         .stiffness = stretch - strain,
-                                        .taut_factor = std::min(measured / stretch, largest_taut_factor),
+                                        .taut_factor = std::min((measured - strain) / (stretch - strain), most_taut),
                                         .taut_stretch = taut_stretch}});
   };
   if (!is_plate) {
