@@ -255,7 +255,7 @@ bool ContactSolver::is_refresh_due(Index iteration, Index iterations, bool has_c
 }
 
 bool ContactSolver::stiffen(const System& system, WorkingState& work, LocalResult& local, ThreadPool& threads) {
-  if (!is_active()) return false;
+  if (!is_active() || contact_.held_back() == 0) return false;
   const AddedTime timed(seconds_);
   const std::optional<ContactSums> sums = contact_.stiffen(work.residual, system.diagonal(), threads);
   if (!sums) return false;

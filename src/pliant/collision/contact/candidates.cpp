@@ -85,7 +85,6 @@ void Contact::begin_substep(const ContactStep& step, const ContactState& state, 
     chunk.candidates.clear();
     find_candidates(chunk, begin, end, q);
     hold_back(chunk, begin, end, q);
-    chunk.has_held_back = chunk.held_back > 0;
     for (Candidate& each : chunk.candidates) recall(state, q, each);
   });
   find_forces(q, threads);
@@ -95,7 +94,6 @@ HeldBack Contact::hold_back(Positions& q, ThreadPool& threads) {
   for_each_chunk(threads, [&](Chunk& chunk, Index begin, Index end) {
     if (!is_current(begin, end, q)) find_candidates(chunk, begin, end, q);
     hold_back(chunk, begin, end, q);
-    chunk.has_held_back |= chunk.held_back > 0;
   });
   HeldBack sum;
   for (const Chunk& chunk : chunks_) {

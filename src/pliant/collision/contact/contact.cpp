@@ -128,10 +128,9 @@ void Contact::renew_force(Chunk& chunk, std::size_t i, Positions& r) {
 }
 
 std::optional<ContactSums> Contact::stiffen(Positions& r, std::span<const Real> diagonal, ThreadPool& threads) {
-  if (std::ranges::none_of(chunks_, &Chunk::has_held_back)) return std::nullopt;
   if (stiffening_.empty()) stiffening_.assign(step_->masses.size(), 1);
   for_each_chunk(threads, [&](Chunk& chunk, Index begin, Index end) {
-    chunk.is_stiffer = chunk.has_held_back && stiffen(chunk, r, diagonal);
+    chunk.is_stiffer = stiffen(chunk, r, diagonal);
     if (!chunk.is_stiffer) return;
     for (std::size_t i = 0; i < chunk.candidates.size(); ++i) renew_force(chunk, i, r);
     add_up(chunk, begin, end, r);
@@ -245,7 +244,6 @@ void Contact::add_diagonal(std::span<Real> diagonal) const {
 
 void Contact::commit(const Positions& q, std::span<const Real> diagonal, ContactState& state, ThreadPool& threads) {
   const std::size_t count = step_->masses.size();
-  stiffening_ = state.stiffening;  // what has become stiffer within the step was so for its sake alone
   state.stiffening.assign(count, 1);
   for (std::size_t i = 0; i < stiffening_.size(); ++i) state.stiffening[i] = std::max<Real>(1, softer * stiffening_[i]);
   of_vertices_.assign(count, {});
@@ -288,7 +286,7 @@ ContactMemory Contact::memory_of(const Candidate& candidate) const {
 void Contact::stiffen(const Candidate& candidate, std::span<const Real> diagonal, ContactState& state) const {
   const auto number = at(number_of(candidate.vertex));
   const Real before = stiffening_.empty() ? 1 : stiffening_[number];
-  const Real most = std::max<Real>(1, diagonal[at(candidate.vertex)] / least_stiffness(candidate.vertex));
+  const Real most = std::max<Real>(1, diagonal[at(candidate.vertex)] * before / candidate.stiffness);
   Real& factor = state.stiffening[number];
   if (candidate.distance < pressed_gap * candidate.radius) {
     factor = std::max(factor, std::min(stiffer * before, most));

@@ -130,7 +130,6 @@ class Contact {
     ContactSums sums;
     Index held_back = 0;
     HeldBack done;
-    bool has_held_back = false;  // a vertex, in the substep
     bool is_stiffer = false;
   };
 
