@@ -1,9 +1,12 @@
 // Fibres that are stiffer once they are taut: their energy, a strip that hangs, and what the factor has of them.
+#include <cmath>
+#include <limits>
 #include <map>
 
 #include <doctest/doctest.h>
 
 #include "../core/random.h"
+#include "../mesh/meshes.h"
 #include "elastic.h"
 #include "pliant/constraints/fibre_strain.h"
 #include "pliant/constraints/position.h"
@@ -154,10 +157,27 @@ TEST_CASE("fibres that are as stiff when taut are those there were") {
   CHECK(set.batches[0]->factor_share() == 1);
 }
 
+TEST_CASE("a share of the stiffness in the factor that cannot be is refused, and the last one stays") {
+  Batch<FibreStrainProjection> batch(3);
+  batch.set_factor_share(0.2);
+  for (const Real share : {0.0, -1.0, std::nan(""), std::numeric_limits<Real>::infinity()}) {
+    CAPTURE(share);
+    CHECK(contains(error_of([&] { batch.set_factor_share(share); }), "give a number above 0"));
+    CHECK(batch.factor_share() == 0.2);
+  }
+}
+
 TEST_CASE("taut fibres that cannot be are refused") {
   const std::string below = refusal({.max_stretch = 1.2, .taut_factor = 2, .taut_stretch = 1.1});
   CHECK(below == "fibre_strain: taut_stretch: 1.1 is below max_stretch 1.2; give at least as much");
   CHECK(refusal({.max_stretch = 1.2, .taut_stretch = 1.1}) == "nothing");  // nothing is taut
+  Simulation simulation;
+  const BodyId body = simulation.add_body(strip(), Mass::area_density(0.2));
+  for (const Real factor : {0.5, 1e7, 1e306}) {
+    CAPTURE(factor);
+    const std::string message = error_of([&] { simulation.add(body, FibreStrain{.taut_factor = factor}); });
+    CHECK(contains(message, "taut_factor"));
+  }
 }
 
 }  // namespace test_taut_fibres

@@ -18,7 +18,9 @@ struct FallingBox {
   Simulation simulation;
   GroupId cardboard{};
 
-  FallingBox(Real speed, std::array<Index, 3> cells, SolverSettings settings) : simulation(settings) {
+  FallingBox(Real speed, std::array<Index, 3> cells, SolverSettings settings,
+             const std::vector<PlaneCollider>& planes = {PlaneCollider{}})
+      : simulation(settings) {
     Mesh box = bar({.cells = cells, .size = {0.2, 0.2, 0.14}});
     const Mat3 turn = Eigen::AngleAxis<Real>(0.35, Vec3(0.9, 0.5, 0.2).normalized()).toRotationMatrix();
     box.vertices = (box.vertices * turn.transpose()).eval();
@@ -26,7 +28,7 @@ struct FallingBox {
     const BodyId body = simulation.add_body(std::move(box), Mass::total(0.5));
     cardboard = simulation.add(body, TetrahedronStrain{.stiffness = 2e5});
     simulation.add(Gravity{.acceleration = Vec3(0, 0, -gravity)});
-    simulation.add(PlaneCollider{});
+    for (const PlaneCollider& plane : planes) simulation.add(plane);
     simulation.set_contact({.distance = 0.005, .surfaces = false});
     const State& state = simulation.state();
     Positions velocities = state.velocities;
@@ -89,6 +91,57 @@ TEST_CASE("impacts: a stiff box that falls on a corner keeps its shape and gains
       CHECK(strain < 0.2);
       CHECK(box.energy() < 0.8 * before);
     }
+  }
+}
+
+namespace {
+
+/// What a box shows in its first second.
+struct Extremes {
+  Real energy = 0, strain = 0, rise = 0;  // [J], of an edge, of its middle [m/s]
+
+  explicit Extremes(FallingBox& box) {
+    for (int i = 0; i < 60; ++i) {
+      box.simulation.step();
+      energy = std::max(energy, box.energy());
+      strain = std::max(strain, box.largest_strain());
+      rise = std::max(rise, box.simulation.state().velocities.col(2).mean());
+    }
+  }
+};
+
+}  // namespace
+
+TEST_CASE("impacts: the same in substeps, and where a corner meets two planes at once") {
+  const std::vector<PlaneCollider> ground = {PlaneCollider{}};
+  const std::vector<PlaneCollider> groove = {{.normal = Vec3(1, 0, 2)}, {.normal = Vec3(-1, 0, 2)}};
+  for (const auto& planes : {ground, groove}) {
+    for (const Index substeps : {1, 2, 4}) {
+      CAPTURE(planes.size());
+      CAPTURE(substeps);
+      SolverSettings settings = usual_settings(Integrator::bdf2);
+      settings.substeps = substeps;
+      FallingBox box(2, {3, 3, 2}, settings, planes);
+      Positions x = box.simulation.state().positions;
+      x.rowwise() += Eigen::RowVector3d(0, 0, planes.size() == 2 ? 0.1 : 0.0);  // above both
+      box.simulation.set_state(x, box.simulation.state().velocities);
+      const Real before = box.energy();
+      const Extremes found(box);
+      CHECK(found.energy < 1.001 * before);
+      CHECK(found.strain < 0.2);
+      CHECK(box.energy() < 0.8 * before);
+    }
+  }
+}
+
+TEST_CASE("impacts: ground that comes up throws a box no faster than twice its speed") {
+  for (const Integrator integrator : {Integrator::implicit_euler, Integrator::bdf2}) {
+    CAPTURE(static_cast<int>(integrator));
+    FallingBox box(0, {3, 3, 2}, usual_settings(integrator), {{.velocity = Vec3(0, 0, 2)}});
+    const Extremes found(box);
+    CHECK(found.strain < 0.2);
+    CHECK(found.rise > 1.5);
+    CHECK(found.rise < 4);
   }
 }
 

@@ -165,6 +165,9 @@ void ConstraintGroup::set_stiffness(Real stiffness) {
 }
 
 void ConstraintGroup::set_factor_share(Real share) {
+  if (!(share > 0) || !std::isfinite(share)) {
+    fail_input(fmt::format("share of the stiffness in the factor: found {}; give a number above 0", share));
+  }
   factor_share_ = share;
   factor_stiffness_ = share * stiffness_;
 }

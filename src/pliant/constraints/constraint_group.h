@@ -132,8 +132,8 @@ class ConstraintGroup {
   /// at least 0.7 of it, and above a half no plain global step raises the objective. Chebyshev needs all of it.
   Real factor_stiffness() const { return factor_stiffness_; }
   /// The factor has this share of the stiffness: below 1 for what does nothing most of the time, and would hold up what
-  /// the others want; above 1 for potentials that curve more than w/2 ‖z‖². > 0. Below a half moves may raise the
-  /// objective, and are guarded.
+  /// the others want; above 1 for potentials that curve more than w/2 ‖z‖². Below a half moves may raise the
+  /// objective, and are guarded. Throws Error(input) unless it is above 0 and finite.
   void set_factor_share(Real share);
   Real factor_share() const { return factor_share_; }
 

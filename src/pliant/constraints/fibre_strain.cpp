@@ -35,9 +35,14 @@ ConstraintSet build(const BodyView& body, const FibreStrain& options) {
   const StiffnessSplit stiffness(type, body, options.stiffness, chosen);
   const bool gets_taut = options.taut_factor > 1;
   if (gets_taut) check_taut(type, options, limits, chosen.size());
-  auto batch = std::make_unique<Batch<FibreStrainProjection>>(stiffness.common());
-  auto taut = std::make_unique<Batch<TautFibrePotential>>(stiffness.common());
-  taut->set_factor_share(1 + taut_share * (options.taut_factor - 1));
+  std::unique_ptr<Batch<FibreStrainProjection>> batch;
+  std::unique_ptr<Batch<TautFibrePotential>> taut;
+  if (gets_taut) {
+    taut = std::make_unique<Batch<TautFibrePotential>>(stiffness.common());
+    taut->set_factor_share(1 + taut_share * (options.taut_factor - 1));
+  } else {
+    batch = std::make_unique<Batch<FibreStrainProjection>>(stiffness.common());
+  }
   for (Index i = 0; i < chosen.size(); ++i) {
     const auto corner = [&](std::size_t j) { return row(body.rest.vertices, chosen[i][j]); };
     const RestElement<3> rest = rest_triangle(corner(0), corner(1), corner(2));

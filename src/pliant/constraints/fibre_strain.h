@@ -42,7 +42,8 @@ struct FibreStrain {
   Values min_stretch = 1;
   /// Largest stretch left alone, from min_stretch.
   Values max_stretch = 1;
-  /// How many times as stiff it is beyond taut_stretch, from 1: woven threads are wavy, and stiff once drawn straight.
+  /// How many times as stiff it is beyond taut_stretch, 1 to 1e6: woven threads are wavy, and stiff once drawn
+  /// straight.
   Real taut_factor = 1;
   /// From max_stretch.
   Real taut_stretch = 1.01;
@@ -65,7 +66,7 @@ struct FibreStrain {
     field(OptionInfo{"max_stretch", "", "largest stretch left alone", not_negative}, self.max_stretch);
     field(OptionInfo{"taut_factor", "",
                      "how many times as stiff it is beyond `taut_stretch`, as threads whose waves are drawn out",
-                     Range{1}},
+                     Range{1, 1e6}},
           self.taut_factor);
     field(OptionInfo{"taut_stretch", "", "stretch at which it is taut", positive}, self.taut_stretch);
   }

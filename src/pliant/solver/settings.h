@@ -24,7 +24,7 @@ constexpr std::array<std::string_view, 2> choice_names(Start) {
 /// How a global solve becomes the next iterate. `none`: the plain algorithm. `lbfgs`: L-BFGS, with the factor as its
 /// first guess of the inverse Hessian. `anderson`: Anderson acceleration. `chebyshev`: Chebyshev semi-iteration.
 /// `automatic`: L-BFGS where there are colliders or surfaces that touch, since friction is wrong after a few iterations
-/// without it, and where there are elastic materials with energies of their own; else none.
+/// without it, and where constraints have energies of their own, as elastic materials and taut fibres do; else none.
 enum class Acceleration { automatic, none, lbfgs, anderson, chebyshev };
 constexpr std::array<std::string_view, 5> choice_names(Acceleration) {
   return {"automatic", "none", "lbfgs", "anderson", "chebyshev"};
@@ -119,8 +119,8 @@ struct SolverSettings {
             "`none`: the plain algorithm; `lbfgs`: L-BFGS, which is far nearer to convergence after the "
             "same number of iterations, each of them 1.1 to 2.1 times as slow; `chebyshev`: Chebyshev semi-iteration, "
             "as near for less time in most cloth without colliders; `anderson`: Anderson acceleration, the same in "
-            "bars and chains; `automatic`: `lbfgs` where there are colliders, surfaces touch, or materials have "
-            "energies of their own"},
+            "bars and chains; `automatic`: `lbfgs` where there are colliders, surfaces touch, or constraints have "
+            "energies of their own, as elastic materials and taut fibres do"},
         self.acceleration);
     field(
         OptionInfo{
