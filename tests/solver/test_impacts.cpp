@@ -72,30 +72,6 @@ SolverSettings usual_settings(Integrator integrator, int threads = 1) {
   return {.integrator = integrator, .iterations = 20, .acceleration = Acceleration::lbfgs, .threads = threads};
 }
 
-}  // namespace
-
-TEST_CASE("impacts: a stiff box that falls on a corner keeps its shape and gains no energy") {
-  for (const Integrator integrator : {Integrator::implicit_euler, Integrator::bdf2}) {
-    for (const Real speed : {1.0, 1.5, 2.0, 2.5, 3.0}) {
-      CAPTURE(static_cast<int>(integrator));
-      CAPTURE(speed);
-      FallingBox box(speed, {3, 3, 2}, usual_settings(integrator));
-      const Real before = box.energy();
-      Real most = 0, strain = 0;
-      for (int i = 0; i < 60; ++i) {
-        box.simulation.step();
-        most = std::max(most, box.energy());
-        strain = std::max(strain, box.largest_strain());
-      }
-      CHECK(most < 1.001 * before);
-      CHECK(strain < 0.2);
-      CHECK(box.energy() < 0.8 * before);
-    }
-  }
-}
-
-namespace {
-
 /// What a box shows in its first second.
 struct Extremes {
   Real energy = 0, strain = 0, rise = 0;  // [J], of an edge, of its middle [m/s]
@@ -112,9 +88,25 @@ struct Extremes {
 
 }  // namespace
 
+TEST_CASE("impacts: a stiff box that falls on a corner keeps its shape and gains no energy") {
+  for (const Integrator integrator : {Integrator::implicit_euler, Integrator::bdf2}) {
+    for (const Real speed : {1.0, 1.5, 2.0, 2.5, 3.0}) {
+      CAPTURE(static_cast<int>(integrator));
+      CAPTURE(speed);
+      FallingBox box(speed, {3, 3, 2}, usual_settings(integrator));
+      const Real before = box.energy();
+      const Extremes found(box);
+      CHECK(found.energy < 1.001 * before);
+      CHECK(found.strain < 0.2);
+      CHECK(box.energy() < 0.8 * before);
+    }
+  }
+}
+
 TEST_CASE("impacts: the same in substeps, and where a corner meets two planes at once") {
   const std::vector<PlaneCollider> ground = {PlaneCollider{}};
-  const std::vector<PlaneCollider> groove = {{.normal = Vec3(1, 0, 2)}, {.normal = Vec3(-1, 0, 2)}};
+  const std::vector<PlaneCollider> groove = {{.position = Vec3(0, 0, -0.1), .normal = Vec3(1, 0, 2)},
+                                             {.position = Vec3(0, 0, -0.1), .normal = Vec3(-1, 0, 2)}};
   for (const auto& planes : {ground, groove}) {
     for (const Index substeps : {1, 2, 4}) {
       CAPTURE(planes.size());
@@ -122,9 +114,6 @@ TEST_CASE("impacts: the same in substeps, and where a corner meets two planes at
       SolverSettings settings = usual_settings(Integrator::bdf2);
       settings.substeps = substeps;
       FallingBox box(2, {3, 3, 2}, settings, planes);
-      Positions x = box.simulation.state().positions;
-      x.rowwise() += Eigen::RowVector3d(0, 0, planes.size() == 2 ? 0.1 : 0.0);  // above both
-      box.simulation.set_state(x, box.simulation.state().velocities);
       const Real before = box.energy();
       const Extremes found(box);
       CHECK(found.energy < 1.001 * before);
