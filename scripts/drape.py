@@ -3,7 +3,7 @@
 
   scripts/drape.py [--pliant PROGRAM] [--out FOLDER] [--fabrics wool,polyester,faille] [--apparatus cusick,jis]
                    [--diagonals forward,alternating,crossed] [--cells 20] [--starts 1,2,3,4,5] [--steps 900]
-                   [--iterations 100] [--bare]
+                   [--iterations 20] [--bare]
 
 The coefficient is the share of the overhanging ring that the shadow from above covers [%]. Cells are counted over the
 overhang. What lies between the two plates of the apparatus is flat and fixed, and leaves it horizontally; the rest lies
@@ -107,7 +107,7 @@ def scene_of(fabric, is_bare, clamped, steps, iterations):
     platform = {"type": "plane", "name": "platform", "position": [0, 0, -0.002], "velocity": [0, 0, -SPEED], "friction": 0}
     return {"pliant": 1, "steps": steps, "bodies": [body], "colliders": [platform],
             "contact": {"surfaces": False, "distance": 0.001},  # implicit Euler, whose damping brings it to rest:
-            "settings": {"integrator": "implicit_euler", "iterations": iterations, "acceleration": "lbfgs", "time_step": TIME_STEP}}
+            "settings": {"integrator": "implicit_euler", "iterations": iterations, "acceleration": "lbfgs", "start": "adaptive", "time_step": TIME_STEP}}
 
 
 def read_vertices(path):
@@ -147,7 +147,7 @@ def main():
     parser.add_argument("--cells", default="20")
     parser.add_argument("--starts", default="1,2,3,4,5")
     parser.add_argument("--steps", type=int, default=900)
-    parser.add_argument("--iterations", type=int, default=100)
+    parser.add_argument("--iterations", type=int, default=20)
     parser.add_argument("--bare", action="store_true")
     options = parser.parse_args()
     table = []

@@ -25,7 +25,7 @@ SHIRT = SOURCE.parent / "shared" / "meshes" / "tshirt.obj"
 SHEETS = ("cotton", "denim", "faille", "felt", "habotai", "leather", "paper", "polyester", "rubber_sheet", "silk", "steel_sheet",
           "wool")
 FONT = ImageFont.load_default()
-SETTINGS = {"integrator": "bdf2", "iterations": 20, "acceleration": "lbfgs"}
+SETTINGS = {"integrator": "bdf2", "iterations": 20, "acceleration": "lbfgs", "start": "adaptive"}
 AIR = {"type": "wind", "velocity": [0, 0, 0], "drag": 0.2}
 
 

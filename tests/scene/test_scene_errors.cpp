@@ -100,7 +100,7 @@ TEST_CASE("a wrong type says what is wanted and what was found") {
       {"\"iterations\": 3", "\"iterations\": 3000000000", "s.json: settings.iterations: 3000000000 is out of range"},
       {"\"iterations\": 3", "\"start\": \"postions\"",
        "s.json: settings.start: unknown choice 'postions'; did you mean 'positions'?",
-       "(known: prediction, positions)"},
+       "(known: prediction, positions, adaptive)"},
       {"\"iterations\": 3", "\"time_step\": true", "s.json: settings.time_step: found a boolean; give a number"},
       {"\"stiffness\": 10", "\"stiffness\": [1, \"2\"]",
        "s.json: bodies[0].constraints[1].stiffness[1]: found a string; give a number"},

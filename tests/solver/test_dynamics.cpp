@@ -91,7 +91,7 @@ struct FreeBody {
 
 TEST_CASE("free fall is exact for any number of iterations and either start") {
   for (const Index iterations : {1, 3, 10}) {
-    for (const Start start : {Start::prediction, Start::positions}) {
+    for (const Start start : {Start::prediction, Start::positions, Start::adaptive}) {
       Simulation simulation({.iterations = iterations, .start = start, .precision = Precision::double_});
       const Mesh mesh = torus({.major_segments = 10, .minor_segments = 6});
       const BodyId body = simulation.add_body(mesh, Mass::total(3));

@@ -94,7 +94,7 @@ TEST_CASE("the objective never rises, in no iteration of no step") {
        {Acceleration::none, Acceleration::lbfgs, Acceleration::anderson, Acceleration::chebyshev}) {
     Index backtracks = 0;
     for (const Real time_step : {1.0 / 240, 1.0 / 60, 1.0}) {
-      for (const Start start : {Start::prediction, Start::positions}) {
+      for (const Start start : {Start::prediction, Start::positions, Start::adaptive}) {
         const SolverSettings settings{
             .time_step = time_step, .iterations = 25, .acceleration = acceleration, .start = start};
         for (auto& varied : varied_simulations(settings)) {

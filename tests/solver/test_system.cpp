@@ -123,14 +123,14 @@ TEST_CASE("a state comes back from the solver's order as it was") {
   work.velocities = work.begin.previous_velocities;
   work.energy_surplus = work.begin.energy_surplus;
   State after = state;
-  work.scatter(order, Integrator::bdf2, 0.2, after);
+  work.scatter(order, true, 0.2, after);
   CHECK(after.positions == state.previous_positions);
   CHECK(after.velocities == state.previous_velocities);
   CHECK(after.previous_positions == state.positions);
   CHECK(after.previous_velocities == state.velocities);
   CHECK(after.previous_time_step == 0.2);
   CHECK(after.energy_surplus == state.energy_surplus);
-  work.scatter(order, Integrator::implicit_euler, 0.2, after);
+  work.scatter(order, false, 0.2, after);
   CHECK(after.previous_time_step == 0);
 }
 

@@ -240,7 +240,7 @@ int main() {
   bool all_pass = true;
   for (const Backend backend : {Backend::eigen, Backend::cholmod}) {
     for (const Index threads : {1, 2}) {
-      for (const Start start : {Start::prediction, Start::positions}) {
+      for (const Start start : {Start::prediction, Start::positions, Start::adaptive}) {
         all_pass = passes({.start = start, .backend = backend, .threads = threads}) && all_pass;
       }
       for (const Acceleration acceleration : {Acceleration::lbfgs, Acceleration::anderson, Acceleration::chebyshev}) {

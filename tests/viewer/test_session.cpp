@@ -265,7 +265,7 @@ TEST_CASE("parameters have the names, units and ranges of their types, and refus
   CHECK(slider(list, "group:bend.stiffness").heading == "hinge \"bend\"");
   CHECK(bend.value[0] == doctest::Approx(0.001));
   CHECK(find(list, "settings.time_step").unit == "s");
-  CHECK(find(list, "settings.start").choices == std::vector<std::string>{"prediction", "positions"});
+  CHECK(find(list, "settings.start").choices == std::vector<std::string>{"prediction", "positions", "adaptive"});
   CHECK(find(list, "force:gravity.acceleration").kind == ParameterKind::vector);
   CHECK(find(list, "force:wind.gust_strength").range.max == 1);
   CHECK(find(list, "group:stretch.min_stretch").value[0] == 1);

@@ -157,6 +157,7 @@ SolverSettings settings_for_materials() {
   settings.integrator = Integrator::bdf2;
   settings.acceleration = Acceleration::lbfgs;
   settings.iterations = 20;
+  settings.start = Start::adaptive;
   return settings;
 }
 

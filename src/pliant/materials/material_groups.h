@@ -77,8 +77,8 @@ std::vector<GroupId> add_material(Simulation& simulation, BodyId body, const Mat
 /// The damping of these bodies' materials, each by the mass of its body [1/s]; none without a body.
 std::optional<Real> mean_damping(const Simulation& simulation, const std::map<BodyId, Material>& materials);
 
-/// With which bodies of materials look right in steps of 1/60 s: BDF2, 20 iterations of L-BFGS. Damping is that of a
-/// material, SurfaceMaterial::damping. benchmarks/NOTES.md has what was tried.
+/// With which bodies of materials look right in steps of 1/60 s: BDF2, 20 iterations of L-BFGS, an adaptive start.
+/// Damping is that of a material, SurfaceMaterial::damping. benchmarks/NOTES.md has what was tried.
 SolverSettings settings_for_materials();
 
 }  // namespace pliant

@@ -15,10 +15,12 @@ constexpr std::array<std::string_view, 2> choice_names(Integrator) {
   return {"implicit_euler", "bdf2"};
 }
 
-/// Where the iterations of a step begin.
-enum class Start { prediction, positions };
-constexpr std::array<std::string_view, 2> choice_names(Start) {
-  return {"prediction", "positions"};
+/// Where the iterations of a step begin. `prediction`: at s. `positions`: at qₙ. `adaptive`: at s with as much of the
+/// forces as the last step's acceleration shows, so that what rests or hangs goes on from its balance
+/// (solver/balanced_guess.h).
+enum class Start { prediction, positions, adaptive };
+constexpr std::array<std::string_view, 3> choice_names(Start) {
+  return {"prediction", "positions", "adaptive"};
 }
 
 /// How a global solve becomes the next iterate. `none`: the plain algorithm. `lbfgs`: L-BFGS, with the factor as its
@@ -139,7 +141,10 @@ struct SolverSettings {
                      "iterate no further once no vertex has a larger residual force; 0: only at exact rest",
                      not_negative},
           self.tolerance);
-    field(OptionInfo{"start", "", "iterations begin at the `prediction` s or at the `positions` of the last step"},
+    field(OptionInfo{"start", "",
+                     "iterations begin at the `prediction` s, at the `positions` of the last step, or, `adaptive`, at "
+                     "the prediction with as much of the forces as the last step's acceleration shows: what rests or "
+                     "hangs stays in balance then"},
           self.start);
     visit_factorization(self, field);
   }
@@ -165,6 +170,11 @@ struct SolverSettings {
         self.threads);
   }
 };
+
+/// Whether a step leaves velocities and positions before it to the next one.
+inline bool keeps_history(const SolverSettings& settings) {
+  return settings.integrator == Integrator::bdf2 || settings.start == Start::adaptive;
+}
 
 /// Those of a step: as given, or as they have been found (0: not yet).
 inline Index iterations_of(const SolverSettings& settings, Index found) {

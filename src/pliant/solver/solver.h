@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "pliant/solver/applied_forces.h"
+#include "pliant/solver/balanced_guess.h"
 #include "pliant/solver/descent.h"
 #include "pliant/solver/integration/contact_energy.h"
 #include "pliant/solver/integration/energy_projection.h"
@@ -100,6 +101,7 @@ class Solver {
   System system_;
   AppliedForces forces_;
   WorkingState work_;
+  BalancedGuess balanced_guess_;
   Descent descent_;
   ContactSolver contact_;
   EnergyProjection energy_;

@@ -15,8 +15,8 @@ struct State {
   Real time = 0;             ///< tₙ [s]
   Real time_excess = 0;      ///< what rounding has put too much into tₙ so far [s]
 
-  /// What BDF2 goes on from besides: qₙ₋₁ and vₙ₋₁, which were a step of `previous_time_step` before. 0: there are
-  /// none, and the next step is one of implicit Euler.
+  /// What BDF2 and an adaptive start go on from besides: qₙ₋₁ and vₙ₋₁, which were a step of `previous_time_step`
+  /// before. 0: there are none, and the next step is one of implicit Euler that begins at its prediction.
   Positions previous_positions{};
   Positions previous_velocities{};
   Real previous_time_step = 0;  ///< [s]

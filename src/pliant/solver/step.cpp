@@ -32,7 +32,7 @@ void Solver::take_substep(State& state, StepReport& report) {
   prepare(state, report);                                         //     refactorizes where something has changed
   predict(state);                                                 // 1-2 s = a + η b + η² M⁻¹ f
   if (projects_energy()) energy_.begin(context(state), work_);    //
-  initial_guess();                                                // 3   q = s or qₙ, pins at their targets
+  initial_guess();                                                // 3   q = s, q⁰ or qₙ, pins at their targets
   if (contact_.is_active()) begin_contact(state);                 //     and nothing inside a collider
   descent_.begin(context(state));                                 //
   bool reached_tolerance = false;                                 //
@@ -88,11 +88,16 @@ void Solver::predict(const State& state) {
 }
 
 void Solver::initial_guess() {
-  if (settings_.start == Start::prediction) {
+  if (settings_.start == Start::positions) {
+    work_.positions = work_.begin.positions;
+  } else {
     work_.positions = work_.prediction;
     for (const ConstraintGroup* group : system_.groups()) group->move_guess(work_.positions, system_.inertia_weights());
-  } else {
-    work_.positions = work_.begin.positions;
+  }
+  if (settings_.start == Start::adaptive && has_history(work_.begin, substep())) {
+    const IntegratorCoefficients form(work_.begin, settings_.integrator, substep());
+    balanced_guess_.move(work_, form, substep(), system_.components_of_vertices(), system_.components().count(),
+                         system_.is_pinned(), work_.positions);
   }
   apply_pins();
 }
@@ -192,7 +197,7 @@ void Solver::commit(State& state, StepReport& report) {
   }
   if (!contact_.has_pairs()) state.contact.energies.clear();
   if (contact_.is_active()) contact_.commit_substep(system_, work_, threads_.pool(), state, report.contact);
-  work_.scatter(system_.order(), settings_.integrator, substep(), state);
+  work_.scatter(system_.order(), keeps_history(settings_), substep(), state);
 }
 
 }  // namespace pliant

@@ -19,11 +19,11 @@ void WorkingState::gather(const State& state, const LocalGroups& order) {
   order.gather(state.previous_velocities, begin.previous_velocities);
 }
 
-void WorkingState::scatter(const LocalGroups& order, Integrator integrator, Real h, State& state) const {
+void WorkingState::scatter(const LocalGroups& order, bool keeps_history, Real h, State& state) const {
   order.scatter(positions, state.positions);
   order.scatter(velocities, state.velocities);
   order.scatter(energy_surplus, state.energy_surplus);
-  state.previous_time_step = integrator == Integrator::bdf2 ? h : 0;
+  state.previous_time_step = keeps_history ? h : 0;
   if (state.previous_time_step == 0) return;
   order.scatter(begin.positions, state.previous_positions);
   order.scatter(begin.velocities, state.previous_velocities);

@@ -27,8 +27,8 @@ struct WorkingState {
   void resize(Index vertex_count);
   /// Takes the state that a substep begins with. Allocates only what has another size than before.
   void gather(const State& state, const LocalGroups& order);
-  /// Writes what it has ended with, after a step of length h [s]; BDF2 has a history then.
-  void scatter(const LocalGroups& order, Integrator integrator, Real h, State& state) const;
+  /// Writes what it has ended with, after a step of length h [s], and, where it `keeps_history`, what it began with.
+  void scatter(const LocalGroups& order, bool keeps_history, Real h, State& state) const;
 };
 
 }  // namespace pliant

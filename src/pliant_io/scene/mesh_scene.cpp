@@ -174,7 +174,8 @@ Scene make_mesh_scene(const std::filesystem::path& file, const ImportOptions& im
   MeshSceneJson mesh_json = {{"file", file.filename().string()}, {"scale", scale}, {"up", up}};
   if (import.drop_loose) mesh_json["drop_loose"] = true;
   MeshSceneJson body = {{"name", file.stem().string()}, {"mesh", std::move(mesh_json)}};
-  const MeshSceneJson settings = {{"integrator", "bdf2"}, {"iterations", 20}, {"acceleration", "lbfgs"}};
+  const MeshSceneJson settings = {
+      {"integrator", "bdf2"}, {"iterations", 20}, {"acceleration", "lbfgs"}, {"start", "adaptive"}};
   const bool is_cloth = kind == MeshKind::cloth;
   if (is_cloth) body["material"] = "cotton";
   if (!is_cloth || has_lower_elements_alone(mesh)) body["mass"] = mass_json(mesh, material, scale / import.scale);

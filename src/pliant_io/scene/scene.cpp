@@ -154,6 +154,7 @@ void choose_open_settings(const Node& root, std::optional<Real> damping, Simulat
     if (is_open("integrator") && takes_bdf2) settings.integrator = good.integrator;
     if (is_open("acceleration")) settings.acceleration = good.acceleration;
     if (is_open("iterations")) settings.iterations = good.iterations;
+    if (is_open("start")) settings.start = good.start;
   }
   if (settings != simulation.settings()) simulation.set_settings(settings);
 }
