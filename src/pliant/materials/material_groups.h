@@ -17,8 +17,9 @@ struct MaterialPlacement {
   Grain grain = Grain::automatic;
   /// From there to the warp [degrees]; 45: cut on the bias.
   Real angle = 0;
-  /// By how much a meter of it that hangs is longer at least, ≥ 0; 0: as measured. Cloth stretches by a tenth of that,
-  /// which nobody sees, and needs many times as many iterations to do so.
+  /// By how much a meter of it that hangs is longer at least, ≥ 0; threads of cloth are slack up to half a percent
+  /// besides. 0: as measured. Cloth stretches by a tenth of that, which nobody sees, and needs many times as many
+  /// iterations to do so.
   Real least_stretch = 1e-3;
 
   template <class Self, class Visitor>
@@ -45,10 +46,12 @@ struct MaterialGroup {
 /// The groups of a sheet or a solid, those that would do nothing left out. Moduli of stretch and shear, not of bending,
 /// are no more than what gives `least_stretch`.
 ///
-/// A sheet with threads: fibres along warp and weft, stiffer from a stretch of 1.005 on where they are softer than
-/// measured (up to five times), and a triangle strain of twice the shear modulus, of which the fibres have that much
-/// less. A sheet with Poisson's ratio ν whose warp and weft are alike, as an isotropic plate in plane stress: strain
-/// E t/(1 + ν), area 2 E t ν/(1 − ν²). A solid: strain E/(1 + ν), volume 3 E ν/((1 + ν)(1 − 2ν)).
+/// A sheet with threads: fibres along warp and weft that pull alone, slack up to a stretch of half a percent (a
+/// two-hundredth of their modulus) and taut beyond, with what was measured or five times what `least_stretch` allows,
+/// and a triangle strain of twice the shear modulus, of which the fibres have that much less. With `least_stretch` 0
+/// they are as measured throughout, and push too. A sheet with Poisson's ratio ν whose warp and weft are alike, as an
+/// isotropic plate in plane stress: strain E t/(1 + ν), area 2 E t ν/(1 − ν²). A solid: strain E/(1 + ν), volume 3 E
+/// ν/((1 + ν)(1 − 2ν)).
 std::vector<MaterialGroup> material_groups(const Material& material, const MaterialPlacement& placement = {});
 
 /// Mass per area or volume.
