@@ -70,6 +70,7 @@ void change_material(pliant::Scene& scene, BodyId body, const std::string& name,
     if (std::ranges::none_of(simulation.forces(), is_explicit)) settings.integrator = good.integrator;
     settings.acceleration = good.acceleration;
     settings.iterations = good.iterations;
+    settings.start = good.start;
   }
   if (is_first || is_nearly(damping_before, settings.damping)) settings.damping = *mean_damping(simulation, materials);
   simulation.set_settings(settings);

@@ -64,6 +64,7 @@ TEST_CASE("a scene of materials moves as they look right, but for what it says i
   CHECK(all.integrator == Integrator::bdf2);
   CHECK(all.acceleration == Acceleration::lbfgs);
   CHECK(all.iterations == 20);
+  CHECK(all.start == Start::adaptive);
   const Scene own = sheet_scene(R"("material": "cotton")", R"(, "settings": {"integrator": "implicit_euler"})");
   CHECK(own.simulation.settings().integrator == Integrator::implicit_euler);
   CHECK(own.simulation.settings().iterations == 20);
@@ -71,6 +72,8 @@ TEST_CASE("a scene of materials moves as they look right, but for what it says i
   CHECK(few.simulation.settings().iterations == 3);
   CHECK(few.simulation.settings().damping == 0);
   CHECK(few.simulation.settings().integrator == Integrator::bdf2);
+  const Scene late = sheet_scene(R"("material": "cotton")", R"(, "settings": {"start": "prediction"})");
+  CHECK(late.simulation.settings().start == Start::prediction);
   const SolverSettings plain = sheet_scene(R"("mass": {"total": 1})").simulation.settings();
   CHECK(plain == SolverSettings{});
 }

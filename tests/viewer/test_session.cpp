@@ -305,6 +305,7 @@ TEST_CASE("a material is chosen where the body is; a restart keeps the choice, o
   CHECK(session.simulation().settings().integrator == good.integrator);
   CHECK(session.simulation().settings().acceleration == good.acceleration);
   CHECK(session.simulation().settings().iterations == good.iterations);
+  CHECK(session.simulation().settings().start == good.start);
   const double damping = pliant::builtin_material("silk").surface.damping;
   CHECK(session.simulation().settings().damping == doctest::Approx(damping));
   session.set("settings.iterations", {35, 0, 0});

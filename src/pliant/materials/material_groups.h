@@ -29,8 +29,8 @@ struct MaterialPlacement {
     field(OptionInfo{"grain", "", "where no direction is given: see `fibre_strain`"}, self.grain);
     field(OptionInfo{"angle", "degrees", "from there to the warp; 45: cut on the bias"}, self.angle);
     field(OptionInfo{"least_stretch", "",
-                     "by how much a meter of it that hangs is longer at least; 0: as measured, which needs many more "
-                     "iterations",
+                     "by how much a meter of it that hangs is longer at least, besides the slack of its threads; 0: as "
+                     "measured and without slack, which needs many more iterations",
                      not_negative},
           self.least_stretch);
   }

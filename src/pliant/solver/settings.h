@@ -79,7 +79,7 @@ struct SolverSettings {
   Real energy_projection = 0;
   /// [N], ≥ 0: no further iteration once no vertex has a larger residual force; 0: only at exact rest.
   Real tolerance = 0;
-  /// Where iterations begin: at the prediction s or at the positions of the last step.
+  /// Where iterations begin: at the prediction s, at the positions of the last step, or between s with and without f.
   Start start = Start::prediction;
   /// Which library factorizes; results differ by rounding.
   Backend backend = Backend::automatic;

@@ -183,7 +183,7 @@ void Solver::limit_energy(const State& state, ContactReport& report) {
 }
 
 /// Velocities that are damped as e^(-2ch) a step make the amplitude of an oscillation decay as e^(-ct), besides what
-/// the integrator takes. Those before, from which BDF2 goes on, are then a step further away.
+/// the integrator takes. Those before, from which BDF2 and an adaptive start go on, are then a step further away.
 void Solver::commit(State& state, StepReport& report) {
   if (!projects_energy()) work_.energy_surplus.clear();
   work_.predicted_step = IntegratorCoefficients(work_.begin, settings_.integrator, substep()).inertia_step();
@@ -192,7 +192,7 @@ void Solver::commit(State& state, StepReport& report) {
     damp_vibrations(system_.components(), system_.is_pinned(), positions, work_.begin.masses, factor, velocities);
   };
   if (settings_.damping > 0) damp(work_.positions, work_.velocities);
-  if (settings_.damping > 0 && settings_.integrator == Integrator::bdf2) {
+  if (settings_.damping > 0 && keeps_history(settings_)) {
     damp(work_.begin.positions, work_.begin.velocities);
   }
   if (!contact_.has_pairs()) state.contact.energies.clear();

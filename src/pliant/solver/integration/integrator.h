@@ -7,7 +7,7 @@
 
 namespace pliant {
 
-/// Whether the next step of length h has what BDF2 needs: a step of the same length before it.
+/// Whether the next step of length h has what BDF2 and an adaptive start need: a step of the same length before it.
 inline bool has_history(const State& state, Real h) {
   return state.previous_time_step == h && state.previous_positions.rows() == state.positions.rows();
 }
