@@ -132,7 +132,7 @@ TEST_CASE("the factor has a part of what taut fibres add, also once they are num
   REQUIRE(set.batches.size() == 1);
   ConstraintGroup& taut = *set.batches[0];
   CHECK_FALSE(taut.is_projective());
-  constexpr Real share = 1 + (taut_factor - 1) / 3;
+  constexpr Real share = 1 + 0.2 * (taut_factor - 1);
   CHECK(taut.factor_stiffness() == doctest::Approx(share * stiffness));
   taut.set_stiffness(80);
   CHECK(taut.factor_stiffness() == doctest::Approx(share * 80));

@@ -12,7 +12,7 @@ namespace {
 
 /// Of what taut fibres have beyond the others, in the factor: with less, moves are taken back often, with more, the
 /// sheet moves too little.
-constexpr Real taut_share = 1.0 / 3;
+constexpr Real taut_share = 0.2;
 
 void check_taut(std::string_view type, const FibreStrain& options, const Limits& limits, Index count) {
   for (Index i = 0; i < count; ++i) {

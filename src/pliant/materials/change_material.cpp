@@ -75,7 +75,11 @@ MaterialPlacement present_placement(const Simulation& simulation, BodyId id) {
   for (const auto& [group_id, group] : simulation.groups()) {
     if (group.body != id) continue;
     if (const auto* fibres = options_in<FibreStrain>(group)) {
-      return {.direction = fibres->direction, .grain = fibres->grain, .angle = fibres->angle};
+      const bool is_slack = fibres->taut_factor > 1 && fibres->min_stretch[0] == 0;
+      return {.direction = fibres->direction,
+              .grain = fibres->grain,
+              .angle = fibres->angle,
+              .slack = is_slack ? fibres->taut_stretch - 1 : 0};
     }
   }
   return {};

@@ -16,11 +16,13 @@ namespace {
 /// A Poisson's ratio is expressed where warp and weft agree so far.
 constexpr Real alike = 1.001;
 constexpr Real gravity = 9.81;  // [m/s²]
-/// Woven threads are wavy. Until they are stretched by so much, or by `least_stretch`, they have a small share of
-/// their modulus and do not push, then so many times as much, but no more than was measured.
-constexpr Real least_slack = 0.005;
-constexpr Real slack_share = 0.005;
+/// From so much, or so many times `least_stretch`, on threads that were made softer have the modulus that was measured,
+/// or so many times their own.
+constexpr Real least_taut = 0.005;
+constexpr Real taut_beyond = 5;
 constexpr Real most_taut = 5;
+/// Of what threads would have without slack, what they have while they are slack.
+constexpr Real slack_share = 0.005;
 
 /// The modulus with which a meter that hangs is longer by `stretch`; `density` a square or a cubic meter.
 Real modulus_of(Real stretch, Real density) {
@@ -37,17 +39,20 @@ std::vector<MaterialGroup> sheet_groups(SheetMaterial sheet, const MaterialPlace
   const Real stiffer = std::max(sheet.stretch_warp, sheet.stretch_weft);
   const bool is_plate = sheet.poisson > 0 && stiffer <= alike * softer;
   const Real strain = is_plate ? softer / (1 + sheet.poisson) : std::min(2 * sheet.shear, softer);
+  const Real taut_stretch = 1 + std::max(least_taut, taut_beyond * placement.least_stretch);
   const auto add_fibres = [&](std::string_view name, Real stretch, Real measured, Real angle) {
     if (!(stretch > alike * strain)) return;
     FibreStrain fibres{.direction = placement.direction,
                        .grain = placement.grain,
                        .angle = placement.angle + angle,
-                       .stiffness = stretch - strain};
-    if (placement.least_stretch > 0) {
+                       .stiffness = stretch - strain,
+                       .taut_factor = std::min((measured - strain) / (stretch - strain), most_taut),
+                       .taut_stretch = taut_stretch};
+    if (placement.slack > 0) {
       fibres.stiffness = slack_share * stretch;
       fibres.min_stretch = 0;
       fibres.taut_factor = std::max((std::min(measured, most_taut * stretch) - strain) / (slack_share * stretch), 1.0);
-      fibres.taut_stretch = 1 + std::max(least_slack, placement.least_stretch);
+      fibres.taut_stretch = 1 + placement.slack;
     }
     groups.push_back({name, std::move(fibres)});
   };

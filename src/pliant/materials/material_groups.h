@@ -17,10 +17,11 @@ struct MaterialPlacement {
   Grain grain = Grain::automatic;
   /// From there to the warp [degrees]; 45: cut on the bias.
   Real angle = 0;
-  /// By how much a meter of it that hangs is longer at least, ≥ 0; threads of cloth are slack up to half a percent
-  /// besides. 0: as measured. Cloth stretches by a tenth of that, which nobody sees, and needs many times as many
-  /// iterations to do so.
+  /// By how much a meter of it that hangs is longer at least, ≥ 0; 0: as measured. Cloth stretches by a tenth of that,
+  /// which nobody sees, and needs many times as many iterations to do so.
   Real least_stretch = 1e-3;
+  /// Up to which stretch threads give way, as wavy yarns do, 0 to 0.1; those do not push either. 0: none.
+  Real slack = 0;
 
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -29,10 +30,15 @@ struct MaterialPlacement {
     field(OptionInfo{"grain", "", "where no direction is given: see `fibre_strain`"}, self.grain);
     field(OptionInfo{"angle", "degrees", "from there to the warp; 45: cut on the bias"}, self.angle);
     field(OptionInfo{"least_stretch", "",
-                     "by how much a meter of it that hangs is longer at least, besides the slack of its threads; 0: as "
-                     "measured and without slack, which needs many more iterations",
+                     "by how much a meter of it that hangs is longer at least; 0: as measured, which needs many more "
+                     "iterations",
                      not_negative},
           self.least_stretch);
+    field(OptionInfo{"slack", "",
+                     "up to which stretch its threads give way and do not push, as wavy yarns; with 0.005 coarse "
+                     "meshes hang in folds",
+                     Range{0, 0.1}},
+          self.slack);
   }
 };
 
@@ -46,12 +52,11 @@ struct MaterialGroup {
 /// The groups of a sheet or a solid, those that would do nothing left out. Moduli of stretch and shear, not of bending,
 /// are no more than what gives `least_stretch`.
 ///
-/// A sheet with threads: fibres along warp and weft that pull alone, slack up to a stretch of half a percent (a
-/// two-hundredth of their modulus) and taut beyond, with what was measured or five times what `least_stretch` allows,
-/// and a triangle strain of twice the shear modulus, of which the fibres have that much less. With `least_stretch` 0
-/// they are as measured throughout, and push too. A sheet with Poisson's ratio ν whose warp and weft are alike, as an
-/// isotropic plate in plane stress: strain E t/(1 + ν), area 2 E t ν/(1 − ν²). A solid: strain E/(1 + ν), volume 3 E
-/// ν/((1 + ν)(1 − 2ν)).
+/// A sheet with threads: fibres along warp and weft, stiffer from a stretch of 1.005 on where they are softer than
+/// measured (up to five times), and a triangle strain of twice the shear modulus, of which the fibres have that much
+/// less. With `slack` they pull alone, with a two-hundredth of that up to there, and as taut threads beyond. A sheet
+/// with Poisson's ratio ν whose warp and weft are alike, as an isotropic plate in plane stress: strain E t/(1 + ν),
+/// area 2 E t ν/(1 − ν²). A solid: strain E/(1 + ν), volume 3 E ν/((1 + ν)(1 − 2ν)).
 std::vector<MaterialGroup> material_groups(const Material& material, const MaterialPlacement& placement = {});
 
 /// Mass per area or volume.
