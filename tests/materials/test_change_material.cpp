@@ -87,6 +87,16 @@ TEST_CASE("from a change on a sheet moves as one that was made of that material"
   }
 }
 
+TEST_CASE("a change of material leaves threads as slack as they were") {
+  for (const Real slack : {0.0, 0.004}) {
+    Simulation simulation;
+    const BodyId body = simulation.add_body(grid({.columns = 3, .rows = 3}), Mass::total(1), {.name = "sheet"});
+    add_material(simulation, body, builtin_material("cotton"), {.slack = slack});
+    change_material(simulation, body, builtin_material("silk"));
+    CHECK(present_placement(simulation, body).slack == doctest::Approx(slack));
+  }
+}
+
 TEST_CASE("a change while it moves leaves places, speeds, pins and the run of threads, and costs no energy of motion") {
   Hung hung("cotton");
   hung.steps(15);

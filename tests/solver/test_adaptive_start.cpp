@@ -120,6 +120,19 @@ TEST_CASE("a step without one of its length before it begins at the prediction")
   CHECK(largest_difference(positions(Start::adaptive, 0.01), positions(Start::prediction, 0.01)) == 0);
 }
 
+TEST_CASE("BDF2 goes on at once from steps of implicit Euler that began adaptively") {
+  Simulation simulation(few_iterations(Start::adaptive));
+  add_sheet(simulation);
+  add_gravity(simulation);
+  advance(simulation, 10);
+  simulation.set_settings(few_iterations(Start::adaptive, Integrator::bdf2));
+  const State now = simulation.state();
+  simulation.step();
+  const Positions v = (3 * simulation.state().positions - 4 * now.positions + now.previous_positions) /
+                      (2 * simulation.settings().time_step);
+  CHECK(largest_difference(simulation.state().velocities, v) < 1e-12);
+}
+
 TEST_CASE("a restored state begins where it would have, to the bit, also under implicit Euler") {
   const auto make = [] {
     Simulation simulation(few_iterations(Start::adaptive));
