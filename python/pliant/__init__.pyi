@@ -199,8 +199,9 @@ class FibreStrain(ConstraintOptions):
         max_stretch: largest stretch left alone, default 1.0
         taut_factor: how many times as stiff it is beyond `taut_stretch`, as threads whose waves are drawn out, default 1.0
         taut_stretch: stretch at which it is taut, default 1.01
+        taut_onset: stretch from which on stiffness rises to that, from `max_stretch` to `taut_stretch`; without it all at once
     """
-    def __init__(self, *, on: Selection = ..., stencils: Stencils = ..., direction: Points = ..., grain: Literal["automatic", "uv", "edge"] = ..., angle: float = ..., stiffness: Values = ..., min_stretch: Values = ..., max_stretch: Values = ..., taut_factor: float = ..., taut_stretch: float = ...) -> None: ...
+    def __init__(self, *, on: Selection = ..., stencils: Stencils = ..., direction: Points = ..., grain: Literal["automatic", "uv", "edge"] = ..., angle: float = ..., stiffness: Values = ..., min_stretch: Values = ..., max_stretch: Values = ..., taut_factor: float = ..., taut_stretch: float = ..., taut_onset: Optional[float] = ...) -> None: ...
 
 class Gravity(ForceOptions):
     """Force `gravity`. m g

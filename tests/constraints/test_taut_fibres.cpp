@@ -24,8 +24,13 @@ namespace {
 
 constexpr Real stiffness = 50, taut_factor = 6, taut_stretch = 1.02;
 
-FibreStrain taut_fibres() {
-  return {.direction = Vec3(0, 0, 1), .stiffness = stiffness, .taut_factor = taut_factor, .taut_stretch = taut_stretch};
+/// All at once, or from `onset` on.
+FibreStrain taut_fibres(std::optional<Real> onset = std::nullopt) {
+  return {.direction = Vec3(0, 0, 1),
+          .stiffness = stiffness,
+          .taut_factor = taut_factor,
+          .taut_stretch = taut_stretch,
+          .taut_onset = onset};
 }
 
 Mesh strip() {
@@ -65,21 +70,47 @@ TEST_CASE("beyond its limit a taut fibre is so many times as stiff") {
   }
 }
 
-TEST_CASE("forces of taut fibres are minus the gradient of their energy") {
+TEST_CASE("between onset and taut stretch the stiffness of a fibre rises evenly, and the energy is its integral") {
+  constexpr Real onset = 1.005;
+  const auto more_at = [](Real s) {
+    return (taut_factor - 1) * std::clamp((s - onset) / (taut_stretch - onset), 0., 1.);
+  };
   const Mesh mesh = strip();
-  Elastic elastic(mesh, taut_fibres());
-  Random random;
-  Positions q = mesh.vertices;
-  for (Real& x : q.reshaped()) x = 1.1 * x + random.uniform(-0.03, 0.03);
-  const Positions forces = elastic.forces(q);
-  constexpr Real step = 1e-7;
-  for (Index i = 0; i < mesh.vertex_count(); ++i) {
-    for (Index axis = 0; axis < 3; ++axis) {
-      Positions there = q, here = q;
-      there(i, axis) += step;
-      here(i, axis) -= step;
-      const Real slope = (elastic.energy(there) - elastic.energy(here)) / (2 * step);
-      CHECK(forces(i, axis) == doctest::Approx(-slope).epsilon(1e-5).scale(1));
+  Elastic elastic(mesh, taut_fibres(onset));
+  for (const Real s : {0.9, 1.0, 1.005, 1.01, 1.015, 1.02, 1.03, 1.2}) {
+    CAPTURE(s);
+    // ∫ (s − x)(1 + more(x)) dx from 1 to s, by the midpoint rule.
+    constexpr int parts = 20000;
+    Real expected = 0;
+    for (int i = 0; i < parts; ++i) {
+      const Real x = 1 + (s - 1) * (i + 0.5) / parts;
+      expected += (s - x) * (1 + (s > 1 ? more_at(x) : 0)) * (s - 1) / parts;
+    }
+    const Mat3 stretched = Vec3(1, 1, s).asDiagonal();
+    CHECK(elastic.energy(mesh.vertices * stretched) ==
+          doctest::Approx(0.12 * stiffness * expected).epsilon(1e-6).scale(1e-4));
+  }
+}
+
+TEST_CASE("forces of taut fibres are minus the gradient of their energy") {
+  for (const std::optional<Real> onset : {std::optional<Real>{}, std::optional<Real>{1.0}}) {
+    const Mesh mesh = strip();
+    FibreStrain options = taut_fibres(onset);
+    options.taut_stretch = 1.15;  // in the middle of the stretches below
+    Elastic elastic(mesh, options);
+    Random random;
+    Positions q = mesh.vertices;
+    for (Real& x : q.reshaped()) x = 1.1 * x + random.uniform(-0.03, 0.03);
+    const Positions forces = elastic.forces(q);
+    constexpr Real step = 1e-7;
+    for (Index i = 0; i < mesh.vertex_count(); ++i) {
+      for (Index axis = 0; axis < 3; ++axis) {
+        Positions there = q, here = q;
+        there(i, axis) += step;
+        here(i, axis) -= step;
+        const Real slope = (elastic.energy(there) - elastic.energy(here)) / (2 * step);
+        CHECK(forces(i, axis) == doctest::Approx(-slope).epsilon(1e-5).scale(1));
+      }
     }
   }
 }
@@ -132,7 +163,7 @@ TEST_CASE("the factor has a part of what taut fibres add, also once they are num
   REQUIRE(set.batches.size() == 1);
   ConstraintGroup& taut = *set.batches[0];
   CHECK_FALSE(taut.is_projective());
-  constexpr Real share = 1 + 0.2 * (taut_factor - 1);
+  constexpr Real share = 1 + 0.25 * (taut_factor - 1);
   CHECK(taut.factor_stiffness() == doctest::Approx(share * stiffness));
   taut.set_stiffness(80);
   CHECK(taut.factor_stiffness() == doctest::Approx(share * 80));
@@ -171,6 +202,11 @@ TEST_CASE("taut fibres that cannot be are refused") {
   const std::string below = refusal({.max_stretch = 1.2, .taut_factor = 2, .taut_stretch = 1.1});
   CHECK(below == "fibre_strain: taut_stretch: 1.1 is below max_stretch 1.2; give at least as much");
   CHECK(refusal({.max_stretch = 1.2, .taut_stretch = 1.1}) == "nothing");  // nothing is taut
+  CHECK(refusal({.max_stretch = 1.01, .taut_factor = 2, .taut_stretch = 1.1, .taut_onset = 1.0}) ==
+        "fibre_strain: taut_onset: 1 is below max_stretch 1.01; give at least as much");
+  CHECK(refusal({.taut_factor = 2, .taut_stretch = 1.1, .taut_onset = 1.2}) ==
+        "fibre_strain: taut_onset: 1.2 is above taut_stretch 1.1; give at most as much");
+  CHECK(refusal({.taut_factor = 2, .taut_stretch = 1.1, .taut_onset = 1.1}) == "nothing");  // all at once
   Simulation simulation;
   const BodyId body = simulation.add_body(strip(), Mass::area_density(0.2));
   for (const Real factor : {0.5, 1e7, 1e306}) {

@@ -75,7 +75,8 @@ template <>
 struct Samples<pliant::TautFibrePotential> {
   static Fields fields(Random& random) {
     const Fields free = limits(random, 0);
-    return {free[0], free[1], free[1] * random.uniform(1, 1.2), random.uniform(0, 20)};
+    const Real rise = random.index(2) == 0 ? 1e-30 : random.uniform(0.01, 0.3);
+    return {free[0], free[1], free[1] * random.uniform(1, 1.2), rise, random.uniform(0, 20)};
   }
 };
 

@@ -70,7 +70,8 @@ std::vector<FibreStrain> variants(const Mesh&) {
   return {{.grain = Grain::edge},
           {.direction = Vec3(1, 2, -3), .angle = 30},
           {.angle = 90, .min_stretch = 0, .max_stretch = 1.1},
-          {.taut_factor = 7, .taut_stretch = 1.05}};
+          {.taut_factor = 7, .taut_stretch = 1.05},
+          {.taut_factor = 7, .taut_stretch = 1.05, .taut_onset = 1.0}};
 }
 template <>
 std::vector<TriangleArea> variants(const Mesh&) {

@@ -12,14 +12,20 @@ namespace {
 
 /// Of what taut fibres have beyond the others, in the factor: with less, moves are taken back often, with more, the
 /// sheet moves too little.
-constexpr Real taut_share = 0.2;
+constexpr Real taut_share = 0.25;
+/// Over which stiffness rises at once.
+constexpr Real least_rise = 1e-30;
 
 void check_taut(std::string_view type, const FibreStrain& options, const Limits& limits, Index count) {
+  const Real onset = options.taut_onset.value_or(options.taut_stretch);
   for (Index i = 0; i < count; ++i) {
-    if (options.taut_stretch >= limits[i][1]) continue;
-    fail_input(fmt::format("{}: taut_stretch: {} is below max_stretch {}; give at least as much", type,
-                           options.taut_stretch, limits[i][1]));
+    if (onset >= limits[i][1]) continue;
+    fail_input(fmt::format("{}: {}: {} is below max_stretch {}; give at least as much", type,
+                           options.taut_onset ? "taut_onset" : "taut_stretch", onset, limits[i][1]));
   }
+  if (onset <= options.taut_stretch) return;
+  fail_input(fmt::format("{}: taut_onset: {} is above taut_stretch {}; give at most as much", type, onset,
+                         options.taut_stretch));
 }
 
 }  // namespace
@@ -35,6 +41,8 @@ ConstraintSet build(const BodyView& body, const FibreStrain& options) {
   const StiffnessSplit stiffness(type, body, options.stiffness, chosen);
   const bool gets_taut = options.taut_factor > 1;
   if (gets_taut) check_taut(type, options, limits, chosen.size());
+  const Real onset = options.taut_onset.value_or(options.taut_stretch);
+  const Real rise = std::max(options.taut_stretch - onset, least_rise);
   std::unique_ptr<Batch<FibreStrainProjection>> batch;
   std::unique_ptr<Batch<TautFibrePotential>> taut;
   if (gets_taut) {
@@ -53,7 +61,7 @@ ConstraintSet build(const BodyView& body, const FibreStrain& options) {
     along[0] = -(along[1] + along[2]);
     const Real measure = stiffness.of(i) * rest.measure;
     if (gets_taut) {
-      const std::array<Real, 4> fields = {limits[i][0], limits[i][1], options.taut_stretch, options.taut_factor - 1};
+      const std::array<Real, 5> fields = {limits[i][0], limits[i][1], onset, rise, options.taut_factor - 1};
       taut->add(global_stencil(body, chosen[i]), along, measure, fields);
     } else {
       batch->add(global_stencil(body, chosen[i]), along, measure, limits[i]);

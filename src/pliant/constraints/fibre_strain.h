@@ -5,7 +5,8 @@
 //        x₂
 //       ╱ d╲           z = F d, F = Ds Dm⁻¹ (3 × 2), d a unit vector in the plane of the rest triangle
 //     x₀──↗─x₁         p = z/‖z‖ · clamp(‖z‖, min, max)        E = k a/2 (‖z‖ − ‖p‖)²
-//                                                              + (t − 1) k a/2 max(0, ‖z‖ − s)²
+//                                                              + (t − 1) k a g(‖z‖)
+//        g″ = 0 up to o, 1 from s on, and rises evenly between them
 //
 // The second term is of fibres that are t times as stiff once they are taut, at a stretch of s. It is there now and
 // then, so the factor has a part of it alone: all of it would keep the sheet from moving while it is slack. Both terms
@@ -47,6 +48,8 @@ struct FibreStrain {
   Real taut_factor = 1;
   /// From max_stretch.
   Real taut_stretch = 1.01;
+  /// From where on stiffness rises towards that, max_stretch to taut_stretch; none: at taut_stretch, all at once.
+  std::optional<Real> taut_onset{};
 
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -69,6 +72,11 @@ struct FibreStrain {
                      Range{1, 1e6}},
           self.taut_factor);
     field(OptionInfo{"taut_stretch", "", "stretch at which it is taut", positive}, self.taut_stretch);
+    field(OptionInfo{"taut_onset", "",
+                     "stretch from which on stiffness rises to that, from `max_stretch` to `taut_stretch`; without it "
+                     "all at once",
+                     positive},
+          self.taut_onset);
   }
 };
 
@@ -89,7 +97,7 @@ struct TautFibrePotential {
   static constexpr std::string_view name = FibreStrainProjection::name;
   static constexpr int vertices = 3;
   static constexpr int rows = 1;
-  static constexpr int fields = 4;  // min, max, s, t − 1
+  static constexpr int fields = 5;  // min, max, o, s − o > 0, t − 1
   static constexpr bool translation_invariant = true;
   static constexpr bool rotation_invariant = true;
   static constexpr bool limits_stretches = true;
@@ -97,10 +105,12 @@ struct TautFibrePotential {
   static Real potential(const Real* field, const Real* z, Real* d) {
     Real squared = find_pull<FibreStrainProjection>(field, z, d);
     const Real stretch = std::sqrt(z[0] * z[0] + z[1] * z[1] + z[2] * z[2]);
-    const Real beyond = stretch - field[2];
-    if (!(beyond > 0)) return squared;
-    for (std::size_t axis = 0; axis < 3; ++axis) d[axis] -= field[3] * beyond / stretch * z[axis];
-    return squared + field[3] * beyond * beyond / 2;
+    const Real past = stretch - field[2];
+    if (!(past > 0)) return squared;
+    const Real rise = std::min(past, field[3]), over = past - rise;
+    const Real pull = field[4] * (rise * (rise / field[3]) / 2 + over);
+    for (std::size_t axis = 0; axis < 3; ++axis) d[axis] -= pull / stretch * z[axis];
+    return squared + field[4] * (rise * (rise / field[3]) * rise / 3 + over * past) / 2;
   }
 };
 

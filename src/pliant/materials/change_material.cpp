@@ -79,7 +79,7 @@ MaterialPlacement present_placement(const Simulation& simulation, BodyId id) {
       return {.direction = fibres->direction,
               .grain = fibres->grain,
               .angle = fibres->angle,
-              .slack = is_slack ? fibres->taut_stretch - 1 : 0};
+              .slack = is_slack ? (fibres->taut_stretch - 1) / 2 : 0};
     }
   }
   return {};

@@ -21,7 +21,7 @@ constexpr Real gravity = 9.81;  // [m/s²]
 constexpr Real least_taut = 0.005;
 constexpr Real taut_beyond = 5;
 constexpr Real most_taut = 5;
-/// Of what threads would have without slack, what they have while they are slack.
+/// Of what threads would have without slack, what they have at rest.
 constexpr Real slack_share = 0.005;
 
 /// The modulus with which a meter that hangs is longer by `stretch`; `density` a square or a cubic meter.
@@ -52,7 +52,8 @@ std::vector<MaterialGroup> sheet_groups(SheetMaterial sheet, const MaterialPlace
       fibres.stiffness = slack_share * stretch;
       fibres.min_stretch = 0;
       fibres.taut_factor = std::max((std::min(measured, most_taut * stretch) - strain) / (slack_share * stretch), 1.0);
-      fibres.taut_stretch = 1 + placement.slack;
+      fibres.taut_onset = 1;
+      fibres.taut_stretch = 1 + 2 * placement.slack;
     }
     groups.push_back({name, std::move(fibres)});
   };

@@ -20,8 +20,9 @@ struct MaterialPlacement {
   /// By how much a meter of it that hangs is longer at least, ≥ 0; 0: as measured. Cloth stretches by a tenth of that,
   /// which nobody sees, and needs many times as many iterations to do so.
   Real least_stretch = 1e-3;
-  /// Up to which stretch threads give way, as wavy yarns do, 0 to 0.1; those do not push either. 0: none.
-  Real slack = 0;
+  /// Stretch that draws the waves of its yarns straight, 0 to 0.1: threads hardly push, and get stiffer up to twice
+  /// that. 0: as stiff from the start, and when pushed.
+  Real slack = 0.005;
 
   template <class Self, class Visitor>
   static void visit(Self& self, Visitor&& field) {
@@ -35,8 +36,8 @@ struct MaterialPlacement {
                      not_negative},
           self.least_stretch);
     field(OptionInfo{"slack", "",
-                     "up to which stretch its threads give way and do not push, as wavy yarns; with 0.005 coarse "
-                     "meshes hang in folds",
+                     "stretch that draws the waves of its yarns straight: threads do not push, and get stiffer up to "
+                     "twice that; 0: as stiff from the start, and when pushed, with which coarse meshes hardly fold",
                      Range{0, 0.1}},
           self.slack);
   }
@@ -52,11 +53,12 @@ struct MaterialGroup {
 /// The groups of a sheet or a solid, those that would do nothing left out. Moduli of stretch and shear, not of bending,
 /// are no more than what gives `least_stretch`.
 ///
-/// A sheet with threads: fibres along warp and weft, stiffer from a stretch of 1.005 on where they are softer than
-/// measured (up to five times), and a triangle strain of twice the shear modulus, of which the fibres have that much
-/// less. With `slack` they pull alone, with a two-hundredth of that up to there, and as taut threads beyond. A sheet
-/// with Poisson's ratio ν whose warp and weft are alike, as an isotropic plate in plane stress: strain E t/(1 + ν),
-/// area 2 E t ν/(1 − ν²). A solid: strain E/(1 + ν), volume 3 E ν/((1 + ν)(1 − 2ν)).
+/// A sheet with threads: fibres along warp and weft, and a triangle strain of twice the shear modulus, of which the
+/// fibres have that much less. Fibres pull alone: their stiffness rises evenly from a two-hundredth at rest to what was
+/// measured, or to five times what `least_stretch` gives, at a stretch of 1 + 2 `slack`. Without slack they push as
+/// well, with what `least_stretch` gives, and are that stiff from 1.005 on. A sheet with Poisson's ratio ν whose warp
+/// and weft are alike, as an isotropic plate in plane stress: strain E t/(1 + ν), area 2 E t ν/(1 − ν²). A solid:
+/// strain E/(1 + ν), volume 3 E ν/((1 + ν)(1 − 2ν)).
 std::vector<MaterialGroup> material_groups(const Material& material, const MaterialPlacement& placement = {});
 
 /// Mass per area or volume.

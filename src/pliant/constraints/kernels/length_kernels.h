@@ -70,14 +70,15 @@ struct LengthKernels : Block<width> {
       Number z[3];
       All::template reduce<3, 1>(block, i * width, z);
       const Number length = Math::square_root(z[0] * z[0] + z[1] * z[1] + z[2] * z[2]);
-      const double* of = block.fields + 4 * i * width;
-      const auto field = [&](std::size_t a) { return Math::load(of, 4, a); };
+      const double* of = block.fields + 5 * i * width;
+      const auto field = [&](std::size_t a) { return Math::load(of, 5, a); };
       const Number nearest = Math::smaller(Math::larger(length, field(0)), field(1));
       const Number change = without_rounding(nearest - length, length);
-      const Number beyond = without_rounding(Math::smaller(field(2) - length, Number{}), length);
-      const Number more = field(3) * beyond, w = All::weight(block, i * width);
-      pull(block, i, z, w * (change + more) / length);
-      sums.add(i, ~(length > 0), w / 2 * (change * change + more * beyond));
+      const Number past = without_rounding(Math::larger(length - field(2), Number{}), length);
+      const Number rise = Math::smaller(past, field(3)), over = past - rise;
+      const Number squared = rise * (rise / field(3)), w = All::weight(block, i * width);
+      pull(block, i, z, w * (change - field(4) * (squared / 2 + over)) / length);
+      sums.add(i, ~(length > 0), w / 2 * (change * change + field(4) * (squared * rise / 3 + over * past)));
     }
     return sums.done(vectors);
   }
