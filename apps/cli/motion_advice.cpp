@@ -132,6 +132,11 @@ nlohmann::ordered_json describe_motion(Scene& scene) {
       if (i % 5 == 4) stretch = std::max(stretch, pliant::stretch_past_limits(simulation));
     }
     error = pliant::find_step_error(simulation);
+    if (error && error->share > pliant::far_from_converged && steps + second_look <= scene.steps) {
+      for (std::int64_t i = 0; i < second_look; ++i) scene.step();
+      const std::optional<pliant::StepError> later = pliant::find_step_error(simulation);
+      if (later && later->share < error->share) error = later;
+    }
   } catch (const pliant::Error&) {
     return nullptr;
   }

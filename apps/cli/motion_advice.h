@@ -7,6 +7,10 @@
 
 namespace pliant_cli {
 
+/// So many steps after one that was far from converged another is looked at, and the better one of both counts: in an
+/// impact a single step can be, and shows nothing.
+inline constexpr std::int64_t second_look = 5;
+
 /// "20 iterations", or "automatic iterations, at most 100".
 std::string iterations_text(const pliant::SolverSettings& settings);
 

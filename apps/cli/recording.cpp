@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdio>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -71,12 +72,20 @@ void print_missed(const pliant::MissedTolerance& missed) {
 /// What a run needs to tell of itself at its end.
 struct RunEnd {
   pliant::RunInfo& info;
+  /// A step that was far from converged, until it is seen whether a later one is too.
+  struct Look {
+    std::int64_t step;
+    pliant::StepError error;
+  };
+
   double contact_seconds = 0;
+  std::optional<Look> first_look{};
   std::string far_from_converged{};  ///< what to say of the worst step; empty: nothing
 };
 
 /// Whether it is looked at how far the next step ends from where it should: seldom, since it takes many iterations.
-bool looks_at_step(std::int64_t step) {
+bool looks_at_step(std::int64_t step, const RunEnd& end) {
+  if (end.first_look) return step == end.first_look->step + second_look;
   std::int64_t looked_at = 30;
   while (looked_at < step) looked_at *= 10;
   return step == looked_at;
@@ -91,10 +100,18 @@ bool look_at_step(Scene& scene, RunEnd& end) {
     if (given_up.kind() == pliant::ErrorKind::interrupted) return false;
     throw;
   }
-  if (!error || (end.info.worst_step && end.info.worst_step->share >= error->share)) return true;
-  end.info.worst_step = pliant::WorstStep{scene.simulation.state().step, scene.simulation.body(error->body).name,
-                                          error->distance, error->share};
-  end.far_from_converged = far_from_converged_text(scene.simulation, *error);
+  const std::optional<RunEnd::Look> first = std::exchange(end.first_look, std::nullopt);
+  if (!error) return true;
+  RunEnd::Look look{scene.simulation.state().step, *error};
+  if (!first && error->share > pliant::far_from_converged && look.step + second_look < scene.steps) {
+    end.first_look = look;
+    return true;
+  }
+  if (first && first->error.share < look.error.share) look = *first;
+  if (end.info.worst_step && end.info.worst_step->share >= look.error.share) return true;
+  end.info.worst_step =
+      pliant::WorstStep{look.step, scene.simulation.body(look.error.body).name, look.error.distance, look.error.share};
+  end.far_from_converged = far_from_converged_text(scene.simulation, look.error);
   return true;
 }
 
@@ -116,7 +133,7 @@ void simulate(Scene& scene, pliant::Recorder& recorder, const fs::path& checkpoi
     if (every > 0 && step % every == 0 && step < scene.steps) pliant::write_checkpoint(checkpoint, scene);
     warnings.print(scene.simulation, progress);
     progress.update(step, recorder.residual());
-    if (step < scene.steps && looks_at_step(step) && !look_at_step(scene, end)) break;
+    if (step < scene.steps && looks_at_step(step, end) && !look_at_step(scene, end)) break;
   }
   pliant::write_checkpoint(checkpoint, scene);
 }

@@ -103,7 +103,8 @@ class Run(unittest.TestCase):
         self.assertRegex(done.stderr, r"^warning: far from converged: 2 iterations leave 'body 0' .* mm from where a step "
                          r"ends, .*; give --set settings.acceleration=lbfgs\n$")
         worst = self.run_info()["worst_step"]
-        self.assertEqual((worst["step"], worst["body"]), (30, "body 0"))
+        self.assertIn(worst["step"], (30, 35))
+        self.assertEqual(worst["body"], "body 0")
         self.assertGreater(worst["share"], 0.5)
         done = self.pliant("run", path, "--out", self.out, "--quiet", "--set", "settings.acceleration=lbfgs",
                            "--iterations", "automatic")
@@ -111,6 +112,23 @@ class Run(unittest.TestCase):
         info = self.run_info()
         self.assertLess(info["worst_step"]["share"], 0.5)
         self.assertEqual(info["settings"]["iterations"], "automatic")
+
+    def test_a_single_step_that_is_far_from_converged_is_not_told(self):
+        cloth = {"mesh": {"shape": "grid", "columns": 20, "rows": 20, "plane": "xy"}, "material": "denim",
+                 "constraints": [{"type": "position", "on": [380, 399]}]}
+        scene = {"pliant": 1, "settings": {"iterations": 40}, "bodies": [cloth],
+                 "events": [{"step": 29, "settings": {"iterations": 1}}, {"step": 31, "settings": {"iterations": 40}}]}
+        path = self.folder / "cloth.json"
+        path.write_text(json.dumps(scene))
+        # Without a step five later, the one that there is counts.
+        for steps, looked_at in ((33, 30), (40, 35)):
+            done = self.pliant("run", path, "--out", self.out, "--quiet", "--steps", steps)
+            worst = self.run_info()["worst_step"]
+            self.assertEqual(worst["step"], looked_at)
+            self.assertEqual(worst["share"] > 0.5, looked_at == 30, worst)
+            self.assertEqual("far from converged" in done.stderr, looked_at == 30)
+            text = self.pliant("check", path, "--set", f"steps={steps}").stdout
+            self.assertEqual("far from converged" in text, looked_at == 30)
 
     def test_two_runs_give_the_same_frames_and_replace_each_other(self):
         scene = self.write_scene()
