@@ -115,6 +115,35 @@ std::string far_from_converged_text(const Simulation& simulation, const pliant::
          fmt::format("; give '{}' less stiffness, or more iterations: --iterations {}", body, 2 * settings.iterations);
 }
 
+namespace {
+
+/// How far the coming step is from converged, in numbers and in words.
+struct Exactness {
+  pliant::StepError error;
+  std::string text, warning;
+};
+
+std::optional<Exactness> exactness_of_step(Simulation& simulation) {
+  const std::optional<pliant::StepError> error = pliant::find_step_error(simulation);
+  if (!error) return std::nullopt;
+  return Exactness{*error, exact_text(simulation, *error), far_from_converged_text(simulation, *error)};
+}
+
+/// Where the coming step, the `step`-th, is far from converged, the better one of it and one a few steps later.
+std::optional<Exactness> find_exactness(Scene& scene, std::int64_t step) {
+  const std::optional<Exactness> first = exactness_of_step(scene.simulation);
+  if (!first || first->warning.empty() || step + second_look >= scene.steps) return first;
+  try {
+    for (std::int64_t i = 0; i < second_look; ++i) scene.step();
+    const std::optional<Exactness> second = exactness_of_step(scene.simulation);
+    if (second && second->error.share < first->error.share) return second;
+  } catch (const pliant::Error&) {  // which a run tells
+  }
+  return first;
+}
+
+}  // namespace
+
 nlohmann::ordered_json describe_motion(Scene& scene) {
   Simulation& simulation = scene.simulation;
   const SolverSettings& settings = simulation.settings();
@@ -123,7 +152,7 @@ nlohmann::ordered_json describe_motion(Scene& scene) {
   if (steps == 0 || steps * settings.substeps * simulation.state().vertex_count() > most_work) return nullptr;
   std::vector<Real> seconds;
   Real stretch = 0;
-  std::optional<pliant::StepError> error;
+  std::optional<Exactness> exactness;
   try {
     for (std::int64_t i = 0; i < steps; ++i) {
       const pliant::Stopwatch watch;
@@ -131,12 +160,7 @@ nlohmann::ordered_json describe_motion(Scene& scene) {
       seconds.push_back(watch.seconds());
       if (i % 5 == 4) stretch = std::max(stretch, pliant::stretch_past_limits(simulation));
     }
-    error = pliant::find_step_error(simulation);
-    if (error && error->share > pliant::far_from_converged && steps + second_look <= scene.steps) {
-      for (std::int64_t i = 0; i < second_look; ++i) scene.step();
-      const std::optional<pliant::StepError> later = pliant::find_step_error(simulation);
-      if (later && later->share < error->share) error = later;
-    }
+    exactness = find_exactness(scene, steps);
   } catch (const pliant::Error&) {
     return nullptr;
   }
@@ -150,11 +174,12 @@ nlohmann::ordered_json describe_motion(Scene& scene) {
   std::vector<std::string> lines = {"how lively: " + lively_text(settings),
                                     "how stretchy: " + stretchy_text(simulation, stretch),
                                     "how fast: " + fast_text(median, settings)};
-  if (error) {
+  if (exactness) {
+    const pliant::StepError& error = exactness->error;
     json["step_error"] = {
-        {"body", simulation.body(error->body).name}, {"distance", error->distance}, {"share", error->share}};
-    lines.push_back("how exact: " + exact_text(simulation, *error));
-    json["warning"] = far_from_converged_text(simulation, *error);
+        {"body", simulation.body(error.body).name}, {"distance", error.distance}, {"share", error.share}};
+    lines.push_back("how exact: " + exactness->text);
+    json["warning"] = exactness->warning;
   }
   json["text"] = lines;
   return json;

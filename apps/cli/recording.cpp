@@ -72,20 +72,28 @@ void print_missed(const pliant::MissedTolerance& missed) {
 /// What a run needs to tell of itself at its end.
 struct RunEnd {
   pliant::RunInfo& info;
-  /// A step that was far from converged, until it is seen whether a later one is too.
   struct Look {
-    std::int64_t step;
-    pliant::StepError error;
+    pliant::WorstStep step;
+    std::string text;  ///< what to say of it; empty: nothing
   };
 
   double contact_seconds = 0;
-  std::optional<Look> first_look{};
+  std::optional<Look> first_look{};  ///< of a step far from converged, until it is seen whether a later one is too
   std::string far_from_converged{};  ///< what to say of the worst step; empty: nothing
+
+  void count(const Look& look) {
+    if (info.worst_step && info.worst_step->share >= look.step.share) return;
+    info.worst_step = look.step;
+    far_from_converged = look.text;
+  }
+  void count_first_look() {
+    if (first_look) count(*std::exchange(first_look, std::nullopt));
+  }
 };
 
 /// Whether it is looked at how far the next step ends from where it should: seldom, since it takes many iterations.
 bool looks_at_step(std::int64_t step, const RunEnd& end) {
-  if (end.first_look) return step == end.first_look->step + second_look;
+  if (end.first_look) return step == end.first_look->step.step + second_look;
   std::int64_t looked_at = 30;
   while (looked_at < step) looked_at *= 10;
   return step == looked_at;
@@ -100,18 +108,19 @@ bool look_at_step(Scene& scene, RunEnd& end) {
     if (given_up.kind() == pliant::ErrorKind::interrupted) return false;
     throw;
   }
-  const std::optional<RunEnd::Look> first = std::exchange(end.first_look, std::nullopt);
-  if (!error) return true;
-  RunEnd::Look look{scene.simulation.state().step, *error};
-  if (!first && error->share > pliant::far_from_converged && look.step + second_look < scene.steps) {
+  if (!error) {
+    end.count_first_look();
+    return true;
+  }
+  const std::int64_t step = scene.simulation.state().step;
+  const RunEnd::Look look{{step, scene.simulation.body(error->body).name, error->distance, error->share},
+                          far_from_converged_text(scene.simulation, *error)};
+  if (!end.first_look && error->share > pliant::far_from_converged && step + second_look < scene.steps) {
     end.first_look = look;
     return true;
   }
-  if (first && first->error.share < look.error.share) look = *first;
-  if (end.info.worst_step && end.info.worst_step->share >= look.error.share) return true;
-  end.info.worst_step =
-      pliant::WorstStep{look.step, scene.simulation.body(look.error.body).name, look.error.distance, look.error.share};
-  end.far_from_converged = far_from_converged_text(scene.simulation, look.error);
+  const std::optional<RunEnd::Look> first = std::exchange(end.first_look, std::nullopt);
+  end.count(first && first->step.share < look.step.share ? *first : look);
   return true;
 }
 
@@ -182,6 +191,7 @@ void record_run(Scene& scene, pliant::Recorder& recorder, const fs::path& folder
     info.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     info.frames = recorder.frame_count();
     info.last_frame = recorder.last_frame_checksum();
+    end.count_first_look();
   };
   try {
     simulate(scene, recorder, folder / pliant::checkpoint_name, options, end);

@@ -198,10 +198,11 @@ class FibreStrain(ConstraintOptions):
         min_stretch: smallest stretch left alone, default 1.0
         max_stretch: largest stretch left alone, default 1.0
         taut_factor: how many times as stiff it is beyond `taut_stretch`, as threads whose waves are drawn out, default 1.0
+        slack_factor: how many times as stiff it is before that, as threads that are slack at rest, default 1.0
         taut_stretch: stretch at which it is taut, default 1.01
         taut_onset: stretch from which on stiffness rises to that, from `max_stretch` to `taut_stretch`; without it all at once
     """
-    def __init__(self, *, on: Selection = ..., stencils: Stencils = ..., direction: Points = ..., grain: Literal["automatic", "uv", "edge"] = ..., angle: float = ..., stiffness: Values = ..., min_stretch: Values = ..., max_stretch: Values = ..., taut_factor: float = ..., taut_stretch: float = ..., taut_onset: Optional[float] = ...) -> None: ...
+    def __init__(self, *, on: Selection = ..., stencils: Stencils = ..., direction: Points = ..., grain: Literal["automatic", "uv", "edge"] = ..., angle: float = ..., stiffness: Values = ..., min_stretch: Values = ..., max_stretch: Values = ..., taut_factor: float = ..., slack_factor: float = ..., taut_stretch: float = ..., taut_onset: Optional[float] = ...) -> None: ...
 
 class Gravity(ForceOptions):
     """Force `gravity`. m g

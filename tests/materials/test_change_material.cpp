@@ -80,7 +80,7 @@ TEST_CASE("from a change on a sheet moves as one that was made of that material"
     };
     changed.steps(5);
     fresh.steps(5);
-    CHECK(apart() < 1e-10);  // groups are summed in the order in which they came
+    CHECK(apart() < 1e-9);  // groups are summed in the order in which they came
     changed.steps(15);
     fresh.steps(15);
     CHECK(apart() < 1e-6);
@@ -88,12 +88,12 @@ TEST_CASE("from a change on a sheet moves as one that was made of that material"
 }
 
 TEST_CASE("a change of material leaves threads as slack as they were") {
-  for (const Real slack : {0.0, 0.004}) {
+  for (const Real slack : {0.0, 0.004, MaterialPlacement{}.slack, 0.1}) {
     Simulation simulation;
     const BodyId body = simulation.add_body(grid({.columns = 3, .rows = 3}), Mass::total(1), {.name = "sheet"});
     add_material(simulation, body, builtin_material("cotton"), {.slack = slack});
     change_material(simulation, body, builtin_material("silk"));
-    CHECK(present_placement(simulation, body).slack == doctest::Approx(slack));
+    CHECK(present_placement(simulation, body).slack == slack);
   }
 }
 

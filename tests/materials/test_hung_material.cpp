@@ -21,11 +21,12 @@ constexpr Real gravity = 9.81;
 constexpr Real first_frequency = 1.2024128;
 
 /// Of a meter that hangs [m]: what lies s above the end carries ρ g s. Up to a stretch of 1 + 2 · 0.005 threads carry
-/// k₀ b + (k − k₀) b²/0.02, shear 2 G b.
+/// k₀ b + (k₁ − k₀) b²/0.02, shear 2 G b.
 Real elongation(const SheetMaterial& sheet) {
   const Real weight = gravity * sheet.area_density;  // of a meter, a meter wide [N/m]
-  const Real soft = 0.005 * weight / 1e-3 + 2 * sheet.shear;
-  const Real taut = std::min(sheet.stretch_warp, 5 * weight / 1e-3);
+  const Real threads = weight / 1e-3 - 2 * sheet.shear;
+  const Real soft = 0.005 * threads + 2 * sheet.shear;
+  const Real taut = std::min(sheet.stretch_warp, 5 * threads + 2 * sheet.shear);
   const Real rise = (taut - soft) / 0.01;
   REQUIRE(weight < soft * 0.01 + rise * 0.01 * 0.01 / 2);  // the rise alone
   constexpr int parts = 1000;
@@ -110,7 +111,7 @@ TEST_CASE("a hung sheet of wool is as long as its threads say, and its first per
       for (const auto& trial : {std::pair<Index, Real>{20, 0.03}, std::pair<Index, Real>{40, 0.01}}) {
         CAPTURE(trial.first);
         Strip strip(wool, cells, diagonals, trial.first);
-        CHECK(strip.damped_length() == doctest::Approx(1 + longer).epsilon(3e-4));
+        CHECK(strip.damped_length() - 1 == doctest::Approx(longer).epsilon(0.05).scale(0));
         CHECK(strip.period() == doctest::Approx(period).epsilon(trial.second));
       }
     }
@@ -122,7 +123,7 @@ TEST_CASE("a hung sheet without slack is as long as its modulus says, and swings
   for (const Diagonals diagonals : {Diagonals::forward, Diagonals::crossed}) {
     Strip strip(builtin_material("wool"), 16, diagonals, 40, {.slack = 0});
     // The threads have the modulus with which a meter is longer by a thousandth under its weight at the top.
-    CHECK(strip.damped_length() == doctest::Approx(1.0005).epsilon(3e-4));
+    CHECK(strip.damped_length() - 1 == doctest::Approx(0.0005).epsilon(0.1).scale(0));
     CHECK(strip.period() == doctest::Approx(period).epsilon(0.01));
   }
 }

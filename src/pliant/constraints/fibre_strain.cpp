@@ -17,12 +17,16 @@ constexpr Real taut_share = 0.25;
 constexpr Real least_rise = 1e-30;
 
 void check_taut(std::string_view type, const FibreStrain& options, const Limits& limits, Index count) {
+  const auto check_from_max = [&](std::string_view name, Real stretch) {
+    for (Index i = 0; i < count; ++i) {
+      if (stretch >= limits[i][1]) continue;
+      fail_input(
+          fmt::format("{}: {}: {} is below max_stretch {}; give at least as much", type, name, stretch, limits[i][1]));
+    }
+  };
+  check_from_max("taut_stretch", options.taut_stretch);
   const Real onset = options.taut_onset.value_or(options.taut_stretch);
-  for (Index i = 0; i < count; ++i) {
-    if (onset >= limits[i][1]) continue;
-    fail_input(fmt::format("{}: {}: {} is below max_stretch {}; give at least as much", type,
-                           options.taut_onset ? "taut_onset" : "taut_stretch", onset, limits[i][1]));
-  }
+  check_from_max("taut_onset", onset);
   if (onset <= options.taut_stretch) return;
   fail_input(fmt::format("{}: taut_onset: {} is above taut_stretch {}; give at most as much", type, onset,
                          options.taut_stretch));
@@ -39,7 +43,8 @@ ConstraintSet build(const BodyView& body, const FibreStrain& options) {
   const Eigen::Rotation2D<Real> turn(options.angle * std::numbers::pi / 180);
 
   const StiffnessSplit stiffness(type, body, options.stiffness, chosen);
-  const bool gets_taut = options.taut_factor > 1;
+  const Real rise_factor = options.taut_factor / options.slack_factor;
+  const bool gets_taut = rise_factor > 1;
   if (gets_taut) check_taut(type, options, limits, chosen.size());
   const Real onset = options.taut_onset.value_or(options.taut_stretch);
   const Real rise = std::max(options.taut_stretch - onset, least_rise);
@@ -47,7 +52,7 @@ ConstraintSet build(const BodyView& body, const FibreStrain& options) {
   std::unique_ptr<Batch<TautFibrePotential>> taut;
   if (gets_taut) {
     taut = std::make_unique<Batch<TautFibrePotential>>(stiffness.common());
-    taut->set_factor_share(1 + taut_share * (options.taut_factor - 1));
+    taut->set_factor_share(1 + taut_share * (rise_factor - 1));
   } else {
     batch = std::make_unique<Batch<FibreStrainProjection>>(stiffness.common());
   }
@@ -61,8 +66,8 @@ ConstraintSet build(const BodyView& body, const FibreStrain& options) {
     along[0] = -(along[1] + along[2]);
     const Real measure = stiffness.of(i) * rest.measure;
     if (gets_taut) {
-      const std::array<Real, 5> fields = {limits[i][0], limits[i][1], onset, rise, options.taut_factor - 1};
-      taut->add(global_stencil(body, chosen[i]), along, measure, fields);
+      const std::array<Real, 5> fields = {limits[i][0], limits[i][1], onset, rise, rise_factor - 1};
+      taut->add(global_stencil(body, chosen[i]), along, options.slack_factor * measure, fields);
     } else {
       batch->add(global_stencil(body, chosen[i]), along, measure, limits[i]);
     }

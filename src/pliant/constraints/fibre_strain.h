@@ -4,11 +4,12 @@
 //
 //        x₂
 //       ╱ d╲           z = F d, F = Ds Dm⁻¹ (3 × 2), d a unit vector in the plane of the rest triangle
-//     x₀──↗─x₁         p = z/‖z‖ · clamp(‖z‖, min, max)        E = k a/2 (‖z‖ − ‖p‖)²
-//                                                              + (t − 1) k a g(‖z‖)
-//        g″ = 0 up to o, 1 from s on, and rises evenly between them
+//     x₀──↗─x₁         p = z/‖z‖ · clamp(‖z‖, min, max)        E = r k a/2 (‖z‖ − ‖p‖)² + (t − r) k a g(‖z‖)
 //
-// The second term is of fibres that are t times as stiff once they are taut, at a stretch of s. It is there now and
+//        g = 0 up to o; g″ rises evenly from 0 at o to 1 at s, and stays there
+//
+// The second term is of fibres that are t times as stiff once they are taut, at a stretch of s, and r times as stiff
+// before: 1, or less of threads that are slack at rest. It is there now and
 // then, so the factor has a part of it alone: all of it would keep the sheet from moving while it is slack. Both terms
 // are found together, as one potential.
 //
@@ -48,6 +49,8 @@ struct FibreStrain {
   Real taut_factor = 1;
   /// From max_stretch.
   Real taut_stretch = 1.01;
+  /// How many times as stiff it is up to taut_onset, 1e-6 to 1: threads that are slack at rest.
+  Real slack_factor = 1;
   /// From where on stiffness rises towards that, max_stretch to taut_stretch; none: at taut_stretch, all at once.
   std::optional<Real> taut_onset{};
 
@@ -71,6 +74,9 @@ struct FibreStrain {
                      "how many times as stiff it is beyond `taut_stretch`, as threads whose waves are drawn out",
                      Range{1, 1e6}},
           self.taut_factor);
+    field(OptionInfo{"slack_factor", "", "how many times as stiff it is before that, as threads that are slack at rest",
+                     Range{1e-6, 1}},
+          self.slack_factor);
     field(OptionInfo{"taut_stretch", "", "stretch at which it is taut", positive}, self.taut_stretch);
     field(OptionInfo{"taut_onset", "",
                      "stretch from which on stiffness rises to that, from `max_stretch` to `taut_stretch`; without it "
@@ -97,7 +103,7 @@ struct TautFibrePotential {
   static constexpr std::string_view name = FibreStrainProjection::name;
   static constexpr int vertices = 3;
   static constexpr int rows = 1;
-  static constexpr int fields = 5;  // min, max, o, s − o > 0, t − 1
+  static constexpr int fields = 5;  // min, max, o, s − o > 0, t/r − 1; r is in the measure
   static constexpr bool translation_invariant = true;
   static constexpr bool rotation_invariant = true;
   static constexpr bool limits_stretches = true;

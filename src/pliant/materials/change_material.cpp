@@ -1,6 +1,7 @@
 #include "pliant/materials/change_material.h"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -57,6 +58,13 @@ void stiffen_ties(Simulation& simulation, BodyId id, Real before) {
   }
 }
 
+/// As material_groups() was told it, to the last digit where it is a short number.
+Real slack_of(const FibreStrain& fibres) {
+  if (fibres.slack_factor == 1) return 0;
+  constexpr Real digits = 1e12, most = 0.1;
+  return std::clamp<Real>(std::round(digits * (fibres.taut_stretch - 1) / 2) / digits, 0, most);
+}
+
 }  // namespace
 
 bool goes_with_material(const Group& group) {
@@ -75,11 +83,8 @@ MaterialPlacement present_placement(const Simulation& simulation, BodyId id) {
   for (const auto& [group_id, group] : simulation.groups()) {
     if (group.body != id) continue;
     if (const auto* fibres = options_in<FibreStrain>(group)) {
-      const bool is_slack = fibres->taut_factor > 1 && fibres->min_stretch[0] == 0;
-      return {.direction = fibres->direction,
-              .grain = fibres->grain,
-              .angle = fibres->angle,
-              .slack = is_slack ? (fibres->taut_stretch - 1) / 2 : 0};
+      return {
+          .direction = fibres->direction, .grain = fibres->grain, .angle = fibres->angle, .slack = slack_of(*fibres)};
     }
   }
   return {};

@@ -16,12 +16,12 @@ namespace {
 /// A Poisson's ratio is expressed where warp and weft agree so far.
 constexpr Real alike = 1.001;
 constexpr Real gravity = 9.81;  // [m/s²]
-/// From so much, or so many times `least_stretch`, on threads that were made softer have the modulus that was measured,
-/// or so many times their own.
+/// Threads that were made softer are taut from so much on where they have no slack, or so many times `least_stretch`,
+/// with the modulus that was measured, or so many times their own.
 constexpr Real least_taut = 0.005;
 constexpr Real taut_beyond = 5;
 constexpr Real most_taut = 5;
-/// Of what threads would have without slack, what they have at rest.
+/// Of the stiffness of slack threads, what they have at rest.
 constexpr Real slack_share = 0.005;
 
 /// The modulus with which a meter that hangs is longer by `stretch`; `density` a square or a cubic meter.
@@ -49,11 +49,10 @@ std::vector<MaterialGroup> sheet_groups(SheetMaterial sheet, const MaterialPlace
                        .taut_factor = std::min((measured - strain) / (stretch - strain), most_taut),
                        .taut_stretch = taut_stretch};
     if (placement.slack > 0) {
-      fibres.stiffness = slack_share * stretch;
       fibres.min_stretch = 0;
-      fibres.taut_factor = std::max((std::min(measured, most_taut * stretch) - strain) / (slack_share * stretch), 1.0);
+      fibres.slack_factor = slack_share;
       fibres.taut_onset = 1;
-      fibres.taut_stretch = 1 + 2 * placement.slack;
+      fibres.taut_stretch = 1 + std::max(2 * placement.slack, taut_beyond * placement.least_stretch);
     }
     groups.push_back({name, std::move(fibres)});
   };

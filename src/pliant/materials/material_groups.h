@@ -20,7 +20,7 @@ struct MaterialPlacement {
   /// By how much a meter of it that hangs is longer at least, ≥ 0; 0: as measured. Cloth stretches by a tenth of that,
   /// which nobody sees, and needs many times as many iterations to do so.
   Real least_stretch = 1e-3;
-  /// Stretch that draws the waves of its yarns straight, 0 to 0.1: threads hardly push, and get stiffer up to twice
+  /// Stretch that draws the waves of its yarns straight, 0 to 0.1: threads do not push, and get stiffer up to twice
   /// that. 0: as stiff from the start, and when pushed.
   Real slack = 0.005;
 
@@ -31,8 +31,8 @@ struct MaterialPlacement {
     field(OptionInfo{"grain", "", "where no direction is given: see `fibre_strain`"}, self.grain);
     field(OptionInfo{"angle", "degrees", "from there to the warp; 45: cut on the bias"}, self.angle);
     field(OptionInfo{"least_stretch", "",
-                     "by how much a meter of it that hangs is longer at least; 0: as measured, which needs many more "
-                     "iterations",
+                     "by how much a meter of it that hangs is longer at least; 0: as measured, but for `slack`, which "
+                     "needs many more iterations",
                      not_negative},
           self.least_stretch);
     field(OptionInfo{"slack", "",
@@ -54,11 +54,12 @@ struct MaterialGroup {
 /// are no more than what gives `least_stretch`.
 ///
 /// A sheet with threads: fibres along warp and weft, and a triangle strain of twice the shear modulus, of which the
-/// fibres have that much less. Fibres pull alone: their stiffness rises evenly from a two-hundredth at rest to what was
-/// measured, or to five times what `least_stretch` gives, at a stretch of 1 + 2 `slack`. Without slack they push as
-/// well, with what `least_stretch` gives, and are that stiff from 1.005 on. A sheet with Poisson's ratio ν whose warp
-/// and weft are alike, as an isotropic plate in plane stress: strain E t/(1 + ν), area 2 E t ν/(1 − ν²). A solid:
-/// strain E/(1 + ν), volume 3 E ν/((1 + ν)(1 − 2ν)).
+/// fibres have that much less. Fibres pull alone: their stiffness rises evenly, from a two-hundredth of what
+/// `least_stretch` gives at rest to what was measured, or five times what `least_stretch` gives, whichever is less, at
+/// a stretch of 1 + 2 `slack` (or 1 + 5 `least_stretch`, where that is more). Without slack they push as well, with
+/// what `least_stretch` gives, and are taut from 1.005 on (or 1 + 5 `least_stretch`). A sheet with Poisson's ratio ν
+/// whose warp and weft are alike, as an isotropic plate in plane stress: strain E t/(1 + ν), area 2 E t ν/(1 − ν²). A
+/// solid: strain E/(1 + ν), volume 3 E ν/((1 + ν)(1 − 2ν)).
 std::vector<MaterialGroup> material_groups(const Material& material, const MaterialPlacement& placement = {});
 
 /// Mass per area or volume.

@@ -41,8 +41,9 @@ struct RunInfo {
   std::optional<std::int64_t> resumed_from;  ///< step at which this run went on
   std::optional<std::uint32_t> last_frame;   ///< its checksum (frame_checksum); none: no frame was recorded
   double wall_seconds = 0;
-  MissedTolerance missed_tolerance;     ///< since the start of the run, or since it was resumed
-  std::optional<WorstStep> worst_step;  ///< of those that were looked at, since the start or since it was resumed
+  MissedTolerance missed_tolerance;  ///< since the start of the run, or since it was resumed
+  std::optional<WorstStep>
+      worst_step;  ///< of those that count, see docs/algorithm.md, since the start or since it was resumed
   Outcome outcome = Outcome::running;
   std::string error;  ///< the message when it did not end well
 };

@@ -13,8 +13,10 @@ std::string read_bytes(const Node& node) {
 
 void read_numbers(const Node& node, std::span<Real> numbers) {
   if (!node.is_bytes() || node.bytes().size() != numbers.size_bytes()) {
-    node.fail(fmt::format("{} numbers belong here, as the scene or the simulation is now; make it as it was",
-                          numbers.size()));
+    node.fail(
+        fmt::format("{} numbers belong here, as the scene or the simulation is now; make it as it was, or resume "
+                    "it with the version that wrote it",
+                    numbers.size()));
   }
   if (!numbers.empty()) std::memcpy(numbers.data(), node.bytes().data(), numbers.size_bytes());
   if (std::ranges::all_of(numbers, [](Real x) { return std::isfinite(x); })) return;
