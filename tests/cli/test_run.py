@@ -121,7 +121,7 @@ class Run(unittest.TestCase):
         path = self.folder / "cloth.json"
         path.write_text(json.dumps(scene))
         # Without a step five later, the one that there is counts.
-        for steps, looked_at in ((33, 30), (40, 35)):
+        for steps, looked_at in ((33, 30), (35, 30), (36, 35)):
             done = self.pliant("run", path, "--out", self.out, "--quiet", "--steps", steps)
             worst = self.run_info()["worst_step"]
             self.assertEqual(worst["step"], looked_at)
@@ -129,6 +129,14 @@ class Run(unittest.TestCase):
             self.assertEqual("far from converged" in done.stderr, looked_at == 30)
             text = self.pliant("check", path, "--set", f"steps={steps}").stdout
             self.assertEqual("far from converged" in text, looked_at == 30)
+        # As it does where nothing can be said of the later one; its iterations are told, not those of the later one.
+        scene["events"][1] = {"step": 31, "settings": {"iterations": 2000}}
+        path.write_text(json.dumps(scene))
+        done = self.pliant("run", path, "--out", self.out, "--quiet", "--steps", 36)
+        self.assertEqual(self.run_info()["worst_step"]["step"], 30)
+        text = self.pliant("check", path, "--set", "steps=36").stdout
+        for told in (done.stderr, text):
+            self.assertIn("far from converged: 1 iteration leaves", told)
 
     def test_two_runs_give_the_same_frames_and_replace_each_other(self):
         scene = self.write_scene()
