@@ -131,6 +131,7 @@ TEST_CASE("how far stretches are past their limits is the largest excess of all 
   CHECK(past_limits(FibreStrain{.direction = Vec3(1, 0, 0)}) == approx(0.25));
   CHECK(past_limits(FibreStrain{.direction = Vec3(0, 1, 0), .stiffness = 1e6, .max_stretch = 1.025}) == approx(0.1));
   CHECK(past_limits(FibreStrain{.direction = Vec3(1, 0, 0), .taut_factor = 30}) == approx(0.25));
+  CHECK(past_limits(FibreStrain{.direction = Vec3(1, 0, 0), .slack_factor = 0.005, .taut_onset = 1.0}) == approx(0.25));
   CHECK(past_limits(FibreStrain{.direction = Vec3(1, 0, 0), .max_stretch = 1.1, .taut_factor = 3, .taut_stretch = 1.2},
                     FibreStrain{.direction = Vec3(0, 1, 0), .min_stretch = 1.3, .max_stretch = 1.3}) == approx(0.175));
   CHECK(past_limits(TriangleStrain{.stiffness = 3, .max_stretch = 1.2}) == approx(0.05));
