@@ -50,8 +50,8 @@ std::optional<pliant::Scene> scene_of_run(const AppearanceArguments& arguments) 
       !std::ranges::all_of(overrides.set, [](const std::string& set) { return set.starts_with("view."); });
   if (has_others) {
     pliant::fail_input(
-        fmt::format("{}: a run is shown as it was recorded; of --set only what begins with 'view.' "
-                    "counts; to change more, give its scene",
+        fmt::format("{}: a run is shown as it was recorded; of the options that change a scene only --set of what "
+                    "begins with 'view.' counts; to change more, give its scene",
                     pliant::printable_place(arguments.scene)));
   }
   const fs::path checkpoint = fs::path(arguments.scene) / pliant::checkpoint_name;

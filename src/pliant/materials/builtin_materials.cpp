@@ -36,7 +36,7 @@ Material cotton() {
 
 Material denim() {
   return {.name = "denim",
-          .description = "cotton twill of 11 oz, as of jeans: heavy and stiff",
+          .description = "cotton twill of 11 oz, as of worn jeans: heavy",
           .source =
               "Kumari and Khurana 2016 (J. Textiles, Table 5), mean of six: stretch, shear, bending, damping; "
               "Wang et al. 2011, sample 11oz-black-denim: weight; friction: the rough end of cloth",

@@ -24,7 +24,7 @@ constexpr Real most_taut = 5;
 /// Of the stiffness of slack threads, what they have at rest.
 constexpr Real slack_share = 0.005;
 
-/// The modulus with which a meter that hangs is longer by `stretch`; `density` a square or a cubic meter.
+/// The modulus with which a meter that hangs is stretched by `stretch` at its top; `density` a square or a cubic meter.
 Real modulus_of(Real stretch, Real density) {
   return stretch > 0 ? density * gravity / stretch : std::numeric_limits<Real>::max();
 }

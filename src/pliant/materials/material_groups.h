@@ -17,8 +17,8 @@ struct MaterialPlacement {
   Grain grain = Grain::automatic;
   /// From there to the warp [degrees]; 45: cut on the bias.
   Real angle = 0;
-  /// By how much a meter of it that hangs is longer at least, ≥ 0; 0: as measured. Cloth stretches by a tenth of that,
-  /// which nobody sees, and needs many times as many iterations to do so.
+  /// By how much it is stretched at least at the top of a meter of it that hangs, ≥ 0; 0: as measured. Cloth stretches
+  /// by a tenth of that, which nobody sees, and needs many times as many iterations to do so.
   Real least_stretch = 1e-3;
   /// Stretch that draws the waves of its yarns straight, 0 to 0.1: threads do not push, and get stiffer up to twice
   /// that. 0: as stiff from the start, and when pushed.
@@ -31,8 +31,8 @@ struct MaterialPlacement {
     field(OptionInfo{"grain", "", "where no direction is given: see `fibre_strain`"}, self.grain);
     field(OptionInfo{"angle", "degrees", "from there to the warp; 45: cut on the bias"}, self.angle);
     field(OptionInfo{"least_stretch", "",
-                     "by how much a meter of it that hangs is longer at least; 0: as measured, but for `slack`, which "
-                     "needs many more iterations",
+                     "by how much it is stretched at least at the top of a meter of it that hangs; 0: as measured, but "
+                     "for `slack`, which needs many more iterations",
                      not_negative},
           self.least_stretch);
     field(OptionInfo{"slack", "",
