@@ -3,6 +3,7 @@
 #include <span>
 #include <string>
 
+#include "pliant/collision/colliders/collider.h"
 #include "pliant_io/scene/detail/json_values.h"
 
 namespace pliant {
