@@ -8,10 +8,10 @@
 The coefficient is the share of the overhanging ring that the shadow from above covers [%]. Cells are counted over the
 overhang. What lies between the two plates of the apparatus is flat and fixed, and leaves it horizontally; the rest lies
 on a platform at first, which is lowered slowly: lowered faster, or let go at once, cloth falls into more folds. A start
-is a small random disturbance, the same on every mesh; --starts=-8 disturbs into eight folds alone. A fabric is the material of that name
-as it is; --bare: isotropic, of its weight and bending, twice its shear as the stiffness of `triangle_strain`. Published
-coefficients and their source are in docs/materials.md. Scenes, runs and `drape.csv` are in FOLDER, default out/drape;
-runs that are there are not made again. Needs python3-numpy and python3-pil.
+is a small random disturbance, the same on every mesh; --starts=-8 disturbs into eight folds alone. A fabric is the
+material of that name as it is; --bare: isotropic, of its weight and bending, twice its shear as the stiffness of
+`triangle_strain`. Published coefficients and their source are in docs/materials.md. Scenes, runs and `drape.csv` are in
+FOLDER, default out/drape; runs that are there are not made again. Needs python3-numpy and python3-pil.
 """
 import argparse
 import csv

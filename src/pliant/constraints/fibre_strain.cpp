@@ -13,7 +13,7 @@ namespace {
 /// Of what taut fibres have beyond the others, in the factor: with less, moves are taken back often, with more, the
 /// sheet moves too little.
 constexpr Real taut_share = 0.25;
-/// Over which stiffness rises at once.
+/// Width of a rise in stiffness that is made at once.
 constexpr Real least_rise = 1e-30;
 
 void check_taut(std::string_view type, const FibreStrain& options, const Limits& limits, Index count) {

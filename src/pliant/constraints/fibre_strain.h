@@ -9,9 +9,8 @@
 //        g = 0 up to o; g″ rises evenly from 0 at o to 1 at s, and stays there
 //
 // The second term is of fibres that are t times as stiff once they are taut, at a stretch of s, and r times as stiff
-// before: 1, or less of threads that are slack at rest. It is there now and
-// then, so the factor has a part of it alone: all of it would keep the sheet from moving while it is slack. Both terms
-// are found together, as one potential.
+// before: 1, or less of threads that are slack at rest. It is there now and then, so the factor has a part of it alone:
+// all of it would keep the sheet from moving while it is slack. Both terms are found together, as one potential.
 //
 // Source: Bouaziz et al. 2014, Sec. 5.1 in one dimension; the same sheet at any resolution. Shear and whatever lies
 // across d are free: a woven cloth is one entry along the warp, one along the weft (`angle` 90), and a

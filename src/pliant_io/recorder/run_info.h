@@ -42,8 +42,8 @@ struct RunInfo {
   std::optional<std::uint32_t> last_frame;   ///< its checksum (frame_checksum); none: no frame was recorded
   double wall_seconds = 0;
   MissedTolerance missed_tolerance;  ///< since the start of the run, or since it was resumed
-  std::optional<WorstStep>
-      worst_step;  ///< of those that count, see docs/algorithm.md, since the start or since it was resumed
+  /// Of those that count, see docs/algorithm.md, since the start or since it was resumed.
+  std::optional<WorstStep> worst_step;
   Outcome outcome = Outcome::running;
   std::string error;  ///< the message when it did not end well
 };
