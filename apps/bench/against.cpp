@@ -26,12 +26,10 @@ namespace fs = std::filesystem;
 constexpr double seconds_of_run = 1;  // of the long one, about
 constexpr int usual_repeats = 9;
 
-/// Runs one program once [s].
-double seconds_of(const std::string& program, const fs::path& folder, std::int64_t steps) {
-  const fs::path out = folder / "run";
-  fs::remove_all(out);
-  const std::vector<std::string> arguments = {
-      "run", (folder / "scene.json").string(), "--steps", std::to_string(steps), "--out", out.string(), "--quiet"};
+/// Runs one program once, without files [s].
+double seconds_of(const std::string& program, std::vector<std::string> arguments, std::int64_t steps) {
+  arguments.insert(arguments.end(),
+                   {"--steps", std::to_string(steps), "--format", "none", "--every", "1000000000", "--quiet"});
   try {
     const Stopwatch watch;
     pliant_system::ChildProcess process({.program = program, .arguments = arguments});
@@ -49,9 +47,8 @@ double seconds_of(const std::string& program, const fs::path& folder, std::int64
 }
 
 /// So many steps that they take about as long as a run shall.
-std::int64_t steps_of_run(const std::string& text) {
+std::int64_t steps_of_run(Scene scene) {
   constexpr int tried = 5;
-  Scene scene = parse_scene(text, {}, "against");
   scene.step();
   const Stopwatch watch;
   for (int i = 0; i < tried; ++i) scene.step();
@@ -84,6 +81,10 @@ Json constraints_of(const Workload& workload, const Mesh& mesh) {
   return list;
 }
 
+std::string iterations_text(Index iterations) {
+  return iterations == automatic_iterations ? "automatic" : std::to_string(iterations);
+}
+
 /// Begins at rest, where both programs take the same time.
 std::string scene_of(const Workload& workload) {
   const Index n = workload.size;
@@ -107,29 +108,33 @@ std::string scene_of(const Workload& workload) {
 std::vector<AgainstTask> tasks_of(const BenchOptions& options) {
   std::vector<AgainstTask> tasks;
   for (const StepCase& each : options.cases) {
-    if (each.is_old) tasks.push_back({each.name, each.scene, each.iterations});
+    if (each.is_old) tasks.push_back({each.name, each.scene, each.folder, !each.is_case, each.iterations});
   }
   for (const Workload& workload : options.workloads) {
     const bool is_old = workload.kind != Kind::falling;  // 0.1.0 has no contact
     if (is_old && workload.order == MeshOrder::rows)
-      tasks.push_back({workload.name, scene_of(workload), workload.iterations});
+      tasks.push_back({workload.name, scene_of(workload), {}, false, workload.iterations});
   }
   return tasks;
 }
 
 AgainstResult measure_against(const AgainstTask& task, const std::string& other, int threads,
                               std::optional<int> repeats) {
-  Json json = Json::parse(task.scene);
-  json["settings"]["threads"] = threads;
   const pliant_system::TemporaryFolder folder("pliant-against");
-  std::ofstream(folder.path() / "scene.json") << json.dump(1);
-  const auto lengths = lengths_of_runs(steps_of_run(json.dump()));
+  const fs::path file = folder.path() / "scene.json";
+  if (!task.is_given_by_name) std::ofstream(file) << task.scene;
+  const std::vector<std::string> arguments = {"run",          task.is_given_by_name ? task.name : file.string(),
+                                              "--out",        (folder.path() / "run").string(),
+                                              "--threads",    std::to_string(threads),
+                                              "--iterations", iterations_text(task.iterations)};
+  const auto lengths = lengths_of_runs(steps_of_run(
+      parse_scene(task.scene, task.folder, task.name, {.iterations = task.iterations, .threads = threads})));
   const std::int64_t few = lengths.first, many = lengths.second;
   AgainstResult result{task.name, threads, task.iterations, {}, {}, 1};
   Samples own, others, ratios;
   const auto step_of = [&](const std::string& program) {
-    const double shorter = seconds_of(program, folder.path(), few);
-    return (seconds_of(program, folder.path(), many) - shorter) / static_cast<double>(many - few);
+    const double shorter = seconds_of(program, arguments, few);
+    return (seconds_of(program, arguments, many) - shorter) / static_cast<double>(many - few);
   };
   const std::string this_program = pliant_system::own_program();
   repeat(repeats.value_or(usual_repeats), 0, [&] {

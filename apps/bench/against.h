@@ -9,11 +9,13 @@ namespace pliant_bench {
 /// What a program is given to run, plain iterations throughout.
 struct AgainstTask {
   std::string name;
-  std::string scene;  ///< JSON
+  std::string scene;             ///< JSON
+  std::filesystem::path folder;  ///< where the paths in it start
+  bool is_given_by_name;         ///< to both programs, as a built-in scene or a file
   pliant::Index iterations = 10;
 };
 
-/// Those of the workloads, and of the cases that 0.1.0 reads.
+/// Those of the workloads, and of the cases and scenes that another build may read.
 std::vector<AgainstTask> tasks_of(const BenchOptions& options);
 
 /// Time of a step by `pliant run`: a long run minus a short one, over the steps between; each round runs both

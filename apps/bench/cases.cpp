@@ -2,10 +2,12 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
+#include "pliant_io/files/read_file.h"
 #include "pliant_io/scene/builtin_scenes.h"
 #include "pliant_io/scene/nearest_names.h"
 
@@ -16,6 +18,7 @@ using namespace pliant;
 using Json = nlohmann::ordered_json;
 
 constexpr Index usual_size = 100;
+constexpr std::int64_t usual_steps = 60;
 
 Json scene_of(Json body, Json more = Json::object()) {
   Json scene = {{"pliant", 1},
@@ -73,6 +76,28 @@ std::string builtin_text(std::string_view name) {
   return std::string(std::ranges::find(builtin_scenes(), name, &BuiltinScene::name)->text);
 }
 
+/// A built-in scene, or a file.
+StepCase case_of_scene(const std::string& name, const std::vector<StepCase>& cases, std::int64_t steps) {
+  StepCase result{.name = name, .is_case = false, .is_old = true, .steps = steps};
+  const auto builtin = std::ranges::find(builtin_scenes(), name, &BuiltinScene::name);
+  if (builtin != builtin_scenes().end()) {
+    result.description = fmt::format("the built-in scene, step {}", steps + 1);
+    result.scene = std::string(builtin->text);
+  } else if (name.ends_with(".json")) {
+    result.description = fmt::format("a scene file, step {}", steps + 1);
+    result.scene = read_file(name);
+    result.folder = std::filesystem::path(name).parent_path();
+  } else {
+    std::vector<std::string_view> known = {"all"};
+    for (const StepCase& each : cases) known.push_back(each.name);
+    for (const BuiltinScene& each : builtin_scenes()) known.push_back(each.name);
+    fail_input("--time-to-error: there is no '" + printable(name) +
+               "'; give a case of the bench, a built-in scene or a scene file; " + suggestion_text(name, known));
+  }
+  result.iterations = parse_scene(result.scene, result.folder, name).simulation.settings().iterations;
+  return result;
+}
+
 /// A push of the middle of a cloth, out of its plane [m/s].
 void push(Simulation& simulation) {
   constexpr Real speed = 0.5, width = 0.15;
@@ -90,35 +115,47 @@ void push(Simulation& simulation) {
 
 std::vector<StepCase> step_cases(std::optional<Index> size) {
   const Index n = size.value_or(usual_size);
-  return {
-      {"hanging", "a cloth of W5 that hangs at rest from two corners, pushed in its middle", hanging(n), true, 150,
-       true},
-      {"swinging", "a cloth of W5 that falls and swings from two corners", swinging(n), true, 30},
-      {"falling", "a cloth of W7 that falls onto a sphere above a floor and folds", on_sphere(n), false, 60},
-      {"dress", "the built-in scene dress_from_panels, while its seams close", builtin_text("dress_from_panels"), false,
-       60},
-      {"bar", "a soft bar at a wall that sinks under its weight", bar_at_wall(std::max<Index>(1, n / 10)), true, 10}};
+  return {{.name = "hanging",
+           .description = "a cloth of W5 that hangs at rest from two corners, pushed in its middle",
+           .scene = hanging(n),
+           .is_old = true,
+           .steps = 150,
+           .settles = true},
+          {.name = "swinging",
+           .description = "a cloth of W5 that falls and swings from two corners",
+           .scene = swinging(n),
+           .is_old = true,
+           .steps = 30},
+          {.name = "falling",
+           .description = "a cloth of W7 that falls onto a sphere above a floor and folds",
+           .scene = on_sphere(n),
+           .steps = 60},
+          {.name = "dress",
+           .description = "the built-in scene dress_from_panels, while its seams close",
+           .scene = builtin_text("dress_from_panels"),
+           .steps = 60},
+          {.name = "bar",
+           .description = "a soft bar at a wall that sinks under its weight",
+           .scene = bar_at_wall(std::max<Index>(1, n / 10)),
+           .is_old = true,
+           .steps = 10}};
 }
 
-std::vector<StepCase> choose_cases(const std::vector<std::string>& names, std::optional<Index> size) {
+std::vector<StepCase> choose_cases(const std::vector<std::string>& names, std::optional<Index> size,
+                                   std::optional<std::int64_t> steps) {
   std::vector<StepCase> all = step_cases(size);
   if (names.size() == 1 && names[0] == "all") return all;
-  std::vector<std::string_view> known = {"all"};
-  for (const StepCase& each : all) known.push_back(each.name);
   std::vector<StepCase> chosen;
   for (const std::string& name : names) {
     if (name == "all") fail_input("--time-to-error: 'all' has the others in it; give it by itself");
     const auto found = std::ranges::find(all, name, &StepCase::name);
-    if (found == all.end()) {
-      fail_input("--time-to-error: there is no '" + printable(name) + "'; " + suggestion_text(name, known));
-    }
-    chosen.push_back(*found);
+    chosen.push_back(found == all.end() ? case_of_scene(name, all, steps.value_or(usual_steps)) : *found);
   }
   return chosen;
 }
 
 Scene begin_of(const StepCase& step_case, int threads) {
-  Scene scene = parse_scene(step_case.scene, {}, step_case.name);
+  Scene scene = parse_scene(step_case.scene, step_case.folder, step_case.name);
   Simulation& simulation = scene.simulation;
   const auto set = [&](const auto& change) {
     SolverSettings settings = simulation.settings();

@@ -162,6 +162,7 @@ Json times_to_error_json(const std::vector<TimeToErrorResult>& cases) {
       last_errors[method.name] = optional_json(method.last_error);
     }
     list.push_back({{"name", each.name},
+                    {"description", each.description},
                     {"vertices", each.vertices},
                     {"uncertainty", each.uncertainty},
                     {"usual_error", each.usual_error},

@@ -33,7 +33,8 @@ struct BenchArguments {
   std::optional<Index> repeats;                  ///< of everything, 1 to 100,000; none: about 3 s a workload
   std::vector<std::string> threads;              ///< numbers, in turn; empty: 1 and 2
   std::vector<std::string> baselines = {"all"};  ///< names of other libraries, "all" or "none"
-  std::vector<std::string> time_to_error;        ///< names of cases, or "all"
+  std::vector<std::string> time_to_error;        ///< names of cases and scenes, or "all"
+  std::optional<std::int64_t> steps;             ///< of a scene before the one that is measured, ≥ 0
   std::string json;                              ///< file for the results, "-" for the standard output; empty: none
   std::string csv;                               ///< as json
   BenchOptions options;                          ///< what the above make
@@ -82,11 +83,15 @@ std::vector<int> choose_threads(const std::vector<std::string>& words) {
 
 BenchOptions check(const BenchArguments& arguments) {
   constexpr Index most_repeats = 100'000;
+  constexpr std::int64_t most_steps = 1'000'000;
   BenchOptions options = arguments.options;
   options.workloads = choose_workloads(arguments.workloads, arguments.size);
   options.baselines = choose_baselines(arguments.baselines);
   if (!arguments.time_to_error.empty()) {
-    options.cases = choose_cases(arguments.time_to_error, arguments.size);
+    if (arguments.steps && (*arguments.steps < 0 || *arguments.steps > most_steps)) {
+      pliant::fail_input(fmt::format("--steps: {} is out of range; give 0 to {}", *arguments.steps, most_steps));
+    }
+    options.cases = choose_cases(arguments.time_to_error, arguments.size, arguments.steps);
     if (arguments.workloads.empty()) options.workloads.clear();
   }
   if (!options.cases.empty() || !options.against.empty()) {  // these alone
@@ -164,12 +169,14 @@ void add_bench_command(CLI::App& program) {
              "Measure the constraint types by themselves: with the workloads, not, or alone");
   add_choice(*command, "--bandwidth", arguments->options.bandwidth, "Measure how fast one thread reads memory");
   command
-      ->add_option(
-          "--time-to-error", arguments->time_to_error,
-          "How many iterations and how long until a step is within 1e-2, 1e-4, 1e-6 of its end: plain, with "
-          "each acceleration, and without contact with XPBD; all, or some of hanging, swinging, falling, dress, bar. "
-          "Measured alone; takes minutes")
+      ->add_option("--time-to-error", arguments->time_to_error,
+                   "How many iterations and how long until a step is within 1e-2, 1e-4, 1e-6 of its end: plain, with "
+                   "each acceleration, and without contact with XPBD; all, or some of hanging, swinging, falling, "
+                   "dress, bar; or "
+                   "built-in scenes and scene files. Measured alone; takes minutes")
       ->delimiter(',');
+  add_number(*command, "--steps", arguments->steps,
+             "Of a scene of --time-to-error before the one that is measured; default: 60");
   command
       ->add_option("--against", arguments->options.against,
                    "Another build of this program, timed in turns with this one by whole runs of the workloads, nine "
@@ -185,6 +192,7 @@ void add_bench_command(CLI::App& program) {
       "  pliant bench --workloads W2,W4 --json bench.json    two of them, with a file for programs\n"
       "  pliant bench --size 200                             curtains of 200 x 200 vertices\n"
       "  pliant bench --time-to-error hanging,falling        how soon steps converge\n"
+      "  pliant bench --time-to-error flag.json --steps 100  the same of a scene of one's own\n"
       "  pliant bench --workloads W5 --against old/pliant    this build beside another");
   command->callback([arguments] { run(*arguments); });
 }

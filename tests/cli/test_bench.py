@@ -111,6 +111,31 @@ class Bench(unittest.TestCase):
         self.assertIn("--against: /no/such/program cannot be started", wrong)
         self.assertIn("there is no 'waving'", self.bench("--time-to-error", "waving", expect=2).stderr)
 
+    def test_time_to_error_of_built_in_scenes_and_files(self):
+        scene = {"pliant": 1, "bodies": [{"name": "rope", "mesh": {"file": "rope.obj"}, "mass": {"total": 1},
+                                        "constraints": [
+            {"type": "edge_spring", "stiffness": 100}, {"type": "position", "on": [0]}]}]}
+        (self.folder / "scenes").mkdir()
+        (self.folder / "scenes" / "rope.obj").write_text("v 0 0 0\nv 1 0 0\nv 2 0.1 0\nl 1 2\nl 2 3\n")
+        (self.folder / "scenes" / "own.json").write_text(json.dumps(scene))
+        done = self.bench("--time-to-error", "trampoline,scenes/own.json", "--steps", 3, "--repeats", 1, "--threads", 1,
+                          "--against", PLIANT, "--json", "-")
+        result = json.loads(done.stdout)
+        names = ["trampoline", "scenes/own.json"]
+        self.assertEqual([case["name"] for case in result["time_to_error"]], names)
+        self.assertEqual([case["vertices"] for case in result["time_to_error"]], [725, 3])
+        self.assertEqual([each["name"] for each in result["against"]], names)
+        for case in result["time_to_error"]:
+            self.assertIn("step 4", case["description"])
+            self.assertEqual(list(case["methods"])[:2], ["plain", "lbfgs"])
+            self.assertLess(case["uncertainty"], 1e-6)
+            self.assertIsNotNone(case["methods"]["lbfgs"][0]["iterations"])
+        for wrong, message in ((["scenes/gone.json"], "scenes/gone.json"),
+                               (["trampoline", "--steps", "-1"], "--steps: -1 is out of range; give 0 to 1000000"),
+                               (["tramploine"], "there is no 'tramploine'"), (["tramploine"], "trampoline")):
+            with self.subTest(wrong):
+                self.assertIn(message, self.bench("--time-to-error", *wrong, expect=2).stderr)
+
     def check_workload(self, workload, has_cholmod, precision):
         self.assertEqual([phase["name"] for phase in workload["phases"]], PHASES)
         for phase in workload["phases"]:

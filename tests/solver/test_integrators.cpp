@@ -332,6 +332,29 @@ TEST_CASE("the bits are the same on any number of threads, with BDF2, substeps, 
   CHECK(largest_difference(one, run(3)) == 0);
 }
 
+TEST_CASE("the bits are the same on any number of threads where one body is larger than a share of a loop") {
+  const auto run = [](Index threads) {
+    Simulation simulation({.integrator = Integrator::bdf2,
+                           .iterations = 3,
+                           .damping = 2,
+                           .energy_projection = 0.5,
+                           .start = Start::adaptive,
+                           .threads = threads});
+    const BodyId body = simulation.add_body(grid({.columns = 110, .rows = 100}), Mass::total(1));
+    simulation.add(body, EdgeSpring{.stiffness = 50});
+    add_gravity(simulation);
+    Positions velocities = simulation.state().velocities;
+    for (Index i = 0; i < simulation.state().vertex_count(); ++i) velocities(i, 2) = std::sin(0.01 * i) + 0.3 * (i % 7);
+    simulation.set_state(Positions(simulation.state().positions), velocities);
+    advance(simulation, 4);
+    CHECK(simulation.thread_count() == threads);
+    return simulation.state().positions;
+  };
+  const Positions one = run(1);
+  CHECK(largest_difference(one, run(2)) == 0);
+  CHECK(largest_difference(one, run(5)) == 0);
+}
+
 TEST_CASE("what is undone comes back with its history") {
   const SolverSettings settings = oscillator_settings(Integrator::bdf2, 0.05);
   Simulation simulation = two_masses(settings, 3);

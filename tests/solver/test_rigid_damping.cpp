@@ -80,7 +80,8 @@ TEST_CASE("damping leaves free fall as it is, and brings a shaken body to rest i
       for (Index i = 0; i < 72; ++i) torus_vertices[static_cast<std::size_t>(i)] = i;
       const std::vector<char> none_pinned(s.state().masses.size(), 0);
       Positions rigid = s.state().velocities;
-      damp_vibrations({torus_vertices, {0, 72}}, none_pinned, s.state().positions, s.state().masses, 0, rigid);
+      ThreadPool threads(1);
+      damp_vibrations({torus_vertices, {0, 72}}, none_pinned, s.state().positions, s.state().masses, 0, rigid, threads);
       return (s.state().velocities - rigid).topRows(72).norm();
     };
     CHECK(vibration(simulation) < 0.5 * vibration(free));
@@ -95,7 +96,8 @@ TEST_CASE("rigid motions are not damped, whatever the shape") {
     for (Index i = 0; i < static_cast<Index>(x.rows()); ++i)
       v.row(i) = (Vec3(3, 2, 1) + omega.cross(row(x, i))).transpose();
     const Positions before = v;
-    damp_vibrations({vertices, {0, vertices.size()}}, none_pinned, x, masses, 0, v);
+    ThreadPool threads(1);
+    damp_vibrations({vertices, {0, vertices.size()}}, none_pinned, x, masses, 0, v, threads);
     CHECK(largest_difference(v, before) < 1e-12 * (1 + before.cwiseAbs().maxCoeff()));
   };
   Positions plane(4, 3), line(3, 3), point(1, 3), far(4, 3);
@@ -113,7 +115,8 @@ TEST_CASE("pinned vertices keep their velocities, and count in the motion that i
   Positions x(2, 3), v(2, 3);
   x << 0, 0, 0, 1, 0, 0;
   v << 0, 0, 0, 2, 4, 0;  // it goes away from the pinned one, and round it
-  damp_vibrations({{0, 1}, {0, 2}}, std::vector<char>{1, 0}, x, std::vector<Real>{1, 1}, 0, v);
+  ThreadPool threads(2);
+  damp_vibrations({{0, 1}, {0, 2}}, std::vector<char>{1, 0}, x, std::vector<Real>{1, 1}, 0, v, threads);
   CHECK(row(v, 0) == Vec3(0, 0, 0));
   CHECK((row(v, 1) - Vec3(1, 4, 0)).norm() < 1e-14);
 }

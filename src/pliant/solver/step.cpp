@@ -7,6 +7,7 @@
 
 #include "pliant/core/error.h"
 #include "pliant/core/stopwatch.h"
+#include "pliant/solver/component_loops.h"
 #include "pliant/solver/divergence.h"
 #include "pliant/solver/integration/rigid_damping.h"
 #include "pliant/solver/solver.h"
@@ -81,10 +82,10 @@ void Solver::predict(const State& state) {
   } else {
     forces_.evaluate(state, substep(), system_.order(), work_);
   }
-  for (Index i = 0; i < system_.vertex_count(); ++i) {
+  for_each_vertex(system_.vertex_count(), &threads_.pool(), [&](Index i) {
     const Real mass = work_.begin.masses[at(i)];
     work_.prediction.row(i) = form.position(i) + h * form.velocity(i) + h * h / mass * work_.forces.row(i);
-  }
+  });
 }
 
 void Solver::initial_guess() {
@@ -165,9 +166,9 @@ void Solver::global_step(const State& state, const LocalResult& local, StepRepor
 
 void Solver::find_velocities() {
   const IntegratorCoefficients form(work_.begin, settings_.integrator, substep());
-  for (Index i = 0; i < system_.vertex_count(); ++i) {
+  for_each_vertex(system_.vertex_count(), &threads_.pool(), [&](Index i) {
     work_.velocities.row(i) = (work_.positions.row(i) - form.position(i)) / form.inertia_step();
-  }
+  });
 }
 
 /// r is that of the last iterate: with contact the last move is judged too.
@@ -189,7 +190,8 @@ void Solver::commit(State& state, StepReport& report) {
   work_.predicted_step = IntegratorCoefficients(work_.begin, settings_.integrator, substep()).inertia_step();
   const Real factor = std::exp(-2 * settings_.damping * substep());
   const auto damp = [&](const Positions& positions, Positions& velocities) {
-    damp_vibrations(system_.components(), system_.is_pinned(), positions, work_.begin.masses, factor, velocities);
+    damp_vibrations(system_.components(), system_.is_pinned(), positions, work_.begin.masses, factor, velocities,
+                    threads_.pool());
   };
   if (settings_.damping > 0) damp(work_.positions, work_.velocities);
   if (settings_.damping > 0 && keeps_history(settings_)) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "pliant/core/stopwatch.h"
+#include "pliant/solver/component_loops.h"
 
 namespace pliant {
 namespace {
@@ -29,6 +30,17 @@ Real largest_diagonal(const LowerMatrix& Y) {
   }
   return largest;
 }
+
+/// Of a component: Σ (r − w x), and Σ w.
+struct Missing {
+  Vec3 force = Vec3::Zero();
+  Real weight = 0;
+  Missing& operator+=(const Missing& other) {
+    force += other.force;
+    weight += other.weight;
+    return *this;
+  }
+};
 
 /// One constant, which has every component's constant in it, and two without any order.
 void fill_starts(Positions& x) {
@@ -103,7 +115,7 @@ bool GlobalStep::correct(const FactorRows& rows, ThreadPool& threads) {
 
 SolveTimes GlobalStep::solve_factorized(const Positions& r, Real largest, Positions& x, ThreadPool& threads) {
   const SolveTimes times = visit_panels([&](auto& panels) { return panels.solve(r, largest, x, threads); });
-  correct_means(r, x);
+  correct_means(r, x, threads);
   return times;
 }
 
@@ -122,24 +134,23 @@ SolveTimes GlobalStep::move(Positions& r, Real largest, Positions& q, ThreadPool
     return visit_panels([&](auto& panels) { return panels.solve(r, largest, q, threads, Store::onto); });
   }
   const SolveTimes times = solve(r, largest, move_, threads);
-  q += move_;
+  for_each_vertex(vertex_count_, &threads, [&](Index v) { q.row(v) += move_.row(v); });
   return times;
 }
 
 /// On a component that nothing holds, Σ w x = Σ r exactly with w = M/h² and what forces' groups add to it, since no
 /// constraint resists its translation; the factor alone is not that exact.
-void GlobalStep::correct_means(const Positions& r, Positions& x) const {
-  for (std::size_t i = 0; i < components_->count(); ++i) {
-    Vec3 missing = Vec3::Zero();
-    Real weight = 0;
-    for (const Index v : components_->component(i)) {
-      const Real w = weights_[static_cast<std::size_t>(v)];
-      missing += r.row(v).transpose() - w * x.row(v).transpose();
-      weight += w;
-    }
-    const Vec3 shift = missing / weight;
-    for (const Index v : components_->component(i)) x.row(v) += shift.transpose();
-  }
+void GlobalStep::correct_means(const Positions& r, Positions& x, ThreadPool& threads) const {
+  for_each_component(*components_, threads, [&](std::size_t i, ThreadPool* inside) {
+    const std::span<const Index> component = components_->component(i);
+    const auto missing = sum_over<Missing>(component, inside, [&](Missing& sum, Index v) {
+      const Real w = weights_[at(v)];
+      sum.force += r.row(v).transpose() - w * x.row(v).transpose();
+      sum.weight += w;
+    });
+    const Vec3 shift = missing.force / missing.weight;
+    for_each_vertex(component, inside, [&](Index v) { x.row(v) += shift.transpose(); });
+  });
 }
 
 Real GlobalStep::estimate_contraction(const LowerMatrix& matrix, ThreadPool& threads) {

@@ -49,7 +49,7 @@ class GlobalStep {
   SolveTimes solve_factorized(const Positions& r, Real largest, Positions& x, ThreadPool& threads);
   template <class Visit>
   auto visit_panels(Visit&& visit);
-  void correct_means(const Positions& r, Positions& x) const;
+  void correct_means(const Positions& r, Positions& x, ThreadPool& threads) const;
 
   std::unique_ptr<Factorization> factorization_;
   PanelFactor<float> single_;

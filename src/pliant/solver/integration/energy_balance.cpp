@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pliant/solver/component_loops.h"
+
 namespace pliant {
 namespace {
 
@@ -38,6 +40,28 @@ Real turning_energy(const Mat3& inertia, const Vec3& angular_momentum) {
   return angular_velocity(inertia, angular_momentum).dot(angular_momentum) / 2;
 }
 
+/// Of all forces on a component.
+struct Pull {
+  Vec3 force = Vec3::Zero();
+  Real mass = 0;
+  Pull& operator+=(const Pull& other) {
+    force += other.force;
+    mass += other.mass;
+    return *this;
+  }
+};
+
+/// Of a move: fᵀ x, and that less what inertia has of it.
+struct AlongMove {
+  Real slope = 0;
+  Real curvature = 0;
+  AlongMove& operator+=(const AlongMove& other) {
+    slope += other.slope;
+    curvature += other.curvature;
+    return *this;
+  }
+};
+
 }  // namespace
 
 void EnergyBalance::set_components(Components components, const Components& free_components,
@@ -53,73 +77,76 @@ void EnergyBalance::set_components(Components components, const Components& free
 }
 
 /// All zero where something holds the component.
-RigidMotion EnergyBalance::rigid_motion(std::size_t component, const Positions& positions,
-                                        const Positions& velocities) const {
+RigidMotion EnergyBalance::rigid_motion(std::size_t component, const Positions& positions, const Positions& velocities,
+                                        ThreadPool* inside) const {
   if (!is_free_[component]) return {};
-  return fit_rigid_motion(components_.component(component), positions, masses_, velocities);
+  return fit_rigid_motion(components_.component(component), positions, masses_, velocities, inside);
 }
 
 /// Σ m/2 ‖v − v_rigid‖² [J]
 Real EnergyBalance::non_rigid_energy(std::size_t component, const RigidMotion& rigid, const Positions& positions,
-                                     const Positions& velocities) const {
-  Real energy = 0;
-  for (const Index v : components_.component(component)) {
-    if (is_pinned_[at(v)]) continue;
-    energy += masses_[at(v)] / 2 * (row(velocities, v) - rigid.velocity_at(row(positions, v))).squaredNorm();
-  }
-  return energy;
+                                     const Positions& velocities, ThreadPool* inside) const {
+  return sum_over<Real>(components_.component(component), inside, [&](Real& sum, Index v) {
+    if (is_pinned_[at(v)]) return;
+    sum += masses_[at(v)] / 2 * (row(velocities, v) - rigid.velocity_at(row(positions, v))).squaredNorm();
+  });
 }
 
-void EnergyBalance::begin(const StepEnd& begin, std::span<const Real> masses, std::span<const Real> surplus) {
+void EnergyBalance::begin(const StepEnd& begin, std::span<const Real> masses, std::span<const Real> surplus,
+                          ThreadPool& threads) {
+  threads_ = &threads;
   masses_ = masses;
   positions_ = begin.positions;
   velocities_ = begin.velocities;
   elastic_forces_ = begin.elastic_forces;
-  for (std::size_t p = 0; p < components_.count(); ++p) {
-    const RigidMotion rigid = rigid_motion(p, positions_, velocities_);
-    Account& account = accounts_[p];
-    account.target = begin.elastic[p] + non_rigid_energy(p, rigid, positions_, velocities_) +
-                     turning_energy(rigid.inertia, rigid.angular_momentum);
-    account.center = rigid.center;
-    account.velocity = rigid.velocity;
-    account.angular_momentum = rigid.angular_momentum;
-    account.surplus = 0;
-    for (const Index v : components_.component(p)) account.surplus += surplus.empty() ? 0 : surplus[at(v)];
-  }
+  for_each_component(components_, threads,
+                     [&](std::size_t p, ThreadPool* inside) { begin_component(p, begin, surplus, inside); });
+}
+
+void EnergyBalance::begin_component(std::size_t component, const StepEnd& begin, std::span<const Real> surplus,
+                                    ThreadPool* inside) {
+  const RigidMotion rigid = rigid_motion(component, positions_, velocities_, inside);
+  Account& account = accounts_[component];
+  account.target = begin.elastic[component] + non_rigid_energy(component, rigid, positions_, velocities_, inside) +
+                   turning_energy(rigid.inertia, rigid.angular_momentum);
+  account.center = rigid.center;
+  account.velocity = rigid.velocity;
+  account.angular_momentum = rigid.angular_momentum;
+  account.surplus = 0;
+  for (const Index v : components_.component(component)) account.surplus += surplus.empty() ? 0 : surplus[at(v)];
 }
 
 void EnergyBalance::balance(const StepEnd& end, const Positions& outside, Real h, Real share, Positions& forces) {
-  for (std::size_t p = 0; p < components_.count(); ++p) {
-    balance_component(p, end, outside, h, share);
-    write_forces(p, end, outside, forces);
-  }
+  for_each_component(components_, *threads_, [&](std::size_t p, ThreadPool* inside) {
+    balance_component(p, end, outside, h, share, inside);
+    write_forces(p, end, outside, forces, inside);
+  });
 }
 
 EnergyBalance::Work EnergyBalance::outside_work(std::size_t component, const RigidMotion& rigid, const StepEnd& end,
-                                                const Positions& outside) const {
+                                                const Positions& outside, ThreadPool* inside) const {
   const Account& account = accounts_[component];
   const Vec3 shift = rigid.center - account.center;
-  Work work;
-  for (const Index v : components_.component(component)) {
+  return sum_over<Work>(components_.component(component), inside, [&](Work& work, Index v) {
     const Vec3 displacement = row(end.positions, v) - row(positions_, v);
     if (is_pinned_[at(v)]) {
       work.add(-(row(elastic_forces_, v) + row(end.elastic_forces, v)).dot(displacement) / 2);
-      continue;
+      return;
     }
     const Vec3 force = row(outside, v);
     work.add(force.dot(displacement - shift));
-    if (!is_free_[component]) continue;
+    if (!is_free_[component]) return;
     const Vec3 arm = (row(positions_, v) + row(end.positions, v) - account.center - rigid.center) / 2;
     work.torque += arm.cross(force);
-  }
-  return work;
+  });
 }
 
 void EnergyBalance::balance_component(std::size_t component, const StepEnd& end, const Positions& outside, Real h,
-                                      Real share) {
-  const RigidMotion rigid = rigid_motion(component, end.positions, end.velocities);
-  const Work work = outside_work(component, rigid, end, outside);
-  const Real energy = end.elastic[component] + non_rigid_energy(component, rigid, end.positions, end.velocities) +
+                                      Real share, ThreadPool* inside) {
+  const RigidMotion rigid = rigid_motion(component, end.positions, end.velocities, inside);
+  const Work work = outside_work(component, rigid, end, outside, inside);
+  const Real energy = end.elastic[component] +
+                      non_rigid_energy(component, rigid, end.positions, end.velocities, inside) +
                       turning_energy(rigid.inertia, rigid.angular_momentum);
   Account& account = accounts_[component];
   account.noise = rounding * (account.target + work.size + energy);
@@ -134,22 +161,22 @@ void EnergyBalance::balance_component(std::size_t component, const StepEnd& end,
 }
 
 /// Of a component that nothing holds, less what moves it as a whole.
-void EnergyBalance::write_forces(std::size_t component, const StepEnd& end, const Positions& outside,
-                                 Positions& forces) const {
+void EnergyBalance::write_forces(std::size_t component, const StepEnd& end, const Positions& outside, Positions& forces,
+                                 ThreadPool* inside) const {
+  const std::span<const Index> vertices = components_.component(component);
   const auto force_on = [&](Index v) { return Vec3(row(end.elastic_forces, v) + row(outside, v)); };
   Vec3 acceleration = Vec3::Zero();
   if (is_free_[component]) {
-    Real mass = 0;
-    for (const Index v : components_.component(component)) {
-      acceleration += force_on(v);
-      mass += masses_[at(v)];
-    }
-    acceleration /= mass;
+    const auto pull = sum_over<Pull>(vertices, inside, [&](Pull& sum, Index v) {
+      sum.force += force_on(v);
+      sum.mass += masses_[at(v)];
+    });
+    acceleration = pull.force / pull.mass;
   }
-  for (const Index v : components_.component(component)) {
+  for_each_vertex(vertices, inside, [&](Index v) {
     const Vec3 force = force_on(v) - masses_[at(v)] * acceleration;
     forces.row(v) = (is_pinned_[at(v)] ? Vec3(Vec3::Zero()) : force).transpose();
-  }
+  });
 }
 
 /// The angular momentum that a component should have, or as near to it as its energy allows.
@@ -168,48 +195,57 @@ Vec3 EnergyBalance::allowed_momentum(std::size_t component, const RigidMotion& r
 
 void EnergyBalance::move(const StepEnd& end, const Positions& forces, const Positions& direction,
                          std::span<const Real> weights, Positions& positions) {
-  for (std::size_t p = 0; p < components_.count(); ++p) {
-    Real slope = 0;
-    Real curvature = 0;
-    for (const Index v : components_.component(p)) {
-      const Real along = row(forces, v).dot(row(direction, v));
-      slope += along;
-      curvature += along - weights[at(v)] * direction.row(v).squaredNorm();
-    }
-    Account& account = accounts_[p];
-    const RigidMotion rigid = rigid_motion(p, end.positions, end.velocities);
-    const Real scaled = non_rigid_energy(p, rigid, end.positions, end.velocities);
-    const Vec3 angular_momentum = allowed_momentum(p, rigid, account.elastic, scaled);
-    const Real missing = account.target - account.elastic - scaled - turning_energy(rigid.inertia, angular_momentum);
-    // The elastic energy is no steeper along it than a parabola with Y − M/h² as its matrix.
-    curvature = std::clamp(curvature, Real(0), std::max(Real(0), slope));
-    const Real excess = factor_of(scaled + curvature / 2, slope - curvature, missing, account.noise) - 1;
-    if (excess == 0) continue;
-    for (const Index v : components_.component(p)) positions.row(v) -= excess * direction.row(v);
-  }
+  for_each_component(components_, *threads_, [&](std::size_t p, ThreadPool* inside) {
+    move_component(p, end, forces, direction, weights, positions, inside);
+  });
+}
+
+void EnergyBalance::move_component(std::size_t component, const StepEnd& end, const Positions& forces,
+                                   const Positions& direction, std::span<const Real> weights, Positions& positions,
+                                   ThreadPool* inside) const {
+  const std::span<const Index> vertices = components_.component(component);
+  const auto along = sum_over<AlongMove>(vertices, inside, [&](AlongMove& sum, Index v) {
+    const Real product = row(forces, v).dot(row(direction, v));
+    sum.slope += product;
+    sum.curvature += product - weights[at(v)] * direction.row(v).squaredNorm();
+  });
+  const Account& account = accounts_[component];
+  const RigidMotion rigid = rigid_motion(component, end.positions, end.velocities, inside);
+  const Real scaled = non_rigid_energy(component, rigid, end.positions, end.velocities, inside);
+  const Vec3 angular_momentum = allowed_momentum(component, rigid, account.elastic, scaled);
+  const Real missing = account.target - account.elastic - scaled - turning_energy(rigid.inertia, angular_momentum);
+  // The elastic energy is no steeper along it than a parabola with Y − M/h² as its matrix.
+  const Real curvature = std::clamp(along.curvature, Real(0), std::max(Real(0), along.slope));
+  const Real excess = factor_of(scaled + curvature / 2, along.slope - curvature, missing, account.noise) - 1;
+  if (excess == 0) return;
+  for_each_vertex(vertices, inside, [&](Index v) { positions.row(v) -= excess * direction.row(v); });
 }
 
 void EnergyBalance::finish(const StepEnd& end, const Positions& outside, Positions& velocities) {
-  for (std::size_t p = 0; p < components_.count(); ++p) {
-    Account& account = accounts_[p];
-    const RigidMotion rigid = rigid_motion(p, end.positions, end.velocities);
-    if (!rigid.turning.allFinite()) continue;
-    account.target += outside_work(p, rigid, end, outside).sum - account.work;
-    const Real scaled = non_rigid_energy(p, rigid, end.positions, end.velocities);
-    const Vec3 angular_momentum = allowed_momentum(p, rigid, end.elastic[p], scaled);
-    const Vec3 turning = angular_velocity(rigid.inertia, angular_momentum);
-    const Real missing = account.target - end.elastic[p] - scaled - turning.dot(angular_momentum) / 2;
-    const Real least = least_velocity_factor(scaled, scaled + missing + end.elastic[p]);
-    const Real factor = factor_of(scaled, 0, missing, account.noise, least);
-    const Real surplus = scaled * (factor * factor - 1) - missing;
-    if (surplus > account.noise) account.surplus += surplus;
-    for (const Index v : components_.component(p)) {
-      if (is_pinned_[at(v)]) continue;
-      const Vec3 x = row(end.positions, v);
-      const Vec3 vibration = row(end.velocities, v) - rigid.velocity_at(x);
-      velocities.row(v) = (rigid.velocity + turning.cross(x - rigid.center) + factor * vibration).transpose();
-    }
-  }
+  for_each_component(components_, *threads_,
+                     [&](std::size_t p, ThreadPool* inside) { finish_component(p, end, outside, velocities, inside); });
+}
+
+void EnergyBalance::finish_component(std::size_t component, const StepEnd& end, const Positions& outside,
+                                     Positions& velocities, ThreadPool* inside) {
+  Account& account = accounts_[component];
+  const RigidMotion rigid = rigid_motion(component, end.positions, end.velocities, inside);
+  if (!rigid.turning.allFinite()) return;
+  account.target += outside_work(component, rigid, end, outside, inside).sum - account.work;
+  const Real scaled = non_rigid_energy(component, rigid, end.positions, end.velocities, inside);
+  const Vec3 angular_momentum = allowed_momentum(component, rigid, end.elastic[component], scaled);
+  const Vec3 turning = angular_velocity(rigid.inertia, angular_momentum);
+  const Real missing = account.target - end.elastic[component] - scaled - turning.dot(angular_momentum) / 2;
+  const Real least = least_velocity_factor(scaled, scaled + missing + end.elastic[component]);
+  const Real factor = factor_of(scaled, 0, missing, account.noise, least);
+  const Real surplus = scaled * (factor * factor - 1) - missing;
+  if (surplus > account.noise) account.surplus += surplus;
+  for_each_vertex(components_.component(component), inside, [&](Index v) {
+    if (is_pinned_[at(v)]) return;
+    const Vec3 x = row(end.positions, v);
+    const Vec3 vibration = row(end.velocities, v) - rigid.velocity_at(x);
+    velocities.row(v) = (rigid.velocity + turning.cross(x - rigid.center) + factor * vibration).transpose();
+  });
 }
 
 void EnergyBalance::write_surplus(std::span<Real> surplus) const {

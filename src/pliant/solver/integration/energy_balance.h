@@ -31,9 +31,10 @@ class EnergyBalance {
   /// The components, which of them nothing holds, and which vertices are pinned.
   void set_components(Components components, const Components& free_components, std::span<const char> is_pinned);
 
-  /// Keeps what a step begins with. Masses [kg] are referred to until finish(). Surplus [J]: what components have had
-  /// too much and are not to be given back, at any vertex of each; or none.
-  void begin(const StepEnd& begin, std::span<const Real> masses, std::span<const Real> surplus);
+  /// Keeps what a step begins with. threads: of all that follows until finish(). Masses [kg] are referred to until
+  /// finish(). Surplus [J]: what components have had too much and are not to be given back, at any vertex of each; or
+  /// none.
+  void begin(const StepEnd& begin, std::span<const Real> masses, std::span<const Real> surplus, ThreadPool& threads);
 
   /// Balances a step of length h [s] that ends so. outside: what acts on the vertices from outside in it, m × 3 [N];
   /// its work is F·(qₙ₊₁ − qₙ), along the path that the vertices take: no other sum is free of drift, since velocities
@@ -74,21 +75,37 @@ class EnergyBalance {
       sum += energy;
       size += std::abs(energy);
     }
+    Work& operator+=(const Work& other) {
+      sum += other.sum;
+      size += other.size;
+      torque += other.torque;
+      return *this;
+    }
   };
 
-  RigidMotion rigid_motion(std::size_t component, const Positions& positions, const Positions& velocities) const;
+  // Of one component; inside: the threads of loops over its vertices, or none.
+  RigidMotion rigid_motion(std::size_t component, const Positions& positions, const Positions& velocities,
+                           ThreadPool* inside) const;
   Real non_rigid_energy(std::size_t component, const RigidMotion& rigid, const Positions& positions,
-                        const Positions& velocities) const;
-  Work outside_work(std::size_t component, const RigidMotion& rigid, const StepEnd& end,
-                    const Positions& outside) const;
+                        const Positions& velocities, ThreadPool* inside) const;
+  Work outside_work(std::size_t component, const RigidMotion& rigid, const StepEnd& end, const Positions& outside,
+                    ThreadPool* inside) const;
   Vec3 allowed_momentum(std::size_t component, const RigidMotion& rigid, Real elastic, Real scaled) const;
-  void balance_component(std::size_t component, const StepEnd& end, const Positions& outside, Real h, Real share);
-  void write_forces(std::size_t component, const StepEnd& end, const Positions& outside, Positions& forces) const;
+  void begin_component(std::size_t component, const StepEnd& begin, std::span<const Real> surplus, ThreadPool* inside);
+  void balance_component(std::size_t component, const StepEnd& end, const Positions& outside, Real h, Real share,
+                         ThreadPool* inside);
+  void write_forces(std::size_t component, const StepEnd& end, const Positions& outside, Positions& forces,
+                    ThreadPool* inside) const;
+  void move_component(std::size_t component, const StepEnd& end, const Positions& forces, const Positions& direction,
+                      std::span<const Real> weights, Positions& positions, ThreadPool* inside) const;
+  void finish_component(std::size_t component, const StepEnd& end, const Positions& outside, Positions& velocities,
+                        ThreadPool* inside);
 
   Components components_;
   std::vector<char> is_free_;    // of each component
   std::vector<char> is_pinned_;  // of each vertex
   std::vector<Account> accounts_;
+  ThreadPool* threads_ = nullptr;
   std::span<const Real> masses_;
   Positions positions_, velocities_, elastic_forces_;  // at the beginning
 };

@@ -16,7 +16,7 @@ void EnergyProjection::begin(const StepContext& step, const WorkingState& work) 
   for (Positions* x : {&elastic_forces_, &direction_}) x->resize(work.positions.rows(), 3);
   evaluate_elastic(step, work.begin.positions);
   balance_.begin({work.begin.positions, work.begin.velocities, elastic_, elastic_forces_}, work.begin.masses,
-                 work.begin.energy_surplus);
+                 work.begin.energy_surplus, step.threads);
 }
 
 void EnergyProjection::project(const StepContext& step, WorkingState& work) {

@@ -1,6 +1,7 @@
 #pragma once
 // Damping that leaves flight and turning alone: of each connected component, what its velocities have besides those of
 // the rigid motion nearest to them.
+#include "pliant/core/thread_pool.h"
 #include "pliant/solver/global/components.h"
 
 namespace pliant {
@@ -11,6 +12,6 @@ namespace pliant {
 /// turning about itself. Positions [m] and velocities [m/s] are m × 3, masses [kg]; all in one order of the vertices.
 /// Never allocates.
 void damp_vibrations(const Components& components, std::span<const char> is_pinned, const Positions& positions,
-                     std::span<const Real> masses, Real factor, Positions& velocities);
+                     std::span<const Real> masses, Real factor, Positions& velocities, ThreadPool& threads);
 
 }  // namespace pliant

@@ -2,6 +2,7 @@
 // The rigid motion nearest to how a connected component moves.
 #include <span>
 
+#include "pliant/core/thread_pool.h"
 #include "pliant/core/types.h"
 
 namespace pliant {
@@ -20,9 +21,9 @@ struct RigidMotion {
 };
 
 /// Of these vertices, at least one, with all masses > 0. A component on a line, or of one vertex, has no turning about
-/// itself. Never allocates.
+/// itself. threads: of the loops over the vertices; none: the caller's alone, with the same result. Never allocates.
 RigidMotion fit_rigid_motion(std::span<const Index> component, const Positions& positions, std::span<const Real> masses,
-                             const Positions& velocities);
+                             const Positions& velocities, ThreadPool* threads = nullptr);
 
 /// ω of L = I ω, without a share in axes about which there is no inertia: those of a body on a line.
 Vec3 angular_velocity(const Mat3& inertia, const Vec3& angular_momentum);
