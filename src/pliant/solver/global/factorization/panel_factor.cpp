@@ -1,9 +1,11 @@
 #include "pliant/solver/global/factorization/panel_factor.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "pliant/core/stopwatch.h"
+#include "pliant/solver/global/factorization/diagonal_blocks.h"
 #include "pliant/solver/global/factorization/panel_values.h"
 
 namespace pliant {
@@ -21,7 +23,9 @@ std::size_t blocks_of(std::size_t rows) {
   return (rows + lanes - 1) / lanes;
 }
 
-std::size_t inverse_size(std::size_t columns) {
+/// Values of the diagonal block.
+std::size_t diagonal_size(std::size_t columns) {
+  if (columns <= static_cast<std::size_t>(most_whole_columns)) return lanes * blocks_of(columns) * columns;
   const std::size_t last = blocks_of(columns) - 1;
   return 2 * lanes * last * (last + 1) + lanes * columns;
 }
@@ -64,7 +68,7 @@ void PanelFactor<T>::lay_out_panels(const FactorView& factor) {
     panels_.push_back({column, s.columns, static_cast<std::int32_t>(blocks), row, value});
     column += s.columns;
     row += lanes * blocks;
-    value += inverse_size(columns) + lanes * blocks * columns;
+    value += diagonal_size(columns) + lanes * blocks * columns;
   }
   rows_.resize(row);
   values_.assign(value, T(0));
@@ -265,7 +269,10 @@ void PanelFactor<T>::add_outer_rows(const Task& task) {
   const T* from = x_.data() + lanes * task.own_rows;
   for (std::size_t k = task.outer_begin; k < task.outer_end; ++k) {
     T* to = x_.data() + lanes * static_cast<std::size_t>(outer_rows_[k]);
-    for (std::size_t lane = 0; lane < lanes; ++lane) to[lane] += *from++;
+    std::array<T, lanes> sum;  // all are read before one is written, so that lanes go together
+    for (std::size_t lane = 0; lane < lanes; ++lane) sum[lane] = to[lane] + from[lane];
+    std::ranges::copy(sum, to);
+    from += lanes;
   }
 }
 
@@ -274,7 +281,7 @@ void PanelFactor<T>::backward(const Task& task) {
   T* to = x_.data() + lanes * task.own_rows;
   for (std::size_t k = task.outer_begin; k < task.outer_end; ++k) {
     const T* from = x_.data() + lanes * static_cast<std::size_t>(outer_rows_[k]);
-    for (std::size_t lane = 0; lane < lanes; ++lane) *to++ = from[lane];
+    to = std::copy_n(from, lanes, to);
   }
   for (auto part = task.parts.rbegin(); part != task.parts.rend(); ++part) {
     triangular_solve_.backward(substitution_data(), part->panel_begin, part->panel_end);

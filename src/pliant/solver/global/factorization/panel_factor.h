@@ -5,10 +5,14 @@
 //
 //        c0 .. c0+nc
 //       ┌──┐
-//       │D ╲            D⁻¹: lower triangle of blocks of 4 rows; block b has its columns 0 .. 4 b + 3
+//       │D ╲            (D Dᵀ)⁻¹: blocks of 4 rows, all columns. Of wide panels D⁻¹, block b up to column 4 b + 3
 //       ├────┤
-//       │ B  │  rows    B: blocks of 4 rows, all columns; row r belongs to row `rows[r]` of x
+//       │ B  │  rows    B D⁻¹: blocks of 4 rows, all columns; row r belongs to row `rows[r]` of x
 //       └────┘
+//
+// L Lᵀ = U S Uᵀ, where U has B D⁻¹ below identities and S has the blocks D Dᵀ. Forward substitution is x ← S⁻¹ U⁻¹ x,
+// backward substitution x ← U⁻ᵀ x: what a panel takes from other rows, or they from it, does not wait for a product
+// with its diagonal block, and the backward one does not read these at all.
 //
 // A block of rows stands column after column, so four values at a time; what a last block lacks is zeros. Both
 // substitutions read the values of a panel from the first to the last. All three coordinates of a vertex, and a zero,
@@ -54,9 +58,9 @@ class PanelFactor {
   Index stage_count() const { return static_cast<Index>(stages_.size()); }
   /// Of all stages.
   Index task_count() const;
-  /// Stored entries of L, the zeros that panels carry along included.
+  /// Stored values, the zeros that panels carry along included.
   std::size_t entry_count() const { return values_.size(); }
-  /// What one substitution reads besides x: values, rows and panels.
+  /// What forward substitution reads besides x: values, rows and panels.
   std::size_t substitution_bytes() const {
     return sizeof(T) * values_.size() + sizeof(Index) * rows_.size() + sizeof(Panel) * panels_.size();
   }
@@ -98,7 +102,7 @@ class PanelFactor {
   std::vector<Panel> panels_;
   std::vector<Index> rows_;  // of x, in blocks of four
   AlignedVector<T> values_;
-  Real unit_ = 1;                  // L is stored as L / unit_, a power of two
+  Real unit_ = 1;                  // a power of two: S is stored as S / unit_²
   std::vector<Stage> stages_;      // forward substitution takes one after the other
   std::vector<Part> rest_;         // runs of panels that belong to no task
   std::vector<Index> outer_rows_;  // of all tasks

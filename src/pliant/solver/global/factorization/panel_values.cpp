@@ -5,6 +5,7 @@
 
 #include <Eigen/Dense>
 
+#include "pliant/solver/global/factorization/diagonal_blocks.h"
 #include "pliant/solver/global/factorization/triangular_solve.h"
 
 namespace pliant {
@@ -49,33 +50,63 @@ void invert(Real* L, Index n, Index stride) {
   B = -B;
 }
 
+/// S = D⁻ᵀ D⁻¹, whole.
+void multiply_by_itself(const Real* inverse, Index n, Real* S) {
+  const auto at = [n](Index r, Index c) { return static_cast<std::ptrdiff_t>(c) * n + r; };
+  for (Index c = 0; c < n; ++c) {
+    for (Index r = c; r < n; ++r) {
+      Real sum = 0;
+      for (Index k = r; k < n; ++k) sum += inverse[at(k, r)] * inverse[at(k, c)];
+      S[at(r, c)] = S[at(c, r)] = sum;
+    }
+  }
+}
+
+/// C = B D⁻¹.
+void multiply_below(const Supernode& s, const Real* inverse, Real* C) {
+  const auto below = static_cast<Index>(s.rows_below.size());
+  const Index n = s.columns;
+  constexpr Index wide = 8;
+  if (s.is_rectangle && n > wide && below > 0) {
+    const Eigen::Map<const Dense, 0, Eigen::OuterStride<>> B(s.values + n, below, n, Eigen::OuterStride<>(s.rows()));
+    Eigen::Map<Dense>(C, below, n).noalias() =
+        B * Eigen::Map<const Dense>(inverse, n, n).triangularView<Eigen::Lower>();
+    return;
+  }
+  for (Index c = 0; c < n; ++c, C += below) {
+    std::fill_n(C, below, Real(0));
+    for (Index k = c; k < n; ++k) {
+      const Real* from = s.column(k) + (n - k);
+      const Real factor = inverse[static_cast<std::ptrdiff_t>(c) * n + k];
+      for (Index r = 0; r < below; ++r) C[r] += factor * from[r];
+    }
+  }
+}
+
+/// D⁻¹, of each block of rows the columns up to its last one.
 template <class T>
-T* write_inverse(const Real* inverse, Index n, Real unit, T* out) {
+T* write_inverse(const Real* inverse, Index n, Real factor, T* out) {
   for (Index first = 0; first < n; first += panel_lanes) {
     for (Index c = 0; c < std::min(n, first + panel_lanes); ++c) {
       const Real* column = inverse + static_cast<std::ptrdiff_t>(c) * n;
-      for (Index r = first; r < first + panel_lanes; ++r) *out++ = r < n && c <= r ? T(column[r] * unit) : T(0);
+      for (Index r = first; r < first + panel_lanes; ++r) *out++ = r < n && c <= r ? T(column[r] * factor) : T(0);
     }
   }
   return out;
 }
 
+/// A matrix of so many rows, column after column, in blocks of rows.
 template <class T>
-void write_below(const Supernode& s, Real unit, T* out) {
-  const auto below = static_cast<Index>(s.rows_below.size());
-  const Real scale = 1 / unit;  // exact
-  Index first = 0;
-  for (; first + panel_lanes <= below; first += panel_lanes) {
-    for (Index c = 0; c < s.columns; ++c, out += panel_lanes) {
-      const Real* from = s.column(c) + (s.columns - c) + first;
-      for (Index r = 0; r < panel_lanes; ++r) out[r] = T(from[r] * scale);
+T* write_blocks(const Real* matrix, Index rows, Index columns, Real factor, T* out) {
+  for (Index first = 0; first < rows; first += panel_lanes) {
+    const Real* from = matrix + first;
+    const Index some = std::min(panel_lanes, rows - first);
+    for (Index c = 0; c < columns; ++c, from += rows, out += panel_lanes) {
+      for (Index r = 0; r < some; ++r) out[r] = T(from[r] * factor);
+      for (Index r = some; r < panel_lanes; ++r) out[r] = T(0);
     }
   }
-  if (first == below) return;
-  for (Index c = 0; c < s.columns; ++c) {
-    const Real* from = s.column(c) + (s.columns - c) + first;
-    for (Index r = 0; r < panel_lanes; ++r) *out++ = first + r < below ? T(from[r] * scale) : T(0);
-  }
+  return out;
 }
 
 }  // namespace
@@ -87,12 +118,22 @@ void invert_lower_triangle(Real* L, Index n) {
 template <class T>
 void write_panel(const Supernode& s, Real unit, std::vector<Real>& work, T* out) {
   const auto n = static_cast<std::size_t>(s.columns);
-  if (work.size() < n * n) work.resize(n * n);
+  const std::size_t below = s.rows_below.size();
+  if (work.size() < n * (2 * n + below)) work.resize(n * (2 * n + below));
+  Real* const inverse = work.data();
+  Real* const product = inverse + n * n;
   for (Index c = 0; c < s.columns; ++c) {
-    std::copy_n(s.column(c), s.columns - c, work.data() + static_cast<std::size_t>(c) * (n + 1));
+    std::copy_n(s.column(c), s.columns - c, inverse + static_cast<std::size_t>(c) * (n + 1));
   }
-  invert_lower_triangle(work.data(), s.columns);
-  write_below(s, unit, write_inverse(work.data(), s.columns, unit, out));
+  invert_lower_triangle(inverse, s.columns);
+  if (s.columns <= most_whole_columns) {
+    multiply_by_itself(inverse, s.columns, product);
+    out = write_blocks(product, s.columns, s.columns, unit * unit, out);
+  } else {
+    out = write_inverse(inverse, s.columns, unit, out);
+  }
+  multiply_below(s, inverse, product);
+  write_blocks(product, static_cast<Index>(below), s.columns, Real(1), out);
 }
 
 template void write_panel(const Supernode& s, Real unit, std::vector<Real>& work, float* out);

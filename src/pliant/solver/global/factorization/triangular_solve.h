@@ -31,8 +31,8 @@ template <class T>
 struct TriangularSolve {
   using Substitution = void (*)(const SubstitutionData<T>&, std::size_t begin, std::size_t end);
 
-  Substitution forward;   ///< x ← L⁻¹ x for the panels [begin, end), the first one first
-  Substitution backward;  ///< x ← L⁻ᵀ x for them, the last one first
+  Substitution forward;   ///< x ← S⁻¹ U⁻¹ x for the panels [begin, end), the first one first
+  Substitution backward;  ///< x ← U⁻ᵀ x for them, the last one first
   const char* instruction_set;
 };
 

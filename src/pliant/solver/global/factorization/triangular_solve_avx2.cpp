@@ -14,8 +14,10 @@ struct SingleLanes {
     __m256 low, high;
   };
   using Sum = Block;
+  using Spread = __m256;
   using Mode = FlushMode;
   static constexpr int row_blocks_at_once = 2;
+  static constexpr int columns_at_once = 4;
 
   static Block zero() { return {_mm256_setzero_ps(), _mm256_setzero_ps()}; }
   static Sum zero_sum() { return zero(); }
@@ -74,6 +76,10 @@ struct SingleLanes {
   static Block reduce(const Sum* sum) { return {reduce_two(sum[0], sum[1]), reduce_two(sum[2], sum[3])}; }
   static Block difference(const Block& a, const Block& b) {
     return {_mm256_sub_ps(a.low, b.low), _mm256_sub_ps(a.high, b.high)};
+  }
+  static void subtract_sum(float* x, const Sum& sum) {
+    const __m256 half = _mm256_add_ps(sum.low, sum.high);
+    subtract_row(x, 0, _mm_add_ps(_mm256_castps256_ps128(half), _mm256_extractf128_ps(half, 1)));
   }
 };
 

@@ -17,8 +17,10 @@ struct SingleLanes {
   using Scalar = float;
   using Block = __m512;
   using Sum = __m512;
+  using Spread = __m512;
   using Mode = FlushMode;
   static constexpr int row_blocks_at_once = 4;
+  static constexpr int columns_at_once = 8;
 
   static Block zero() { return _mm512_setzero_ps(); }
   static Sum zero_sum() { return _mm512_setzero_ps(); }
@@ -30,8 +32,16 @@ struct SingleLanes {
   static Block load(const float* x, std::int32_t rows) {
     return _mm512_maskz_loadu_ps(static_cast<__mmask16>(lane_mask(rows)), x);
   }
+  /// Without masks: a load would wait until a masked store has reached the cache.
   static void store(float* x, Block block, std::int32_t rows) {
-    _mm512_mask_storeu_ps(x, static_cast<__mmask16>(lane_mask(rows)), block);
+    if (rows >= 4) {
+      _mm512_storeu_ps(x, block);
+    } else if (rows == 1) {
+      _mm_storeu_ps(x, _mm512_castps512_ps128(block));
+    } else {
+      _mm256_storeu_ps(x, _mm512_castps512_ps256(block));
+      if (rows == 3) _mm_storeu_ps(x + 8, _mm512_extractf32x4_ps(block, 2));
+    }
   }
   static __m128 row_at(const float* x, std::int32_t row) {
     return _mm_loadu_ps(x + 4 * static_cast<std::ptrdiff_t>(row));
@@ -61,6 +71,10 @@ struct SingleLanes {
     return _mm512_add_ps(_mm512_shuffle_f32x4(first, second, 0x88), _mm512_shuffle_f32x4(first, second, 0xDD));
   }
   static Block difference(Block a, Block b) { return _mm512_sub_ps(a, b); }
+  static void subtract_sum(float* x, Sum sum) {
+    const __m256 half = _mm256_add_ps(_mm512_castps512_ps256(sum), _mm512_extractf32x8_ps(sum, 1));
+    subtract_row(x, 0, _mm_add_ps(_mm256_castps256_ps128(half), _mm256_extractf128_ps(half, 1)));
+  }
 };
 
 /// Two rows a register.
@@ -70,8 +84,10 @@ struct DoubleLanes {
     __m512d low, high;
   };
   using Sum = Block;
+  using Spread = __m512d;
   using Mode = FlushMode;
   static constexpr int row_blocks_at_once = 2;
+  static constexpr int columns_at_once = 4;
 
   static Block zero() { return {_mm512_setzero_pd(), _mm512_setzero_pd()}; }
   static Sum zero_sum() { return zero(); }
@@ -122,6 +138,10 @@ struct DoubleLanes {
   static Block reduce(const Sum* sum) { return {reduce_two(sum[0], sum[1]), reduce_two(sum[2], sum[3])}; }
   static Block difference(const Block& a, const Block& b) {
     return {_mm512_sub_pd(a.low, b.low), _mm512_sub_pd(a.high, b.high)};
+  }
+  static void subtract_sum(double* x, const Sum& sum) {
+    const __m512d half = _mm512_add_pd(sum.low, sum.high);
+    subtract_row(x, 0, _mm256_add_pd(_mm512_castpd512_pd256(half), _mm512_extractf64x4_pd(half, 1)));
   }
 };
 

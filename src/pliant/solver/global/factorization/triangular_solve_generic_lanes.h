@@ -30,7 +30,9 @@ struct GenericLanes {
     Mode() {}
     ~Mode() {}
   };
+  using Spread = Row;
   static constexpr int row_blocks_at_once = 1;
+  static constexpr int columns_at_once = 4;
 
   static Row& row_at(T* x, std::ptrdiff_t row) { return *reinterpret_cast<Row*>(x + 4 * row); }
   static const Row& row_at(const T* x, std::ptrdiff_t row) { return *reinterpret_cast<const Row*>(x + 4 * row); }
@@ -66,6 +68,7 @@ struct GenericLanes {
     for (int c = 0; c < 4; ++c) block.row[c] = sum[c].even + sum[c].odd;
     return block;
   }
+  static void subtract_sum(T* x, const Sum& sum) { row_at(x, 0) -= sum.even + sum.odd; }
   static Block difference(const Block& a, const Block& b) {
     Block block;
     for (int r = 0; r < 4; ++r) block.row[r] = a.row[r] - b.row[r];
