@@ -34,8 +34,8 @@ struct PhaseSamples {
     return {{"projections", projections.spread(), traffic.projections},
             {"gather", gather.spread(), traffic.gather},
             {"forward substitution", forward.spread(), traffic.substitution},
-            {"backward substitution", backward.spread(), traffic.substitution},
-            {"solve", solve.spread(), 2 * traffic.substitution},
+            {"backward substitution", backward.spread(), traffic.backward},
+            {"solve", solve.spread(), traffic.substitution + traffic.backward},
             {"iteration", iteration.spread(), traffic.iteration()},
             {"step", step.spread()}};
   }

@@ -40,6 +40,7 @@ Traffic traffic_of(const Simulation& simulation, const SystemInfo& info) {
   traffic.gather = info.partial_list_bytes + info.partial_bytes + m * (2 * point + real + 1 + point);
   const std::int64_t lanes = 4 * (info.precision == Precision::mixed ? 4 : 8);  // of a vertex in a substitution
   traffic.substitution = info.substitution_bytes + m * (2 * lanes + point + index);
+  traffic.backward = traffic.substitution - info.substitution_bytes + info.backward_bytes;
   traffic.update = m * point;  // backward substitution adds to it where it writes
   traffic.working_set = constraints + info.local_list_bytes + info.partial_bytes + info.partial_list_bytes +
                         info.substitution_bytes + m * (4 * point + lanes + real + 1 + index);

@@ -155,8 +155,8 @@ TEST_CASE("scene reef_knot: it is drawn tight, and neither cord comes out of the
     const Real overlap = red.col(0).maxCoeff() - blue.col(0).minCoeff();  // with the free ends
     if (step == 1) wide = overlap;
     if (step != -1) return;
-    // The hands have gone 0.2 m apart; cords that had slipped would have gone with them.
-    CHECK(overlap > 0.1);
+    // The hands have gone 0.2 m apart; cords that had slipped would have gone with them, to an overlap below 0.
+    CHECK(overlap > 0.08);
     CHECK(overlap < wide);
     CHECK(red.col(0).maxCoeff() > 0.02);
     CHECK(blue.col(0).minCoeff() < -0.02);

@@ -17,7 +17,8 @@ struct SystemInfo {
   std::int64_t matrix_entries = 0;           ///< non-zeros of the lower triangle with the diagonal
   std::int64_t factor_entries = 0;           ///< of L, the zeros that panels carry along included
   std::int64_t supernodes = 0;               ///< panels of L
-  std::int64_t substitution_bytes = 0;       ///< that one of the two substitutions of a solve reads of L
+  std::int64_t substitution_bytes = 0;       ///< that the forward substitution of a solve reads of the factor
+  std::int64_t backward_bytes = 0;           ///< that the backward substitution reads of it
   std::int64_t local_list_bytes = 0;         ///< of the lists by which chunks of constraints collect for vertices
   std::int64_t partial_bytes = 0;            ///< that chunks write for vertices, which these then read
   std::int64_t partial_list_bytes = 0;       ///< of the lists by which vertices read them

@@ -177,6 +177,7 @@ void GlobalStep::describe(SystemInfo& info) const {
     info.factor_entries = static_cast<std::int64_t>(panels.entry_count());
     info.supernodes = panels.panel_count();
     info.substitution_bytes = static_cast<std::int64_t>(panels.substitution_bytes());
+    info.backward_bytes = static_cast<std::int64_t>(panels.backward_bytes());
   };
   if (precision_ == Precision::double_) {
     take(double_);

@@ -43,6 +43,7 @@ void PanelFactor<T>::clear() {
   panels_ = {};
   rows_ = {};
   values_ = {};
+  diagonal_values_ = 0;
   stages_ = {};
   rest_ = {};
   outer_rows_ = {};
@@ -69,6 +70,7 @@ void PanelFactor<T>::lay_out_panels(const FactorView& factor) {
     column += s.columns;
     row += lanes * blocks;
     value += diagonal_size(columns) + lanes * blocks * columns;
+    diagonal_values_ += diagonal_size(columns);
   }
   rows_.resize(row);
   values_.assign(value, T(0));

@@ -64,6 +64,8 @@ class PanelFactor {
   std::size_t substitution_bytes() const {
     return sizeof(T) * values_.size() + sizeof(Index) * rows_.size() + sizeof(Panel) * panels_.size();
   }
+  /// The same of backward substitution, which reads no diagonal blocks.
+  std::size_t backward_bytes() const { return substitution_bytes() - sizeof(T) * diagonal_values_; }
 
  private:
   /// Panels that follow each other, and their columns.
@@ -102,10 +104,11 @@ class PanelFactor {
   std::vector<Panel> panels_;
   std::vector<Index> rows_;  // of x, in blocks of four
   AlignedVector<T> values_;
-  Real unit_ = 1;                  // a power of two: S is stored as S / unit_²
-  std::vector<Stage> stages_;      // forward substitution takes one after the other
-  std::vector<Part> rest_;         // runs of panels that belong to no task
-  std::vector<Index> outer_rows_;  // of all tasks
+  std::size_t diagonal_values_ = 0;  // of these, those of diagonal blocks
+  Real unit_ = 1;                    // a power of two: S is stored as S / unit_²
+  std::vector<Stage> stages_;        // forward substitution takes one after the other
+  std::vector<Part> rest_;           // runs of panels that belong to no task
+  std::vector<Index> outer_rows_;    // of all tasks
   AlignedVector<T> x_;
 };
 
