@@ -11,6 +11,10 @@ namespace test_component_loops {
 
 using namespace pliant;
 
+struct Sizes {
+  Index count, vertices;
+};
+
 /// So many components of so many vertices each, every other one numbered backwards.
 Components components_of(Index count, Index vertices) {
   Components components;
@@ -36,10 +40,9 @@ std::vector<Real> sums_of(const Components& components, int threads) {
 }
 
 TEST_CASE("component loops: sums are those of all vertices, to the same bits by any number of threads") {
-  for (const auto& [count, vertices] :
-       {std::pair<Index, Index>{1, 1}, {1, 4096}, {1, 300'000}, {3, 20'000}, {500, 100}}) {
-    CAPTURE(count);
-    const Components components = components_of(count, vertices);
+  for (const Sizes& sizes : {Sizes{1, 1}, Sizes{1, 4096}, Sizes{1, 300'000}, Sizes{3, 20'000}, Sizes{500, 100}}) {
+    CAPTURE(sizes.count);
+    const Components components = components_of(sizes.count, sizes.vertices);
     const std::vector<Real> one = sums_of(components, 1);
     for (std::size_t i = 0; i < components.count(); ++i) {
       long double exact = 0, size = 0;
@@ -61,9 +64,9 @@ TEST_CASE("component loops: a component no larger than a share is summed in orde
 }
 
 TEST_CASE("component loops: every vertex is met once") {
-  for (const auto& [count, vertices] : {std::pair<Index, Index>{1, 50'000}, {7, 9'000}, {1000, 33}}) {
-    CAPTURE(count);
-    const Components components = components_of(count, vertices);
+  for (const Sizes& sizes : {Sizes{1, 50'000}, Sizes{7, 9'000}, Sizes{1000, 33}}) {
+    CAPTURE(sizes.count);
+    const Components components = components_of(sizes.count, sizes.vertices);
     for (const int threads : {1, 2, 8}) {
       ThreadPool pool(threads);
       std::vector<std::atomic<int>> times(components.vertices.size());
