@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 constexpr double seconds_of_run = 1;  // of the long one, about
 constexpr int usual_repeats = 9;
 
-/// Runs one program once, without files [s].
+/// Runs one program once, without frames [s].
 double seconds_of(const std::string& program, std::vector<std::string> arguments, std::int64_t steps) {
   arguments.insert(arguments.end(),
                    {"--steps", std::to_string(steps), "--format", "none", "--every", "1000000000", "--quiet"});
@@ -81,10 +81,6 @@ Json constraints_of(const Workload& workload, const Mesh& mesh) {
   return list;
 }
 
-std::string iterations_text(Index iterations) {
-  return iterations == automatic_iterations ? "automatic" : std::to_string(iterations);
-}
-
 /// Begins at rest, where both programs take the same time.
 std::string scene_of(const Workload& workload) {
   const Index n = workload.size;
@@ -108,7 +104,13 @@ std::string scene_of(const Workload& workload) {
 std::vector<AgainstTask> tasks_of(const BenchOptions& options) {
   std::vector<AgainstTask> tasks;
   for (const StepCase& each : options.cases) {
-    if (each.is_old) tasks.push_back({each.name, each.scene, each.folder, !each.is_case, each.iterations});
+    if (!each.is_plain) {
+      fail_input(fmt::format(
+          "--against: '{}' does not take plain steps, by whose time the other program is judged; give a file "
+          "without contact, with a number of iterations and \"acceleration\": \"none\"",
+          printable(each.name)));
+    }
+    if (each.is_old) tasks.push_back({each.name, each.scene, each.folder, each.is_file, each.iterations});
   }
   for (const Workload& workload : options.workloads) {
     const bool is_old = workload.kind != Kind::falling;  // 0.1.0 has no contact
@@ -122,11 +124,11 @@ AgainstResult measure_against(const AgainstTask& task, const std::string& other,
                               std::optional<int> repeats) {
   const pliant_system::TemporaryFolder folder("pliant-against");
   const fs::path file = folder.path() / "scene.json";
-  if (!task.is_given_by_name) std::ofstream(file) << task.scene;
-  const std::vector<std::string> arguments = {"run",          task.is_given_by_name ? task.name : file.string(),
+  if (!task.is_file) std::ofstream(file) << task.scene;
+  const std::vector<std::string> arguments = {"run",          task.is_file ? task.name : file.string(),
                                               "--out",        (folder.path() / "run").string(),
                                               "--threads",    std::to_string(threads),
-                                              "--iterations", iterations_text(task.iterations)};
+                                              "--iterations", std::to_string(task.iterations)};
   const auto lengths = lengths_of_runs(steps_of_run(
       parse_scene(task.scene, task.folder, task.name, {.iterations = task.iterations, .threads = threads})));
   const std::int64_t few = lengths.first, many = lengths.second;

@@ -6,12 +6,12 @@
 
 namespace pliant_bench {
 
-/// What a program is given to run, plain iterations throughout.
+/// What a program is given to run, with a fixed number of plain iterations.
 struct AgainstTask {
   std::string name;
   std::string scene;             ///< JSON
   std::filesystem::path folder;  ///< where the paths in it start
-  bool is_given_by_name;         ///< to both programs, as a built-in scene or a file
+  bool is_file;                  ///< the name is that of the scene's file, which both programs read
   pliant::Index iterations = 10;
 };
 

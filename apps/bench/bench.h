@@ -45,8 +45,8 @@ struct BenchOptions {
   Bandwidth bandwidth = Bandwidth::with;        ///< whether the memory's bandwidth is measured
 
   std::vector<StepCase> cases;  ///< whose time to error is measured
-  std::string against;          ///< another build of the program, timed beside this one on the workloads; empty: none
-  bool phases = true;           ///< whether the workloads are measured phase by phase
+  std::string against;  ///< another build of the program, timed beside this one on these and the workloads; empty: none
+  bool phases = true;   ///< whether the workloads are measured phase by phase
 
   bool has(BaselineKind kind) const;
 };

@@ -76,9 +76,19 @@ std::string builtin_text(std::string_view name) {
   return std::string(std::ranges::find(builtin_scenes(), name, &BuiltinScene::name)->text);
 }
 
+bool takes_plain_steps(const Scene& scene) {
+  const SolverSettings& settings = scene.simulation.settings();
+  if (settings.iterations == automatic_iterations || scene.has_surfaces) return false;
+  if (settings.acceleration != Acceleration::automatic) return settings.acceleration == Acceleration::none;
+  return scene.simulation.colliders().empty() && std::ranges::all_of(scene.simulation.groups(), [](const auto& each) {
+           return std::ranges::all_of(each.second.set.batches,
+                                      [](const auto& batch) { return batch->is_projective(); });
+         });
+}
+
 /// A built-in scene, or a file.
 StepCase case_of_scene(const std::string& name, const std::vector<StepCase>& cases, std::int64_t steps) {
-  StepCase result{.name = name, .is_case = false, .is_old = true, .steps = steps};
+  StepCase result{.name = name, .is_old = true, .steps = steps};
   const auto builtin = std::ranges::find(builtin_scenes(), name, &BuiltinScene::name);
   if (builtin != builtin_scenes().end()) {
     result.description = fmt::format("the built-in scene, step {}", steps + 1);
@@ -87,6 +97,7 @@ StepCase case_of_scene(const std::string& name, const std::vector<StepCase>& cas
     result.description = fmt::format("a scene file, step {}", steps + 1);
     result.scene = read_file(name);
     result.folder = std::filesystem::path(name).parent_path();
+    result.is_file = true;
   } else {
     std::vector<std::string_view> known = {"all"};
     for (const StepCase& each : cases) known.push_back(each.name);
@@ -94,7 +105,9 @@ StepCase case_of_scene(const std::string& name, const std::vector<StepCase>& cas
     fail_input("--time-to-error: there is no '" + printable(name) +
                "'; give a case of the bench, a built-in scene or a scene file; " + suggestion_text(name, known));
   }
-  result.iterations = parse_scene(result.scene, result.folder, name).simulation.settings().iterations;
+  const Scene scene = parse_scene(result.scene, result.folder, name);
+  result.iterations = scene.simulation.settings().iterations;
+  result.is_plain = takes_plain_steps(scene);
   return result;
 }
 
@@ -144,6 +157,12 @@ std::vector<StepCase> step_cases(std::optional<Index> size) {
 std::vector<StepCase> choose_cases(const std::vector<std::string>& names, std::optional<Index> size,
                                    std::optional<std::int64_t> steps) {
   std::vector<StepCase> all = step_cases(size);
+  const auto is_of_bench = [&](const std::string& name) {
+    return name == "all" || std::ranges::find(all, name, &StepCase::name) != all.end();
+  };
+  if (steps && std::ranges::all_of(names, is_of_bench)) {
+    fail_input("--steps: the bench's own cases take theirs; give a built-in scene or a scene file, or leave it out");
+  }
   if (names.size() == 1 && names[0] == "all") return all;
   std::vector<StepCase> chosen;
   for (const std::string& name : names) {

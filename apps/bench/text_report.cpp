@@ -194,7 +194,7 @@ void print_times_to_error(const BenchResult& result, Out out) {
   fmt::format_to(
       out,
       "\nTime to error: iterations and milliseconds (median) of a step until it is so near to its end, as a share "
-      "of\nhow far the prediction is from it, root mean square over the mass; usual: what the "
+      "of\nhow far the prediction q + h v + h^2 f/m is from it, root mean square over the mass; usual: what the "
       "{}\niterations of L-BFGS leave that scenes of materials have; left: what {} iterations leave.\n"
       "xpbd: Gauss-Seidel sweeps, one multiplier a constraint; xpbd rows: one for each number of z - p\n",
       usual_iterations, most_iterations);

@@ -70,11 +70,13 @@ class Step {
     take(Acceleration::lbfgs, iterations);
     return simulation_.state().positions;
   }
+  /// q + h v + h² M⁻¹ f
   Positions prediction() const {
     const Real h = settings_.time_step;
-    Positions q = start_.positions + h * start_.velocities;
-    q.col(2).array() -= 9.81 * h * h;
-    return q;
+    Positions forces = Positions::Zero(start_.vertex_count(), 3);
+    for (const auto& [id, force] : simulation_.forces()) force->add_to(forces, start_.view(), h);
+    const Eigen::Map<const Eigen::VectorXd> masses(start_.masses.data(), start_.vertex_count());
+    return start_.positions + h * start_.velocities + h * h * (masses.cwiseInverse().asDiagonal() * forces);
   }
 
   Simulation& simulation_;

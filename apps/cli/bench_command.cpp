@@ -94,6 +94,9 @@ BenchOptions check(const BenchArguments& arguments) {
     options.cases = choose_cases(arguments.time_to_error, arguments.size, arguments.steps);
     if (arguments.workloads.empty()) options.workloads.clear();
   }
+  if (arguments.steps && arguments.time_to_error.empty()) {
+    pliant::fail_input("--steps: it is of --time-to-error; give that as well, or leave it out");
+  }
   if (!options.cases.empty() || !options.against.empty()) {  // these alone
     options.phases = false;
     options.projections = Projections::without;
@@ -172,15 +175,15 @@ void add_bench_command(CLI::App& program) {
       ->add_option("--time-to-error", arguments->time_to_error,
                    "How many iterations and how long until a step is within 1e-2, 1e-4, 1e-6 of its end: plain, with "
                    "each acceleration, and without contact with XPBD; all, or some of hanging, swinging, falling, "
-                   "dress, bar; or "
+                   "dress, bar; or other "
                    "built-in scenes and scene files. Measured alone; takes minutes")
       ->delimiter(',');
   add_number(*command, "--steps", arguments->steps,
              "Of a scene of --time-to-error before the one that is measured; default: 60");
   command
       ->add_option("--against", arguments->options.against,
-                   "Another build of this program, timed in turns with this one by whole runs of the workloads, nine "
-                   "rounds by default. Measured without the phases")
+                   "Another build of this program, timed in turns with this one by whole runs of the workloads and "
+                   "scenes, nine rounds by default. Measured without the phases")
       ->type_name("PROGRAM");
   command->add_option("--json", arguments->json, "Write the results as JSON; -: to the standard output")
       ->type_name("FILE");

@@ -119,22 +119,29 @@ class Bench(unittest.TestCase):
         (self.folder / "scenes" / "rope.obj").write_text("v 0 0 0\nv 1 0 0\nv 2 0.1 0\nl 1 2\nl 2 3\n")
         (self.folder / "scenes" / "own.json").write_text(json.dumps(scene))
         done = self.bench("--time-to-error", "trampoline,scenes/own.json", "--steps", 3, "--repeats", 1, "--threads", 1,
-                          "--against", PLIANT, "--json", "-")
+                          "--json", "-")
         result = json.loads(done.stdout)
         names = ["trampoline", "scenes/own.json"]
         self.assertEqual([case["name"] for case in result["time_to_error"]], names)
         self.assertEqual([case["vertices"] for case in result["time_to_error"]], [725, 3])
-        self.assertEqual([each["name"] for each in result["against"]], names)
         for case in result["time_to_error"]:
             self.assertIn("step 4", case["description"])
             self.assertEqual(list(case["methods"])[:2], ["plain", "lbfgs"])
             self.assertLess(case["uncertainty"], 1e-6)
             self.assertIsNotNone(case["methods"]["lbfgs"][0]["iterations"])
+        done = self.bench("--time-to-error", "scenes/own.json", "--steps", 3, "--repeats", 1, "--threads", 1,
+                          "--against", PLIANT, "--json", "-")
+        result = json.loads(done.stdout)
+        self.assertEqual([(each["name"], each["iterations"]) for each in result["against"]], [("scenes/own.json", 10)])
+        self.assertGreater(result["against"][0]["other_step_seconds"]["median"], 0)
         for wrong, message in ((["scenes/gone.json"], "scenes/gone.json"),
                                (["trampoline", "--steps", "-1"], "--steps: -1 is out of range; give 0 to 1000000"),
+                               (["hanging", "--steps", "5"], "--steps: the bench's own cases take theirs"),
+                               (["trampoline", "--against", PLIANT], "'trampoline' does not take plain steps"),
                                (["tramploine"], "there is no 'tramploine'"), (["tramploine"], "trampoline")):
             with self.subTest(wrong):
                 self.assertIn(message, self.bench("--time-to-error", *wrong, expect=2).stderr)
+        self.assertIn("--steps: it is of --time-to-error", self.bench("--steps", "5", expect=2).stderr)
 
     def check_workload(self, workload, has_cholmod, precision):
         self.assertEqual([phase["name"] for phase in workload["phases"]], PHASES)

@@ -90,7 +90,7 @@ TEST_CASE("towel: it comes to rest on the ball, the box and the floor") {
   run_clear_of_colliders(scene, [](const Simulation&, std::int64_t) {});
   if (!runs_whole_scenes) return;
   for (const char* name : {"ball", "box", "floor"}) CHECK(contacts_with(scene.simulation, name) > 20);
-  // In some runs, whatever the last digits make of it, a corner swings for another half second.
+  // In some runs, whatever the last digits make of it, a corner swings for another second.
   for (int i = 0; i < 60 && fastest(scene.simulation) >= 0.03; ++i) scene.step();
   CHECK(fastest(scene.simulation) < 0.03);
 }

@@ -63,19 +63,29 @@ TEST_CASE("component loops: a component no larger than a share is summed in orde
   CHECK(sums_of(components, 2)[1] == in_order);
 }
 
-TEST_CASE("component loops: every vertex is met once") {
-  for (const Sizes& sizes : {Sizes{1, 50'000}, Sizes{7, 9'000}, Sizes{1000, 33}}) {
-    CAPTURE(sizes.count);
-    const Components components = components_of(sizes.count, sizes.vertices);
+TEST_CASE("component loops: every vertex is met once, and large components by all threads") {
+  Components mixed = components_of(200, 50);  // and one large one among them
+  for (Index v = 0; v < 30'000; ++v) mixed.vertices.push_back(10'000 + v);
+  mixed.starts.push_back(mixed.vertices.size());
+  for (Index v = 0; v < 77; ++v) mixed.vertices.push_back(40'000 + v);
+  mixed.starts.push_back(mixed.vertices.size());
+  for (const Components& components :
+       {components_of(1, 50'000), components_of(7, 9'000), components_of(1000, 33), components_of(20'000, 1), mixed}) {
+    CAPTURE(components.count());
     for (const int threads : {1, 2, 8}) {
       ThreadPool pool(threads);
       std::vector<std::atomic<int>> times(components.vertices.size());
+      std::atomic<int> wrong = 0;
       for_each_component(components, pool, [&](std::size_t i, ThreadPool* inside) {
+        wrong += components.component(i).size() >= 8192 && inside == nullptr;
         for_each_vertex(components.component(i), inside, [&](Index v) { ++times[at(v)]; });
       });
       for (const auto& each : times) REQUIRE(each == 1);
+      CHECK(wrong == 0);
     }
   }
+  ThreadPool pool(2);
+  for_each_component(Components{}, pool, [](std::size_t, ThreadPool*) { FAIL("there is none"); });
 }
 
 }  // namespace test_component_loops

@@ -1,4 +1,6 @@
 #include <random>
+#include <set>
+#include <utility>
 
 #include <Eigen/Cholesky>
 #include <doctest/doctest.h>
@@ -55,6 +57,15 @@ Eigen::MatrixXd random_matrix(Random& random, Index size, Real density) {
   }
   for (Index i = 0; i < size; ++i) dense(i, i) = dense.row(i).cwiseAbs().sum() + random.uniform(0.01, 1);
   return dense;
+}
+
+/// Two dense blocks of so many columns that both meet a third one of `rows`: eliminated first, they have its rows
+/// below.
+Eigen::MatrixXd joined_blocks(Random& random, Index columns, Index rows) {
+  Eigen::MatrixXd dense = random_matrix(random, 2 * columns + rows, 1);
+  dense.block(0, columns, columns, columns).setZero();
+  dense.block(columns, 0, columns, columns).setZero();
+  return dense;  // still diagonally dominant
 }
 
 template <class T>
@@ -117,6 +128,30 @@ TEST_CASE("the triangular solves agree with a dense solve, whatever the pattern"
         // Other values on the same pattern need no new analysis.
         check_solve(factorization, 3 * dense + Eigen::MatrixXd(dense.diagonal().asDiagonal()), random);
       }
+    }
+  });
+}
+
+TEST_CASE("the triangular solves agree with a dense solve, whatever the widths of panels and the rows below them") {
+  for_each_backend([](Factorization& factorization) {
+    Random random;
+    std::set<std::pair<Index, Index>> shapes;
+    for (const Index columns : {1, 2, 3, 4, 5, 6, 7, 8, 9, 12, 13, 16, 17, 20, 31, 64, 65}) {
+      for (const Index below : {1, 3, 4, 5, 9, 17}) {
+        CAPTURE(columns);
+        CAPTURE(below);
+        const Eigen::MatrixXd dense = joined_blocks(random, columns, below);
+        factorization.analyze(lower_of(dense));
+        check_solve(factorization, dense, random);
+        for (const Supernode& s : factorization.factor().supernodes) {
+          shapes.emplace(s.columns, static_cast<Index>(s.rows_below.size()));
+        }
+      }
+    }
+    // Panels of every width that kernels treat in a way of its own, with full and partial blocks of rows below.
+    for (const Index columns : {5, 6, 7, 8, 9, 16, 17, 64, 65}) {
+      CAPTURE(columns);
+      for (const Index below : {4, 5}) CHECK(shapes.contains({columns, below}));
     }
   });
 }

@@ -46,12 +46,14 @@ void for_each_vertex(std::span<const Index> vertices, ThreadPool* threads, Body&
 template <class Sum, class Add>
 Sum sum_over(std::span<const Index> vertices, ThreadPool* threads, Add&& add) {
   const VertexShares shares(static_cast<Index>(vertices.size()));
-  std::array<Sum, VertexShares::most_shares> sums;
-  const auto take = [&](Index share) {
+  const auto sum_of = [&](Index share) {
     Sum sum{};
     for (Index i = shares.begin(share); i < shares.begin(share + 1); ++i) add(sum, vertices[at(i)]);
-    sums[at(share)] = sum;
+    return sum;
   };
+  if (shares.count == 1) return sum_of(0);
+  std::array<Sum, VertexShares::most_shares> sums;
+  const auto take = [&](Index share) { sums[at(share)] = sum_of(share); };
   if (threads != nullptr) {
     threads->parallel_for(shares.count, take);
   } else {
@@ -61,23 +63,32 @@ Sum sum_over(std::span<const Index> vertices, ThreadPool* threads, Add&& add) {
   return sums[0];
 }
 
-/// Calls body(component, threads), with the threads for the loops inside: few large components one after the other by
-/// all threads, many small ones side by side.
+/// Calls body(component, threads), with the threads for the loops inside: large components one after the other by all
+/// threads, the others side by side where they are many vertices.
 template <class Body>
 void for_each_component(const Components& components, ThreadPool& threads, Body&& body) {
   const auto count = static_cast<Index>(components.count());
-  const auto vertices = static_cast<Index>(components.vertices.size());
-  if (vertices < 2 * VertexShares::least_vertices || count < VertexShares::most_shares) {
+  const VertexShares shares(static_cast<Index>(components.vertices.size()));
+  if (shares.count == 1) {
     for (Index i = 0; i < count; ++i) body(at(i), &threads);
     return;
   }
-  const VertexShares shares(vertices);
+  const auto is_large = [&](Index i) {
+    return VertexShares(static_cast<Index>(components.component(at(i)).size())).count > 1;
+  };
+  // Of each share the components that begin in it.
+  const auto first_of = [&](Index share) {
+    const auto place = static_cast<std::size_t>(shares.begin(share));
+    return static_cast<Index>(std::ranges::lower_bound(components.starts, place) - components.starts.begin());
+  };
   threads.parallel_for(shares.count, [&](Index share) {
-    const auto first_of = [&](Index of) { return std::int64_t{count} * of / shares.count; };
-    for (std::int64_t i = first_of(share); i < first_of(share + 1); ++i) {
-      body(static_cast<std::size_t>(i), static_cast<ThreadPool*>(nullptr));
+    for (Index i = first_of(share), end = std::min(count, first_of(share + 1)); i < end; ++i) {
+      if (!is_large(i)) body(at(i), static_cast<ThreadPool*>(nullptr));
     }
   });
+  for (Index i = 0; i < count; ++i) {
+    if (is_large(i)) body(at(i), &threads);
+  }
 }
 
 }  // namespace pliant

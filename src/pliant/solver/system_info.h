@@ -15,7 +15,7 @@ struct FreeComponent {
 
 struct SystemInfo {
   std::int64_t matrix_entries = 0;           ///< non-zeros of the lower triangle with the diagonal
-  std::int64_t factor_entries = 0;           ///< of L, the zeros that panels carry along included
+  std::int64_t factor_entries = 0;           ///< values that its panels store, zeros among them
   std::int64_t supernodes = 0;               ///< panels of L
   std::int64_t substitution_bytes = 0;       ///< that the forward substitution of a solve reads of the factor
   std::int64_t backward_bytes = 0;           ///< that the backward substitution reads of it

@@ -21,7 +21,7 @@ struct RigidMotion {
 };
 
 /// Of these vertices, at least one, with all masses > 0. A component on a line, or of one vertex, has no turning about
-/// itself. threads: of the loops over the vertices; none: the caller's alone, with the same result. Never allocates.
+/// itself. threads: of the loops over the vertices; none: the caller's alone. Never allocates.
 RigidMotion fit_rigid_motion(std::span<const Index> component, const Positions& positions, std::span<const Real> masses,
                              const Positions& velocities, ThreadPool* threads = nullptr);
 

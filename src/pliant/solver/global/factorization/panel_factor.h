@@ -14,9 +14,9 @@
 // backward substitution x ← U⁻ᵀ x: what a panel takes from other rows, or they from it, does not wait for a product
 // with its diagonal block, and the backward one does not read these at all.
 //
-// A block of rows stands column after column, so four values at a time; what a last block lacks is zeros. Both
-// substitutions read the values of a panel from the first to the last. All three coordinates of a vertex, and a zero,
-// go through a sweep together in four lanes, so each value is read once and serves three right-hand sides.
+// A block of rows stands column after column, so four values at a time; what a last block lacks is zeros. All three
+// coordinates of a vertex, and a zero, go through a sweep together in four lanes, so each value is read once and serves
+// three right-hand sides.
 //
 // Subtrees of the elimination tree (panel_tasks.h) are swept at the same time, in stages. What one of them subtracts
 // from rows that are not its own goes to rows of x that it has for itself, and is added after its stage in the order of
@@ -78,7 +78,7 @@ class PanelFactor {
     std::vector<Part> parts;
     Index column_end = 0;                        // of its subtrees: rows below belong to others from here on
     std::size_t outer_begin = 0, outer_end = 0;  // in outer_rows_
-    std::size_t own_rows = 0;                    // of x: one for each outer row, then one that nobody reads
+    std::size_t own_rows = 0;                    // of x: one for each outer row, then one that counts nowhere
   };
   using Stage = std::vector<Task>;
 

@@ -119,7 +119,8 @@ template <class T>
 void write_panel(const Supernode& s, Real unit, std::vector<Real>& work, T* out) {
   const auto n = static_cast<std::size_t>(s.columns);
   const std::size_t below = s.rows_below.size();
-  if (work.size() < n * (2 * n + below)) work.resize(n * (2 * n + below));
+  const std::size_t room = n * (n + std::max(n, below));
+  if (work.size() < room) work.resize(room);
   Real* const inverse = work.data();
   Real* const product = inverse + n * n;
   for (Index c = 0; c < s.columns; ++c) {

@@ -19,6 +19,7 @@ struct Kernel {
 
   /// Panels up to this wide keep their columns of x in registers.
   static constexpr int most_narrow_columns = 8;
+  static_assert(most_narrow_columns <= most_whole_columns, "narrow panels are taken to store whole blocks");
 
   template <int columns>
   static void forward_narrow(const T* value, const std::int32_t* row, std::int32_t blocks, T* x, T* own) {

@@ -27,7 +27,7 @@ struct Count {
   static constexpr int value = n;
 };
 
-/// Calls body(Count<n>()) for an n of 1 to `most`, at most eight.
+/// Calls body(Count<n>()) for an n of 1 to `most`, at most eight; for 0 nothing.
 template <int most, class Body>
 void with_count(std::int32_t n, Body&& body) {
   switch (n) {
