@@ -137,7 +137,7 @@ class Bench(unittest.TestCase):
         for wrong, message in ((["scenes/gone.json"], "scenes/gone.json"),
                                (["trampoline", "--steps", "-1"], "--steps: -1 is out of range; give 0 to 1000000"),
                                (["hanging", "--steps", "5"], "--steps: the bench's own cases take theirs"),
-                               (["trampoline", "--against", PLIANT], "'trampoline' does not take plain steps"),
+                               (["towel", "--against", PLIANT], "'towel' does not take plain steps"),
                                (["tramploine"], "there is no 'tramploine'"), (["tramploine"], "trampoline")):
             with self.subTest(wrong):
                 self.assertIn(message, self.bench("--time-to-error", *wrong, expect=2).stderr)
