@@ -78,12 +78,12 @@ std::string builtin_text(std::string_view name) {
 
 bool takes_plain_steps(const Scene& scene) {
   const SolverSettings& settings = scene.simulation.settings();
-  if (settings.iterations == automatic_iterations || scene.has_surfaces) return false;
+  const bool has_contact = scene.has_surfaces || !scene.simulation.colliders().empty();
+  if (settings.iterations == automatic_iterations || has_contact) return false;
   if (settings.acceleration != Acceleration::automatic) return settings.acceleration == Acceleration::none;
-  return scene.simulation.colliders().empty() && std::ranges::all_of(scene.simulation.groups(), [](const auto& each) {
-           return std::ranges::all_of(each.second.set.batches,
-                                      [](const auto& batch) { return batch->is_projective(); });
-         });
+  return std::ranges::all_of(scene.simulation.groups(), [](const auto& each) {
+    return std::ranges::all_of(each.second.set.batches, [](const auto& batch) { return batch->is_projective(); });
+  });
 }
 
 /// A built-in scene, or a file.
@@ -101,7 +101,9 @@ StepCase case_of_scene(const std::string& name, const std::vector<StepCase>& cas
   } else {
     std::vector<std::string_view> known = {"all"};
     for (const StepCase& each : cases) known.push_back(each.name);
-    for (const BuiltinScene& each : builtin_scenes()) known.push_back(each.name);
+    for (const BuiltinScene& each : builtin_scenes()) {
+      if (std::ranges::find(known, each.name) == known.end()) known.push_back(each.name);
+    }
     fail_input("--time-to-error: there is no '" + printable(name) +
                "'; give a case of the bench, a built-in scene or a scene file; " + suggestion_text(name, known));
   }

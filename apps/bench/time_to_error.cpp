@@ -6,9 +6,12 @@
 #include <map>
 #include <memory>
 
+#include <fmt/format.h>
+
 #include "bench/timing.h"
 #include "bench/xpbd.h"
 #include "pliant/core/error.h"
+#include "pliant/core/printable.h"
 #include "pliant/core/stopwatch.h"
 
 namespace pliant_bench {
@@ -17,6 +20,8 @@ namespace {
 using namespace pliant;
 
 constexpr double seconds_a_level = 2;
+/// Of how far a step goes: where its prediction is nearer to its end, that is rounding.
+constexpr double least_unit = 1e-9;
 
 /// One step, taken as often as one likes.
 class Step {
@@ -26,11 +31,16 @@ class Step {
     const auto half = converged(most_iterations / 2);
     reference_ = converged(most_iterations);
     unit_ = 1;
-    unit_ = error_of(prediction());
+    const double unit = error_of(prediction());
+    can_be_measured_ = unit > least_unit * error_of(start_.positions);
+    if (!can_be_measured_) return;
+    unit_ = unit;
     uncertainty_ = error_of(half);
     usual_error_ = error_after(Acceleration::lbfgs, usual_iterations);
     simulation.restore(start_);
   }
+  /// Not where nothing but inertia and forces acts, so that the step ends at its prediction.
+  bool can_be_measured() const { return can_be_measured_; }
   double uncertainty() const { return uncertainty_; }
   double usual_error() const { return usual_error_; }
   double error_of(const Positions& positions) const {
@@ -84,6 +94,7 @@ class Step {
   const State start_;
   Positions reference_;
   double unit_ = 1;  // [m]
+  bool can_be_measured_ = false;
   double uncertainty_ = 0;
   double usual_error_ = 0;
   std::map<std::pair<Acceleration, Index>, double> errors_;
@@ -190,6 +201,12 @@ TimeToErrorResult measure_time_to_error(const StepCase& step_case, const BenchOp
   settings.ordering = options.settings.ordering;
   settings.precision = options.settings.precision;
   Step step(scene.simulation, settings);
+  if (!step.can_be_measured()) {
+    fail_input(
+        fmt::format("--time-to-error: step {} of '{}' ends where forces and inertia alone lead, as in free fall; "
+                    "give other --steps",
+                    step_case.steps + 1, printable(step_case.name)));
+  }
   TimeToErrorResult result{.name = step_case.name,
                            .description = step_case.description,
                            .vertices = scene.simulation.state().vertex_count(),

@@ -175,11 +175,10 @@ void add_bench_command(CLI::App& program) {
       ->add_option("--time-to-error", arguments->time_to_error,
                    "How many iterations and how long until a step is within 1e-2, 1e-4, 1e-6 of its end: plain, with "
                    "each acceleration, and without contact with XPBD; all, or some of hanging, swinging, falling, "
-                   "dress, bar; or other "
-                   "built-in scenes and scene files. Measured alone; takes minutes")
+                   "dress, bar; or other built-in scenes and scene files. Measured alone; takes minutes")
       ->delimiter(',');
   add_number(*command, "--steps", arguments->steps,
-             "Of a scene of --time-to-error before the one that is measured; default: 60");
+             "Of a scene of --time-to-error before the one that is measured, taken by L-BFGS; default: 60");
   command
       ->add_option("--against", arguments->options.against,
                    "Another build of this program, timed in turns with this one by whole runs of the workloads and "

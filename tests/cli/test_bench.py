@@ -129,12 +129,15 @@ class Bench(unittest.TestCase):
             self.assertEqual(list(case["methods"])[:2], ["plain", "lbfgs"])
             self.assertLess(case["uncertainty"], 1e-6)
             self.assertIsNotNone(case["methods"]["lbfgs"][0]["iterations"])
+        scene["bodies"][0]["constraints"] = scene["bodies"][0]["constraints"][:1]
+        (self.folder / "scenes" / "falling.json").write_text(json.dumps(scene))
         done = self.bench("--time-to-error", "scenes/own.json", "--steps", 3, "--repeats", 1, "--threads", 1,
                           "--against", PLIANT, "--json", "-")
         result = json.loads(done.stdout)
         self.assertEqual([(each["name"], each["iterations"]) for each in result["against"]], [("scenes/own.json", 10)])
         self.assertGreater(result["against"][0]["other_step_seconds"]["median"], 0)
         for wrong, message in ((["scenes/gone.json"], "scenes/gone.json"),
+                               (["scenes/falling.json", "--steps", "3"], "step 4 of 'scenes/falling.json' ends where forces"),
                                (["trampoline", "--steps", "-1"], "--steps: -1 is out of range; give 0 to 1000000"),
                                (["hanging", "--steps", "5"], "--steps: the bench's own cases take theirs"),
                                (["towel", "--against", PLIANT], "'towel' does not take plain steps"),

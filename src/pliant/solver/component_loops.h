@@ -10,6 +10,19 @@
 
 namespace pliant {
 
+/// A sum of vectors and one of weights, whose quotient is a mean.
+struct MeanSum {
+  Vec3 vector = Vec3::Zero();
+  Real weight = 0;
+
+  Vec3 mean() const { return vector / weight; }
+  MeanSum& operator+=(const MeanSum& other) {
+    vector += other.vector;
+    weight += other.weight;
+    return *this;
+  }
+};
+
 /// Into how many shares a loop over so many vertices is cut, 1 to most_shares.
 struct VertexShares {
   static constexpr Index most_shares = 64;
@@ -69,7 +82,7 @@ template <class Body>
 void for_each_component(const Components& components, ThreadPool& threads, Body&& body) {
   const auto count = static_cast<Index>(components.count());
   const VertexShares shares(static_cast<Index>(components.vertices.size()));
-  if (shares.count == 1) {
+  if (shares.count == 1 || count == 1) {
     for (Index i = 0; i < count; ++i) body(at(i), &threads);
     return;
   }

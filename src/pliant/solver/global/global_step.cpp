@@ -31,17 +31,6 @@ Real largest_diagonal(const LowerMatrix& Y) {
   return largest;
 }
 
-/// Of a component: Σ (r − w x), and Σ w.
-struct Missing {
-  Vec3 force = Vec3::Zero();
-  Real weight = 0;
-  Missing& operator+=(const Missing& other) {
-    force += other.force;
-    weight += other.weight;
-    return *this;
-  }
-};
-
 /// One constant, which has every component's constant in it, and two without any order.
 void fill_starts(Positions& x) {
   for (Eigen::Index i = 0; i < x.rows(); ++i) {
@@ -143,12 +132,12 @@ SolveTimes GlobalStep::move(Positions& r, Real largest, Positions& q, ThreadPool
 void GlobalStep::correct_means(const Positions& r, Positions& x, ThreadPool& threads) const {
   for_each_component(*components_, threads, [&](std::size_t i, ThreadPool* inside) {
     const std::span<const Index> component = components_->component(i);
-    const auto missing = sum_over<Missing>(component, inside, [&](Missing& sum, Index v) {
+    const auto missing = sum_over<MeanSum>(component, inside, [&](MeanSum& sum, Index v) {
       const Real w = weights_[at(v)];
-      sum.force += r.row(v).transpose() - w * x.row(v).transpose();
+      sum.vector += r.row(v).transpose() - w * x.row(v).transpose();
       sum.weight += w;
     });
-    const Vec3 shift = missing.force / missing.weight;
+    const Vec3 shift = missing.mean();
     for_each_vertex(component, inside, [&](Index v) { x.row(v) += shift.transpose(); });
   });
 }

@@ -40,17 +40,6 @@ Real turning_energy(const Mat3& inertia, const Vec3& angular_momentum) {
   return angular_velocity(inertia, angular_momentum).dot(angular_momentum) / 2;
 }
 
-/// Of all forces on a component.
-struct Pull {
-  Vec3 force = Vec3::Zero();
-  Real mass = 0;
-  Pull& operator+=(const Pull& other) {
-    force += other.force;
-    mass += other.mass;
-    return *this;
-  }
-};
-
 /// Of a move: fᵀ x, and that less what inertia has of it.
 struct AlongMove {
   Real slope = 0;
@@ -167,11 +156,11 @@ void EnergyBalance::write_forces(std::size_t component, const StepEnd& end, cons
   const auto force_on = [&](Index v) { return Vec3(row(end.elastic_forces, v) + row(outside, v)); };
   Vec3 acceleration = Vec3::Zero();
   if (is_free_[component]) {
-    const auto pull = sum_over<Pull>(vertices, inside, [&](Pull& sum, Index v) {
-      sum.force += force_on(v);
-      sum.mass += masses_[at(v)];
+    const auto pull = sum_over<MeanSum>(vertices, inside, [&](MeanSum& sum, Index v) {
+      sum.vector += force_on(v);
+      sum.weight += masses_[at(v)];
     });
-    acceleration = pull.force / pull.mass;
+    acceleration = pull.mean();
   }
   for_each_vertex(vertices, inside, [&](Index v) {
     const Vec3 force = force_on(v) - masses_[at(v)] * acceleration;

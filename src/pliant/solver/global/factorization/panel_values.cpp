@@ -50,14 +50,14 @@ void invert(Real* L, Index n, Index stride) {
   B = -B;
 }
 
-/// S = D⁻ᵀ D⁻¹, whole.
-void multiply_by_itself(const Real* inverse, Index n, Real* S) {
+/// (D Dᵀ)⁻¹ = D⁻ᵀ D⁻¹, whole.
+void invert_whole(const Real* inverse, Index n, Real* whole) {
   const auto at = [n](Index r, Index c) { return static_cast<std::ptrdiff_t>(c) * n + r; };
   for (Index c = 0; c < n; ++c) {
     for (Index r = c; r < n; ++r) {
       Real sum = 0;
       for (Index k = r; k < n; ++k) sum += inverse[at(k, r)] * inverse[at(k, c)];
-      S[at(r, c)] = S[at(c, r)] = sum;
+      whole[at(r, c)] = whole[at(c, r)] = sum;
     }
   }
 }
@@ -128,7 +128,7 @@ void write_panel(const Supernode& s, Real unit, std::vector<Real>& work, T* out)
   }
   invert_lower_triangle(inverse, s.columns);
   if (s.columns <= most_whole_columns) {
-    multiply_by_itself(inverse, s.columns, product);
+    invert_whole(inverse, s.columns, product);
     out = write_blocks(product, s.columns, s.columns, unit * unit, out);
   } else {
     out = write_inverse(inverse, s.columns, unit, out);

@@ -27,36 +27,15 @@ struct Count {
   static constexpr int value = n;
 };
 
-/// Calls body(Count<n>()) for an n of 1 to `most`, at most eight; for 0 nothing.
+/// Calls body(Count<n>()) for an n of 1 to `most`; for 0 nothing.
 template <int most, class Body>
 void with_count(std::int32_t n, Body&& body) {
-  switch (n) {
-    case 1:
-      if constexpr (1 <= most) body(Count<1>());
-      break;
-    case 2:
-      if constexpr (2 <= most) body(Count<2>());
-      break;
-    case 3:
-      if constexpr (3 <= most) body(Count<3>());
-      break;
-    case 4:
-      if constexpr (4 <= most) body(Count<4>());
-      break;
-    case 5:
-      if constexpr (5 <= most) body(Count<5>());
-      break;
-    case 6:
-      if constexpr (6 <= most) body(Count<6>());
-      break;
-    case 7:
-      if constexpr (7 <= most) body(Count<7>());
-      break;
-    case 8:
-      if constexpr (8 <= most) body(Count<8>());
-      break;
-    default:
-      break;
+  if constexpr (most > 0) {
+    if (n == most) {
+      body(Count<most>());
+    } else {
+      with_count<most - 1>(n, body);
+    }
   }
 }
 
