@@ -24,8 +24,8 @@ TEST_CASE("passing groups: a corrected solve is that of the whole matrix, whatev
         CAPTURE(count);
         CAPTURE(weight);
         const FactorRows rows = some_rows(count, weight, random);
-        CHECK(factor.step.correct(rows, factor.threads));
-        CHECK_FALSE(factor.step.correct(rows, factor.threads));
+        CHECK(factor.step.correct(rows));
+        CHECK_FALSE(factor.step.correct(rows));
         Positions r = random.positions(matrix.size(), 1);
         // and the pull of a stiff spring far from its target, beside which the rest must not be lost
         for (std::size_t e = rows.starts[0]; e < rows.starts[1]; ++e) {
@@ -42,7 +42,7 @@ TEST_CASE("passing groups: a corrected solve is that of the whole matrix, whatev
         CHECK(same_bits(q, before + x));
       }
     }
-    CHECK(factor.step.correct({}, factor.threads));
+    CHECK(factor.step.correct({}));
     Positions r = random.positions(matrix.size(), 1);
     Positions x(r.rows(), 3);
     factor.step.solve(r, 1, x, factor.threads);
@@ -60,16 +60,16 @@ TEST_CASE("passing groups: another stiffness, and rows that are there twice") {
   rows.add({}, {}, 1);
   CHECK(rows.count() == 1);
   CHECK(rows.weights[0] == 6e17);
-  CHECK(factor.step.correct(rows, factor.threads));
+  CHECK(factor.step.correct(rows));
   rows.weights[0] = 20;
-  CHECK(factor.step.correct(rows, factor.threads));
+  CHECK(factor.step.correct(rows));
   Random random;
   Positions r = random.positions(matrix.size(), 1);
   Positions x(r.rows(), 3);
   factor.step.solve(r, 1, x, factor.threads);
   CHECK((dense(matrix, rows) * x - r).cwiseAbs().maxCoeff() < 1e-12);
   rows.weights[0] = std::numeric_limits<Real>::infinity();
-  CHECK_THROWS_WITH_AS(factor.step.correct(rows, factor.threads), doctest::Contains("reduce its stiffness"), Error);
+  CHECK_THROWS_WITH_AS(factor.step.correct(rows), doctest::Contains("reduce its stiffness"), Error);
 }
 
 TEST_CASE("passing groups: what numbers do not hold is refused in every step, not in the first alone") {

@@ -13,7 +13,37 @@ namespace {
 /// Of the trace.
 constexpr Real smallest_shift = 1e-15;
 constexpr std::size_t columns_together = 3;
+constexpr std::size_t chains = 4;
 constexpr std::size_t lanes = panel_lanes;
+
+/// Sums side by side, since one alone would wait for itself.
+template <class T, std::size_t width>
+using Sums = std::array<std::array<T, width>, chains>;
+
+/// Numbers z times vectors of as many lanes as `sums` are wide.
+template <class T, std::size_t width>
+void add_products(const T* z, const T* vectors, std::size_t count, Sums<T, width>& sums) {
+  std::size_t k = 0;
+  for (; k + chains <= count; k += chains) {
+    for (std::size_t chain = 0; chain < chains; ++chain) {
+      for (std::size_t lane = 0; lane < width; ++lane) {
+        sums[chain][lane] += z[k + chain] * vectors[width * (k + chain) + lane];
+      }
+    }
+  }
+  for (std::size_t chain = 0; k < count; ++k, ++chain) {
+    for (std::size_t lane = 0; lane < width; ++lane) sums[chain][lane] += z[k] * vectors[width * k + lane];
+  }
+}
+
+template <class T, std::size_t width>
+std::array<T, width> total(const Sums<T, width>& sums) {
+  std::array<T, width> sum{};
+  for (std::size_t lane = 0; lane < width; ++lane) {
+    sum[lane] = (sums[0][lane] + sums[1][lane]) + (sums[2][lane] + sums[3][lane]);
+  }
+  return sum;
+}
 
 [[noreturn]] void fail_too_stiff() {
   fail_input("a drag or pin is too stiff, or what it pulls at too soft, for numbers of 64 bits; reduce its stiffness");
@@ -64,11 +94,12 @@ void FactorRows::add_to_diagonal(std::span<Real> diagonal) const {
 
 void FactorCorrection::set(FactorRows rows, const FreeInFactor& free) {
   rows_ = std::move(rows);
+  vector_size_ = free.weights.size();
   find_free(free);
   before_.resize(rows_.vertices.size());
   dots_.resize(column_count());
-  column_starts_.assign(1, 0);
-  places_.clear();
+  starts_.assign(1, {});
+  runs_.clear();
   columns_ = {};
 }
 
@@ -76,7 +107,7 @@ void FactorCorrection::find_free(const FreeInFactor& free) {
   free_.clear();
   for (std::size_t c = 0; c < free.components.count(); ++c) {
     const std::span<const Index> vertices = free.components.component(c);
-    Free found{c, 0, std::vector<Real>(rows_.count())};
+    Free found{c, 0, std::vector<Real>(rows_.count()), std::vector<Real>(rows_.count())};
     bool has_row = false;
     for (std::size_t i = 0; i < rows_.count(); ++i) {
       for (std::size_t e = rows_.starts[i]; e < rows_.starts[i + 1]; ++e) {
@@ -111,47 +142,70 @@ Real FactorCorrection::write_columns(std::size_t first, const FreeInFactor& free
 template <class T>
 void FactorCorrection::read_columns(std::size_t first, const InFactorOrder<T>& z, const InFactorOrder<T>& v) {
   for (std::size_t j = 0; j < std::min(columns_together, column_count() - first); ++j) {
+    bool goes_on = false;
     for (std::size_t i = 0; lanes * i < v.numbers.size(); ++i) {
       const T of_z = z.numbers[lanes * i + j];
       const T of_v = v.numbers[lanes * i + j];
-      if (of_z == 0 && of_v == 0) continue;
-      places_.push_back(static_cast<Index>(i));
-      columns_.z.push_back(static_cast<Real>(of_z) * z.scale);
-      columns_.v.push_back(static_cast<Real>(of_v) * v.scale);
+      const bool is_zero = of_z == 0 && of_v == 0;
+      if (!is_zero) {
+        if (!goes_on) runs_.push_back({i, 0});
+        ++runs_.back().count;
+        columns_.z.push_back(static_cast<Real>(of_z) * z.scale);
+        columns_.v.push_back(static_cast<Real>(of_v) * v.scale);
+      }
+      goes_on = !is_zero;
     }
-    column_starts_.push_back(places_.size());
+    starts_.push_back({runs_.size(), columns_.z.size()});
   }
 }
 
-/// Of column i of Z and column j of V.
-Real FactorCorrection::product(std::size_t i, std::size_t j) const {
-  Real sum = 0;
-  std::size_t a = column_starts_[i];
-  for (std::size_t b = column_starts_[j]; b < column_starts_[j + 1]; ++b) {
-    while (a < column_starts_[i + 1] && places_[a] < places_[b]) ++a;
-    if (a < column_starts_[i + 1] && places_[a] == places_[b]) sum += columns_.z[a] * columns_.v[b];
+/// body(where the values begin, where the vector begins, count).
+template <class Body>
+void FactorCorrection::for_each_run(std::size_t column, Body&& body) const {
+  std::size_t value = starts_[column].value;
+  for (std::size_t r = starts_[column].run; r < starts_[column + 1].run; ++r) {
+    body(value, runs_[r].place, runs_[r].count);
+    value += runs_[r].count;
   }
-  return sum;
+}
+
+/// Of column i of Z and a whole vector.
+Real FactorCorrection::product(std::size_t i, std::span<const Real> whole) const {
+  Sums<Real, 1> sums{};
+  for_each_run(i, [&](std::size_t value, std::size_t place, std::size_t count) {
+    add_products(columns_.z.data() + value, whole.data() + place, count, sums);
+  });
+  return total(sums)[0];
+}
+
+/// A Y⁻¹ Aᵀ = Zᵀ V, and what translations of free components add to it.
+void FactorCorrection::multiply_columns() {
+  const auto count = static_cast<Eigen::Index>(rows_.count());
+  meeting_.resize(count, count);
+  std::vector<Real> whole(vector_size_);
+  for (std::size_t j = 0; j < rows_.count(); ++j) {
+    for_each_run(j, [&](std::size_t value, std::size_t place, std::size_t run) {
+      std::copy_n(columns_.v.data() + value, run, whole.data() + place);
+    });
+    const auto column = static_cast<Eigen::Index>(j);
+    for (std::size_t i = 0; i <= j; ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      meeting_(row, column) = meeting_(column, row) = product(i, whole);
+    }
+    for (std::size_t c = 0; c < free_.size(); ++c) {
+      free_[c].missing[j] = (free_[c].shares[j] - product(rows_.count() + c, whole)) / free_[c].weight;
+    }
+    for_each_run(
+        j, [&](std::size_t, std::size_t place, std::size_t run) { std::fill_n(whole.data() + place, run, Real(0)); });
+  }
+  for (const Free& free : free_) {
+    const Eigen::Map<const Eigen::VectorX<Real>> shares(free.shares.data(), count), missing(free.missing.data(), count);
+    meeting_ += (shares * missing.transpose() + missing * shares.transpose()) / 2;
+  }
 }
 
 void FactorCorrection::finish_columns() {
-  const auto count = static_cast<Eigen::Index>(rows_.count());
-  meeting_.resize(count, count);
-  for (Eigen::Index j = 0; j < count; ++j) {
-    const auto column = static_cast<std::size_t>(j);
-    for (Eigen::Index i = 0; i <= j; ++i) {
-      meeting_(i, j) = meeting_(j, i) = product(static_cast<std::size_t>(i), column);
-    }
-  }
-  for (std::size_t c = 0; c < free_.size(); ++c) {
-    const Free& free = free_[c];
-    for (Eigen::Index j = 0; j < count; ++j) {
-      const auto column = static_cast<std::size_t>(j);
-      const Real missing = (free.shares[column] - product(rows_.count() + c, column)) / free.weight;
-      for (Eigen::Index i = 0; i < count; ++i) meeting_(i, j) += free.shares[static_cast<std::size_t>(i)] * missing;
-    }
-  }
-  meeting_ = (meeting_ + meeting_.transpose()).eval() / 2;
+  multiply_columns();
   single_.z.assign(columns_.z.begin(), columns_.z.end());
   single_.v.assign(columns_.v.begin(), columns_.v.end());
   set_weights(std::vector<Real>(rows_.weights));
@@ -195,7 +249,12 @@ Vec3 FactorCorrection::times(std::size_t row, const Positions& x) const {
 }
 
 /// Row after row: any f will do.
-void FactorCorrection::take_out(Positions& r) {
+void FactorCorrection::take_out(Positions& r, const Positions* x) {
+  held_.clear();
+  for (std::size_t i = 0; i < rows_.count(); ++i) {
+    if (rows_.holds[i] == 0) continue;
+    held_.push_back(x == nullptr ? Vec3(Vec3::Zero()) : Vec3(x->row(rows_.vertices[rows_.starts[i]])));
+  }
   for (std::size_t e = 0; e < rows_.vertices.size(); ++e) before_[e] = r.row(rows_.vertices[e]).transpose();
   taken_.resize(static_cast<Eigen::Index>(rows_.count()), 3);
   for (std::size_t i = 0; i < rows_.count(); ++i) {
@@ -219,42 +278,31 @@ const FactorCorrection::Columns<T>& FactorCorrection::columns() const {
   }
 }
 
-/// Of column c of Z and y: four sums side by side, since one alone would wait for itself.
+/// Of column c of Z and y.
 template <class T>
 Vec3 FactorCorrection::dot(std::size_t c, const InFactorOrder<T>& y) const {
-  constexpr std::size_t chains = 4;
-  const std::vector<T>& z = columns<T>().z;
-  std::array<std::array<T, lanes>, chains> sums{};
-  const auto add = [&](std::size_t k, std::array<T, lanes>& sum) {
-    const T* const from = y.numbers.data() + lanes * at(places_[k]);
-    for (std::size_t lane = 0; lane < lanes; ++lane) sum[lane] += z[k] * from[lane];
-  };
-  std::size_t k = column_starts_[c];
-  const std::size_t end = column_starts_[c + 1];
-  for (; k + chains <= end; k += chains) {
-    for (std::size_t chain = 0; chain < chains; ++chain) add(k + chain, sums[chain]);
-  }
-  for (; k < end; ++k) add(k, sums[0]);
-  Vec3 total;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const T sum = (sums[0][axis] + sums[1][axis]) + (sums[2][axis] + sums[3][axis]);
-    total[static_cast<Eigen::Index>(axis)] = y.scale * static_cast<Real>(sum);
-  }
-  return total;
+  Sums<T, lanes> sums{};
+  for_each_run(c, [&](std::size_t value, std::size_t place, std::size_t count) {
+    add_products(columns<T>().z.data() + value, y.numbers.data() + lanes * place, count, sums);
+  });
+  const std::array<T, lanes> sum = total(sums);
+  return y.scale * Vec3(static_cast<Real>(sum[0]), static_cast<Real>(sum[1]), static_cast<Real>(sum[2]));
 }
 
 /// y ← y + (column i of V) μᵢ.
 template <class T>
 void FactorCorrection::add_column(std::size_t i, const InFactorOrder<T>& y) const {
-  const std::vector<T>& v = columns<T>().v;
   std::array<T, lanes> force{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     force[axis] = static_cast<T>(forces_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(axis)) / y.scale);
   }
-  for (std::size_t k = column_starts_[i]; k < column_starts_[i + 1]; ++k) {
-    T* const to = y.numbers.data() + lanes * at(places_[k]);
-    for (std::size_t lane = 0; lane < lanes; ++lane) to[lane] += v[k] * force[lane];
-  }
+  for_each_run(i, [&](std::size_t value, std::size_t place, std::size_t count) {
+    const T* const v = columns<T>().v.data() + value;
+    T* const to = y.numbers.data() + lanes * place;
+    for (std::size_t k = 0; k < count; ++k) {
+      for (std::size_t lane = 0; lane < lanes; ++lane) to[lanes * k + lane] += v[k] * force[lane];
+    }
+  });
 }
 
 template <class T>
@@ -291,8 +339,9 @@ void FactorCorrection::add_pull(Positions& r) const {
 
 void FactorCorrection::put_back(Positions& r, Positions& x) const {
   for (std::size_t e = 0; e < rows_.vertices.size(); ++e) r.row(rows_.vertices[e]) = before_[e].transpose();
+  auto held = held_.begin();
   for (std::size_t i = 0; i < rows_.count(); ++i) {
-    if (rows_.holds[i] != 0) x.row(rows_.vertices[rows_.starts[i]]).setZero();
+    if (rows_.holds[i] != 0) x.row(rows_.vertices[rows_.starts[i]]) = (*held++).transpose();
   }
 }
 

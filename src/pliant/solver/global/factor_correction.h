@@ -52,14 +52,14 @@ struct FreeInFactor {
 
 class FactorCorrection {
  public:
-  static constexpr int most_rows = 64;
+  static constexpr int most_rows = 32;
 
   bool is_empty() const { return rows_.count() == 0; }
   const FactorRows& rows() const { return rows_; }
   void clear() { rows_.clear(); }
 
-  /// At most most_rows. For every three columns write_columns(), a sparse forward substitution and read_columns() are to
-  /// follow, then finish_columns(), which throws Error(input) where numbers of 64 bits do not hold the sum.
+  /// At most most_rows. For every three columns write_columns(), a sparse forward substitution and read_columns() are
+  /// to follow, then finish_columns(), which throws Error(input) where numbers of 64 bits do not hold the sum.
   void set(FactorRows rows, const FreeInFactor& free);
   std::size_t column_count() const { return rows_.count() + free_.size(); }
   /// Columns from `first` on, three at most, as right-hand sides m × 3. Returns the largest number.
@@ -71,14 +71,14 @@ class FactorCorrection {
   void set_weights(std::span<const Real> weights);
 
   // A solve: these in their order, the substitutions around the second one.
-  /// r ← r₀.
-  void take_out(Positions& r);
+  /// r ← r₀. What is held stays where it is in x, or is 0 there.
+  void take_out(Positions& r, const Positions* x = nullptr);
   /// y ← y + V μ.
   template <class T>
   void correct(const InFactorOrder<T>& y, const Positions& r, const Components& free_components);
   /// r₀ ← r₀ + Aᵀ μ: x = Y⁻¹ of that.
   void add_pull(Positions& r) const;
-  /// r as it was, to the last bit; 0 in x where vertices are held.
+  /// r as it was, to the last bit, and held vertices in x.
   void put_back(Positions& r, Positions& x) const;
 
  private:
@@ -87,10 +87,19 @@ class FactorCorrection {
   /// One that has a row.
   struct Free {
     std::size_t component;
-    Real weight;               // Σ w
-    std::vector<Real> shares;  // α of each row
+    Real weight;                // Σ w
+    std::vector<Real> shares;   // α of each row
+    std::vector<Real> missing;  // (α − wᵀY⁻¹a) / Σ w of each row
   };
 
+  /// Numbers of a column that follow each other, from a place in the order of the factor on.
+  struct Run {
+    std::size_t place, count;
+  };
+  /// Of a column, in runs_ and in columns_.
+  struct Start {
+    std::size_t run = 0, value = 0;
+  };
   /// Of Z and V, as far as either is not zero.
   template <class T>
   struct Columns {
@@ -98,7 +107,10 @@ class FactorCorrection {
   };
 
   void find_free(const FreeInFactor& free);
-  Real product(std::size_t i, std::size_t j) const;
+  template <class Body>
+  void for_each_run(std::size_t column, Body&& body) const;
+  Real product(std::size_t i, std::span<const Real> whole) const;
+  void multiply_columns();
   template <class T>
   const Columns<T>& columns() const;
   template <class T>
@@ -110,19 +122,21 @@ class FactorCorrection {
 
   FactorRows rows_;
   std::vector<Free> free_;
-  std::vector<std::size_t> column_starts_;  // of Z and V: rows, then free components
-  std::vector<Index> places_;               // in the order of the factor, ascending in each column
+  std::size_t vector_size_ = 0;
+  std::vector<Start> starts_ = {{}};  // of columns of Z and V: rows, then free components
+  std::vector<Run> runs_;
   Columns<Real> columns_;
-  Columns<float> single_;  // the same where panels, and so the products, are in single precision
-  Matrix meeting_;                    // A Y⁻¹ Aᵀ
-  Matrix scaled_;                     // D (K⁻¹ + A Y⁻¹ Aᵀ) D, which has 1 on its diagonal
-  std::vector<Real> scales_;          // D
-  std::vector<Real> shares_;          // D K⁻¹
-  Eigen::LLT<Matrix> solver_;         // of scaled_, or a little more
-  std::vector<Vec3> dots_;            // Zᵀ y
-  OfRows taken_;                      // f
-  OfRows forces_;                     // D⁻¹ μ, then μ
-  std::vector<Vec3> before_;          // r of the rows' vertices, in their order
+  Columns<float> single_;      // the same where panels, and so the products, are in single precision
+  Matrix meeting_;             // A Y⁻¹ Aᵀ
+  Matrix scaled_;              // D (K⁻¹ + A Y⁻¹ Aᵀ) D, which has 1 on its diagonal
+  std::vector<Real> scales_;   // D
+  std::vector<Real> shares_;   // D K⁻¹
+  Eigen::LLT<Matrix> solver_;  // of scaled_, or a little more
+  std::vector<Vec3> dots_;     // Zᵀ y
+  OfRows taken_;               // f
+  OfRows forces_;              // D⁻¹ μ, then μ
+  std::vector<Vec3> held_;     // x of held vertices
+  std::vector<Vec3> before_;   // r of the rows' vertices, in their order
 };
 
 }  // namespace pliant

@@ -119,19 +119,21 @@ SolveTimes GlobalStep::solve_factorized(const Positions& r, Real largest, Positi
 }
 
 SolveTimes GlobalStep::solve(Positions& r, Real largest, Positions& x, ThreadPool& threads) {
-  return correction_.is_empty() ? solve_factorized(r, largest, x, threads) : solve_corrected(r, largest, x, threads);
+  if (correction_.is_empty()) return solve_factorized(r, largest, x, threads);
+  return solve_corrected(r, largest, x, threads, Store::over);
 }
 
-SolveTimes GlobalStep::solve_corrected(Positions& r, Real largest, Positions& x, ThreadPool& threads) {
+/// Onto x where no component is free alone.
+SolveTimes GlobalStep::solve_corrected(Positions& r, Real largest, Positions& x, ThreadPool& threads, Store how) {
   if (!(largest > 0)) {
-    x.setZero();
+    if (how == Store::over) x.setZero();
     return {};
   }
-  correction_.take_out(r);
+  correction_.take_out(r, how == Store::onto ? &x : nullptr);
   const SolveTimes times = visit_panels([&](auto& panels) {
     SolveTimes both = panels.substitute_forward(r, largest, threads);
     correction_.correct(panels.between(), r, *components_);
-    both += panels.substitute_backward(x, threads);
+    both += panels.substitute_backward(x, threads, how);
     return both;
   });
   if (components_->count() > 0) {
@@ -143,7 +145,8 @@ SolveTimes GlobalStep::solve_corrected(Positions& r, Real largest, Positions& x,
 }
 
 SolveTimes GlobalStep::move(Positions& r, Real largest, Positions& q, ThreadPool& threads) {
-  if (components_->count() == 0 && correction_.is_empty()) {
+  if (components_->count() == 0) {
+    if (!correction_.is_empty()) return solve_corrected(r, largest, q, threads, Store::onto);
     return visit_panels([&](auto& panels) { return panels.solve(r, largest, q, threads, Store::onto); });
   }
   const SolveTimes times = solve(r, largest, move_, threads);

@@ -47,7 +47,7 @@ class GlobalStep {
   void fill(const LowerMatrix& matrix, Precision precision, ThreadPool& threads);
   Real estimate_contraction(const LowerMatrix& matrix, ThreadPool& threads);
   SolveTimes solve_factorized(const Positions& r, Real largest, Positions& x, ThreadPool& threads);
-  SolveTimes solve_corrected(Positions& r, Real largest, Positions& x, ThreadPool& threads);
+  SolveTimes solve_corrected(Positions& r, Real largest, Positions& x, ThreadPool& threads, Store how);
   template <class Visit>
   auto visit_panels(Visit&& visit);
   void correct_means(const Positions& r, Positions& x, ThreadPool& threads) const;

@@ -262,7 +262,8 @@ template <class T>
 void PanelFactor<T>::forward_sparse(const Part& part, std::vector<T>& before) {
   for (std::size_t p = part.panel_begin; p < part.panel_end; ++p) {
     const std::size_t begin = lanes * static_cast<std::size_t>(panels_[p].first_column);
-    const std::span<const T> columns = std::span(x_).subspan(begin, lanes * static_cast<std::size_t>(panels_[p].columns));
+    const std::span<const T> columns =
+        std::span(x_).subspan(begin, lanes * static_cast<std::size_t>(panels_[p].columns));
     if (std::ranges::all_of(columns, [](T number) { return number == 0; })) continue;
     std::ranges::copy(columns, before.begin() + static_cast<std::ptrdiff_t>(begin));
     triangular_solve_.forward(substitution_data(), p, p + 1);
