@@ -43,14 +43,18 @@ constexpr std::string_view busy_scene = R"({
     {"step": 5, "change": "stretch", "stiffness": 3000, "over": 0.5},
     {"step": 8, "move": "pins", "rotate": {"axis": [0, 0, 1], "degrees": 40}, "over": 0.5, "ease": "smooth"},
     {"step": 12, "add": {"body": "sheet", "type": "line", "name": "rail", "on": [40], "direction": [1, 1, 0]}},
+    {"step": 13, "add": {"body": "sheet", "type": "position", "name": "late", "on": [31, 32]}},
+    {"step": 14, "add": {"body": "sheet", "type": "position", "name": "soft", "on": [48], "hold": "soft"}},
     {"time": 0.31, "add": {"body": "rope", "type": "drag", "name": "hand", "stencils": [[6]], "stiffness": 50}},
     {"step": 22, "follow": "hand", "body": "sheet", "vertices": 44},
     {"time": 0.42, "settings": {"time_step": 0.01, "iterations": 6}},
     {"step": 29, "release": "pins", "vertices": [0]},
     {"step": 33, "change": "bend", "stiffness": 0.01, "orientation": "absolute"},
+    {"step": 35, "release": "late", "vertices": [31]},
     {"step": 37, "change": "breeze", "velocity": [0, -3, 1]},
     {"step": 41, "gravity": [0, 0, -3]},
     {"step": 44, "remove": "rail"},
+    {"step": 46, "remove": "soft"},
     {"time": 0.5, "move": "pins", "keyframes": [{"time": 0.2, "translate": [0, 0.1, 0]}]},
     {"step": 52, "stop": "hand"}]
 })";

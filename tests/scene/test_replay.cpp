@@ -61,6 +61,7 @@ void resume(Show& show, const Show& from) {
       REQUIRE(copy.set.batches[i]->parameters().size() == numbers.size());
       std::ranges::copy(numbers, copy.set.batches[i]->parameters().begin());
       copy.set.batches[i]->set_stiffness(group.set.batches[i]->stiffness());
+      copy.set.batches[i]->set_beside_factor(group.set.batches[i]->is_beside_factor());
     }
   }
   CHECK(show.simulation.settings() == from.simulation.settings());

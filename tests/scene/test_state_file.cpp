@@ -90,6 +90,24 @@ TEST_CASE("state file: the steps that follow have the same bits") {
   CHECK(are_alike(again.simulation, made.simulation));
 }
 
+TEST_CASE("state file: pins that came while it ran stay out of the factor of another run") {
+  for (const Hold hold : {Hold::hard, Hold::soft}) {
+    Made made = make(), again = make();
+    for (int i = 0; i < 4; ++i) made.simulation.step();
+    for (Made* each : {&made, &again}) each->simulation.add(BodyId{0}, Position{.on = {40}, .hold = hold}, "late");
+    for (int i = 0; i < 4; ++i) made.simulation.step();
+    restore_state(state_bytes(made.simulation), "state", again.simulation);
+    for (int i = 0; i < 8; ++i) {
+      made.simulation.step();
+      again.simulation.step();
+    }
+    CHECK(are_alike(again.simulation, made.simulation));
+    for (Made* each : {&made, &again}) each->simulation.remove(each->simulation.find_group("late").value());
+    CHECK(made.simulation.step().set_up.numeric == 0);
+    CHECK(again.simulation.step().set_up.numeric == 0);
+  }
+}
+
 TEST_CASE("state file: the start is restored whatever has happened since") {
   Made made = make();
   made.simulation.set_contact({.distance = 0.01, .friction = 0.3, .surfaces = true});

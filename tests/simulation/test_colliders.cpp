@@ -193,7 +193,9 @@ TEST_CASE("colliders: after an edit, what was felt in the last step stays, and a
   CHECK(simulation.wrench(ball).torque == felt.torque);
   simulation.step();
   CHECK(simulation.evaluate().contact > 0);
-  simulation.add(BodyId{0}, Position{.on = {0, 1}});  // another order of the vertices
+  simulation.add(BodyId{0}, Position{.on = {2, 3}});  // which stands beside the layout
+  CHECK(simulation.evaluate().contact > 0);
+  simulation.add(BodyId{0}, Line{.on = {0, 1}, .direction = Vec3(1, 0, 0)});  // another order of the vertices
   CHECK(simulation.evaluate().contact == 0);
   CHECK(simulation.evaluate().contact == 0);
   simulation.remove(simulation.find_collider("floor").value());

@@ -205,6 +205,7 @@ TEST_CASE("with its numbers and stiffness, a group made anew has the bits of the
       ConstraintGroup& copy = *second.groups().at(id).set.batches[p];
       std::ranges::copy(group.set.batches[p]->parameters(), copy.parameters().begin());
       if (copy.shape().count > 0) copy.set_stiffness(group.set.batches[p]->stiffness());
+      if (id == late) copy.set_beside_factor(group.set.batches[p]->is_beside_factor());
     }
   }
   second.restore(first.state());

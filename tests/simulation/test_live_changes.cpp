@@ -19,7 +19,7 @@ namespace {
 
 /// What may be changed of a curtain, with the values it begins with.
 struct CurtainOptions {
-  SolverSettings settings{.iterations = 8};
+  SolverSettings settings{.iterations = 8, .precision = Precision::double_};  // pins that come stand beside the factor
   Real spring_stiffness = 500;
   Real bending_stiffness = 1e-3;
   Real drag_target = 0.2;

@@ -20,7 +20,8 @@ namespace {
 
 /// All that the edits change, with the values it begins with.
 struct Make {
-  SolverSettings settings{.iterations = 8, .threads = 1};
+  // In single precision pins that come, which stand beside the factor, would be solved with otherwise rounded.
+  SolverSettings settings{.iterations = 8, .precision = Precision::double_, .threads = 1};
   Values springs = 500;
   std::optional<TriangleStrain> skin = TriangleStrain{.stiffness = 40, .min_stretch = 0.9, .max_stretch = 1.02};
   Position pins{.on = {56, 63}};

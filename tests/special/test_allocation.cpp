@@ -81,8 +81,8 @@ using namespace pliant;
 
 namespace {
 
-/// Allocations in ten steps after two of warming up.
-long allocations_of(const SolverSettings& settings) {
+/// Allocations in ten steps after two of warming up, and with late pins one more.
+long allocations_of(const SolverSettings& settings, bool has_late_pins) {
   const bool is_bdf2 = settings.integrator == Integrator::bdf2;
   SolverSettings first = settings;
   first.integrator = Integrator::implicit_euler;
@@ -95,6 +95,12 @@ long allocations_of(const SolverSettings& settings) {
   timeline.start(simulation, GroupId{6}, follow_body(BodyId{1}));
   timeline.add(When::at_time(99), [](Simulation&) {});
   for (int i = 0; i < 2; ++i) timeline.step(simulation);
+  if (has_late_pins) {
+    const BodyId cloth{0};
+    simulation.add(cloth, Position{.on = {50, 51}});
+    simulation.add(cloth, Position{.on = {70}, .hold = Hold::soft});
+    timeline.step(simulation);
+  }
   const long before = allocations;
   for (int i = 0; i < 10; ++i) {
     simulation.set_target(GroupId{5}, 0, Vec3(0, 0.01 * i, 1));
@@ -216,7 +222,7 @@ long allocations_of_sweeps() {
 /// Prints what went wrong; true when nothing did.
 bool passes(const SolverSettings& settings) {
   try {
-    const long count = allocations_of(settings);
+    const long count = allocations_of(settings, false) + allocations_of(settings, true);
     if (count == 0) return true;
     std::printf("%ld allocations with back end %d, %d threads, integrator %d, %d substeps, energy %g\n", count,
                 static_cast<int>(settings.backend), settings.threads, static_cast<int>(settings.integrator),

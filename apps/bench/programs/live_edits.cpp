@@ -79,6 +79,28 @@ std::vector<Edit> edits_of_drags() {
            }}};
 }
 
+/// Of pins that come while it runs; the step after is one with them.
+std::vector<Edit> edits_of_pins() {
+  const auto add_pins = [](Index count, Hold hold) {
+    return [=](Simulation& s, int) {
+      std::vector<Index> vertices;
+      for (Index i = 0; i < count; ++i) vertices.push_back(50 + 156 * i + 37 * i % 50);
+      s.add(curtain, Position{.on = vertices, .hold = hold}, "late");
+    };
+  };
+  const auto remove_pins = [](Simulation& s) {
+    if (const auto pins = s.find_group("late")) s.remove(*pins);
+  };
+  std::vector<Edit> list;
+  for (const Index count : {1, 8, 32}) {
+    list.push_back({fmt::format("{} pins added", count), add_pins(count, Hold::hard), remove_pins});
+    list.push_back({fmt::format("{} soft pins added", count), add_pins(count, Hold::soft), remove_pins});
+  }
+  list.push_back({"32 pins let go", [=](Simulation& s, int) { remove_pins(s); },
+                  [=](Simulation& s) { add_pins(32, Hold::hard)(s, 0); }});
+  return list;
+}
+
 std::vector<Edit> edits() {
   const auto map = [](const Simulation& s, int repeat) {
     const auto count = static_cast<std::size_t>(s.groups().at(id(s, "springs")).set.count);
@@ -97,10 +119,6 @@ std::vector<Edit> edits() {
       {"time step",
        [=](Simulation& s, int i) { settings(s, [i](SolverSettings& x) { x.time_step = 1.0 / (60 + i % 2); }); }},
       {"iterations", [=](Simulation& s, int i) { settings(s, [i](SolverSettings& x) { x.iterations = 10 + i % 2; }); }},
-      {"pin added", [](Simulation& s, int) { s.add(curtain, Position{.on = {9950}}, "one"); },
-       [](Simulation& s) {
-         if (const auto one = s.find_group("one")) s.remove(*one);
-       }},
       {"pin released", [](Simulation& s, int) { s.release(id(s, "pins"), std::array<Index, 1>{9900}); },
        [](Simulation& s) {
          s.replace(id(s, "pins"), Position{.on = {9900, 9999}});
@@ -165,6 +183,7 @@ int main(int argc, char** argv) {
   const int repeats = argc > 1 ? std::max(1, std::atoi(argv[1])) : 11;
   fmt::print("{:44} {:>8} {:>9} {:>8}\n", "edit", "call ms", "factor ms", "step ms");
   for (const Edit& edit : edits()) measure(edit, repeats);
+  for (const Edit& edit : edits_of_pins()) measure(edit, repeats);
   for (const Edit& edit : edits_of_drags()) measure(edit, repeats);
   measure_ramps(repeats);
 }

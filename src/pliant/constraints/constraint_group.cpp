@@ -164,6 +164,12 @@ void ConstraintGroup::set_stiffness(Real stiffness) {
   factor_stiffness_ = factor_share_ * stiffness;
 }
 
+void ConstraintGroup::set_beside_factor(bool is_beside) {
+  if (is_beside == is_beside_factor_) return;
+  is_beside_factor_ = is_beside;
+  changed();
+}
+
 void ConstraintGroup::set_factor_share(Real share) {
   if (!(share > 0) || !std::isfinite(share)) {
     fail_input(fmt::format("share of the stiffness in the factor: found {}; give a number above 0", share));

@@ -49,9 +49,13 @@ class ConstraintGroup {
   virtual bool is_projective() const { return true; }
 
   /// Whether it is a drag or the like: of a few rows with targets, and comes and goes while a simulation runs. Then it
-  /// stays out of the factor, whose solves are corrected for it, if it can be reordered() and pins nothing. It is
-  /// projected constraint by constraint, without begin_local_step().
+  /// stays out of the factor, whose solves are corrected for it, if it can be reordered(). It is projected constraint
+  /// by constraint, without begin_local_step().
   virtual bool comes_and_goes() const { return false; }
+  /// The same of one whose type says nothing, as of pins that come while a simulation runs; whatever the type says
+  /// holds besides.
+  void set_beside_factor(bool is_beside);
+  bool is_beside_factor() const { return is_beside_factor_ || comes_and_goes(); }
 
   /// Called once at the start of a step, before anything reads the group: the place to freeze normals.
   virtual void begin_step(const StateView& state, Real time_step);
@@ -157,6 +161,7 @@ class ConstraintGroup {
   Real factor_share_ = 1;
   std::uint64_t revision_ = next_revision();
   bool is_driven_ = false;
+  bool is_beside_factor_ = false;
 };
 
 /// Rows of a constraint that are turned into forces at once.

@@ -150,6 +150,13 @@ void check_factors(const std::vector<Real>& factors, const Group& group, const B
   check_stiffness_factors(factors, place);
 }
 
+/// Pins that come while the simulation runs cost no factorization so; what stands there from the start is in the
+/// factor.
+void put_pins_beside_factor(Group& group) {
+  if (group.type != Position::info.name) return;
+  for (const auto& batch : group.set.batches) batch->set_beside_factor(true);
+}
+
 /// The vertices that a group pins, ascending.
 std::vector<Index> sorted_pins(const ConstraintGroup& group) {
   std::vector<Index> pinned(group.pinned_vertices().begin(), group.pinned_vertices().end());
@@ -177,6 +184,7 @@ GroupId Simulation::add_group(Group added) {
   warn_of(added);
   const GroupId id{next_group_++};
   if (transaction_ != nullptr) transaction_->save(id, std::nullopt);
+  if (state_.step > 0) put_pins_beside_factor(added);
   added.points = new_points(added.set);
   added.next_point = static_cast<Index>(added.points.size());
   const auto placed = groups_.emplace(id, std::move(added));
@@ -302,6 +310,8 @@ void Simulation::release(GroupId id, std::span<const Index> vertices) {
 
 void Simulation::exchange_group(GroupId id, Group renewed) {
   Group& group = groups_.at(id);
+  const auto is_beside = [](const auto& batch) { return batch->is_beside_factor(); };
+  if (std::ranges::any_of(group.set.batches, is_beside)) put_pins_beside_factor(renewed);
   group_index_.remove(id, group);
   if (group.other || renewed.other) join_anew();
   if (transaction_ != nullptr) transaction_->save(id, std::move(group));

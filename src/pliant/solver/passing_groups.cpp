@@ -16,9 +16,14 @@ std::vector<Index> in_order(Index count) {
   return numbers;
 }
 
+std::int64_t rows_of(const ConstraintGroup& group) {
+  const GroupShape shape = group.shape();
+  return std::int64_t{shape.count} * shape.rows + static_cast<std::int64_t>(group.pinned_vertices().size());
+}
+
 /// Whether it is what it says it is. Copies in another order are asked for later.
 bool may_pass(ConstraintGroup& group, Index vertex_count) {
-  if (group.targets().empty() || !group.pinned_vertices().empty()) return false;
+  if (group.targets().empty()) return false;
   return group.is_external() && group.reordered(in_order(group.shape().count), in_order(vertex_count)) != nullptr;
 }
 
@@ -26,12 +31,12 @@ bool may_pass(ConstraintGroup& group, Index vertex_count) {
 
 std::vector<ConstraintGroup*> PassingGroups::take_out_of(std::vector<ConstraintGroup*>& groups, Index vertex_count) {
   std::vector<ConstraintGroup*> taken;
-  Index room = FactorCorrection::most_rows;
+  std::int64_t room = FactorCorrection::most_rows;
   std::erase_if(groups, [&](ConstraintGroup* group) {
-    if (!group->comes_and_goes()) return false;
-    const GroupShape shape = group->shape();
-    if (shape.count > room / shape.rows || !may_pass(*group, vertex_count)) return false;
-    room -= shape.count * shape.rows;
+    if (!group->is_beside_factor()) return false;
+    const std::int64_t rows = rows_of(*group);
+    if (rows > room || !may_pass(*group, vertex_count)) return false;
+    room -= rows;
     taken.push_back(group);
     return true;
   });
@@ -54,6 +59,10 @@ void PassingGroups::set(std::vector<ConstraintGroup*> groups, const LocalGroups&
 
 void PassingGroups::sync_parameters() {
   for (std::size_t g = 0; g < copies_.size(); ++g) copies_[g]->sync_parameters(*groups_[g], same_order_[g]);
+}
+
+bool PassingGroups::has_forces() const {
+  return std::ranges::any_of(groups_, [](const ConstraintGroup* group) { return group->shape().count > 0; });
 }
 
 Real PassingGroups::add_forces(const Positions& q, std::span<const char> is_pinned, Positions& forces) {
@@ -101,6 +110,7 @@ Real PassingGroups::elastic_energy(const ConstraintGroup& group) const {
 const FactorRows& PassingGroups::rows(std::span<const char> is_pinned) {
   rows_.clear();
   for (const ConstraintGroup* group : in_use_) {
+    for (const Index vertex : group->pinned_vertices()) rows_.hold(vertex);
     for (std::size_t i = 0; i < at(group->shape().count); ++i) {
       const std::span<const Index> stencil = stencil_of(*group, i);
       for (std::size_t r = 0; r < static_cast<std::size_t>(group->shape().rows); ++r) {

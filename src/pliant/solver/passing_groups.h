@@ -1,6 +1,6 @@
 #pragma once
-// Groups that come and go while a simulation runs, as drags do: they are no part of the layout of the local step nor of
-// the factor, so that they cost neither.
+// Groups that come and go while a simulation runs, as drags and some pins do: they are no part of the layout of the
+// local step nor of the factor, so that they cost neither.
 #include <optional>
 
 #include "pliant/solver/global/factor_correction.h"
@@ -21,6 +21,8 @@ class PassingGroups {
   void sync_parameters();
 
   bool is_empty() const { return groups_.empty(); }
+  /// Whether any has a force; hard pins have none.
+  bool has_forces() const;
   std::span<ConstraintGroup* const> of_simulation() const { return groups_; }
   /// The same on vertices in the order of the solver.
   std::span<ConstraintGroup* const> in_use() const { return in_use_; }
@@ -35,7 +37,7 @@ class PassingGroups {
   std::optional<Place> first_not_finite(const Positions& q) const;
   /// Energy of a group of the simulation when its forces were added last [J]; 0 for one that is not here.
   Real elastic_energy(const ConstraintGroup& group) const;
-  /// What they add to the system matrix; until the next call.
+  /// What they add to the system matrix, and which vertices they hold; until the next call.
   const FactorRows& rows(std::span<const char> is_pinned);
 
  private:

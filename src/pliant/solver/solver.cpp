@@ -30,8 +30,12 @@ void Solver::set_settings(const SolverSettings& settings) {
 void Solver::set_groups(Index vertex_count, std::vector<ConstraintGroup*> groups) {
   if (vertex_count != system_.vertex_count()) work_.resize(vertex_count);
   const Components free_before = system_.free_components();
+  const std::vector<char> pinned_before(system_.is_pinned().begin(), system_.is_pinned().end());
   system_.set_groups(vertex_count, std::move(groups));
-  if (!system_.needs_layout() && system_.free_components() != free_before) energy_.set_system(system_);
+  if (system_.needs_layout()) return;
+  if (system_.free_components() != free_before || !std::ranges::equal(system_.is_pinned(), pinned_before)) {
+    energy_.set_system(system_);
+  }
 }
 
 StepContext Solver::context(const State& state) {
@@ -57,7 +61,7 @@ void Solver::prepare(const State& state, StepReport& report) {
     system_.factorize(work_.begin.masses, work_.in_factor, step, settings_.precision, threads_.pool(), times);
   } else if (system_.is_factor_corrected()) {
     system_.set_inertia(work_.begin.masses, step);  // that of the factor, whatever the last step was
-    system_.correct_factor(threads_.pool());
+    system_.correct_factor();
   }
   history_.clear();
   if (times.numeric > 0 || report.seconds_factor == 0) report.set_up = times;

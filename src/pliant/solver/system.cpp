@@ -52,14 +52,22 @@ bool System::has_layout_of(Index vertex_count, std::span<ConstraintGroup* const>
   return std::ranges::equal(groups, layout_groups_) && has_stamped_revisions();
 }
 
-/// What they hold is not free.
 void System::take_passing() {
   passing_.set(passing_groups_, groups_);
   passing_revisions_.clear();
   for (const ConstraintGroup* group : passing_groups_) passing_revisions_.push_back(group->revision());
   all_groups_.assign(groups_.in_use().begin(), groups_.in_use().end());
   all_groups_.insert(all_groups_.end(), passing_.in_use().begin(), passing_.in_use().end());
-  std::vector<char> is_held(at(vertex_count_), 0);
+  is_pinned_ = is_pinned_in_factor_;
+  for (const ConstraintGroup* group : passing_.in_use()) {
+    for (const Index v : group->pinned_vertices()) is_pinned_[at(v)] = 1;
+  }
+  find_free();
+}
+
+/// What passing groups hold is not free.
+void System::find_free() {
+  std::vector<char> is_held = is_pinned_;
   for (const ConstraintGroup* group : passing_.in_use()) {
     for (const Index v : group->stencil()) is_held[at(v)] = 1;
   }
@@ -135,7 +143,7 @@ void System::lay_out() {
   }
   find_pinned();
   components_ = find_components(matrix_.matrix());
-  free_in_layout_ = find_free_components(components_, groups_.in_use(), is_pinned_);
+  free_in_layout_ = find_free_components(components_, groups_.in_use(), is_pinned_in_factor_);
   freedom_in_layout_ = find_freedom(free_in_layout_, groups_.in_use());
   component_of_vertex_ = component_of_vertex(components_);
   local_step_.set_components(component_of_vertex_);
@@ -158,10 +166,10 @@ void System::choose_order() {
 
 void System::find_pinned() {
   none_pinned_.assign(at(vertex_count_), 0);
-  is_pinned_ = none_pinned_;
+  is_pinned_in_factor_ = none_pinned_;
   no_weights_.assign(at(vertex_count_), 0);
   for (const ConstraintGroup* group : groups_.in_use()) {
-    for (const Index vertex : group->pinned_vertices()) is_pinned_[at(vertex)] = 1;
+    for (const Index vertex : group->pinned_vertices()) is_pinned_in_factor_[at(vertex)] = 1;
   }
 }
 
@@ -169,6 +177,11 @@ void System::set_inertia(std::span<const Real> masses, Real step) {
   inertia_weights_.resize(masses.size());
   for (std::size_t i = 0; i < masses.size(); ++i) inertia_weights_[i] = is_pinned_[i] ? 0 : masses[i] / (step * step);
   translation_weights_ = inertia_weights_;
+  for (const ConstraintGroup* group : passing_.in_use()) {
+    for (const Index v : group->pinned_vertices()) {
+      if (!is_pinned_in_factor_[at(v)]) translation_weights_[at(v)] = masses[at(v)] / (step * step);
+    }
+  }
   for (ConstraintGroup* group : groups_.in_use()) {
     if (!group->is_external() || !group->targets().empty()) continue;
     add_translation_weights(*group, translation_weights_);
@@ -199,7 +212,7 @@ void System::factorize(std::span<const Real> masses, std::span<const Real> diago
 void System::sum(std::span<const Real> masses, Real step) {
   for (std::size_t g = 0; g < layout_groups_.size(); ++g) stamps_[g].stiffness = layout_groups_[g]->factor_stiffness();
   factor_step_ = 0;  // until this succeeds
-  matrix_.assemble(masses, step, groups_.in_use(), is_pinned_);
+  matrix_.assemble(masses, step, groups_.in_use(), is_pinned_in_factor_);
   matrix_.copy_diagonal(diagonal_in_factor_);
   diagonal_ = diagonal_in_factor_;
 }
@@ -210,15 +223,15 @@ void System::factorize_sum(Precision precision, ThreadPool& threads, SetUpTimes&
   is_analyzed_ = true;
   times.symbolic = watch.seconds();
   global_step_.factorize(matrix_.matrix(), precision, translation_weights_, free_in_layout_, threads, times);
-  correct_factor(threads);
+  correct_factor();
 }
 
 /// Where it fails there is no factor.
-void System::correct_factor(ThreadPool& threads) {
+void System::correct_factor() {
   if (!is_factor_corrected()) return;
   const Real step = std::exchange(factor_step_, 0);
   const FactorRows& rows = passing_.rows(is_pinned_);
-  const bool is_other = global_step_.correct(rows, threads);
+  const bool is_other = global_step_.correct(rows);
   factor_step_ = step;
   if (!is_other) return;
   diagonal_ = diagonal_in_factor_;
@@ -227,7 +240,7 @@ void System::correct_factor(ThreadPool& threads) {
 
 LocalResult System::local_step(const Positions& q, const Positions& s, Positions& r, ThreadPool& threads) {
   LocalResult result = local_step_.run(q, s, inertia_weights_, is_pinned_, r, threads);
-  if (passing_.is_empty()) return result;
+  if (!passing_.has_forces()) return result;
   result.elastic += passing_.add_forces(q, is_pinned_, r);
   result.residual = std::sqrt(r.rowwise().squaredNorm().maxCoeff<Eigen::PropagateNaN>());
   return result;

@@ -56,7 +56,7 @@ class System {
   /// Whether something is not in the factor, or was so in the last step.
   bool is_factor_corrected() const { return !passing_.is_empty() || global_step_.is_corrected(); }
   /// Lets solves know of what is not in the factor; to be called in every step with such.
-  void correct_factor(ThreadPool& threads);
+  void correct_factor();
 
   /// r = M/η² (s − q) + Σ w SᵀAᵀ (p − z), zero at pinned vertices.
   LocalResult local_step(const Positions& q, const Positions& s, Positions& r, ThreadPool& threads);
@@ -107,6 +107,7 @@ class System {
   void factorize_sum(Precision precision, ThreadPool& threads, SetUpTimes& times);
   void choose_order();
   void find_pinned();
+  void find_free();
   bool has_stamped_revisions() const;
   bool has_layout_of(Index vertex_count, std::span<ConstraintGroup* const> groups) const;
   void take_passing();
@@ -124,6 +125,7 @@ class System {
   bool needs_begin_step_ = false;
 
   LocalStep local_step_;
+  std::vector<char> is_pinned_in_factor_;  // the others are held beside it
   std::vector<char> is_pinned_;
   std::vector<char> none_pinned_;
   Components components_;

@@ -91,14 +91,24 @@ auto GlobalStep::visit_panels(Visit&& visit) {
   return precision_ == Precision::double_ ? visit(double_) : visit(single_);
 }
 
-bool GlobalStep::correct(const FactorRows& rows, ThreadPool& threads) {
+bool GlobalStep::correct(const FactorRows& rows) {
   if (rows.has_same_rows(correction_.rows())) {
     const bool is_other = rows.weights != correction_.rows().weights;
     if (is_other) correction_.set_weights(rows.weights);
     return is_other;
   }
   for (Positions* x : {&trial_, &move_}) x->resize(vertex_count_, 3);
-  correction_.set(rows, trial_, move_, [&] { solve_factorized(trial_, 1, move_, threads); });
+  const FreeInFactor free{*components_, weights_};
+  correction_.set(rows, free);
+  for (std::size_t first = 0; first < correction_.column_count(); first += 3) {
+    const Real largest = correction_.write_columns(first, free, trial_);
+    visit_panels([&]<class T>(PanelFactor<T>& panels) {
+      std::vector<T> work;
+      const InFactorOrder<T> z = panels.substitute_forward_sparse(trial_, largest, work);
+      correction_.read_columns(first, z, panels.between());
+    });
+  }
+  correction_.finish_columns();
   return true;
 }
 
@@ -110,16 +120,33 @@ SolveTimes GlobalStep::solve_factorized(const Positions& r, Real largest, Positi
 
 SolveTimes GlobalStep::solve(Positions& r, Real largest, Positions& x, ThreadPool& threads) {
   if (correction_.is_empty()) return solve_factorized(r, largest, x, threads);
-  const Real taken = correction_.take_out(r);
-  if (taken > largest / 2) largest = r.cwiseAbs().maxCoeff();
-  const SolveTimes times = solve_factorized(r, largest, x, threads);
-  correction_.put_back(r);
-  correction_.finish(x);
+  return solve_corrected(r, largest, x, threads, Store::over);
+}
+
+/// Onto x where no component is free alone.
+SolveTimes GlobalStep::solve_corrected(Positions& r, Real largest, Positions& x, ThreadPool& threads, Store how) {
+  if (!(largest > 0)) {
+    if (how == Store::over) x.setZero();
+    return {};
+  }
+  correction_.take_out(r, how == Store::onto ? &x : nullptr);
+  const SolveTimes times = visit_panels([&](auto& panels) {
+    SolveTimes both = panels.substitute_forward(r, largest, threads);
+    correction_.correct(panels.between(), r, *components_);
+    both += panels.substitute_backward(x, threads, how);
+    return both;
+  });
+  if (components_->count() > 0) {
+    correction_.add_pull(r);
+    correct_means(r, x, threads);
+  }
+  correction_.put_back(r, x);
   return times;
 }
 
 SolveTimes GlobalStep::move(Positions& r, Real largest, Positions& q, ThreadPool& threads) {
-  if (components_->count() == 0 && correction_.is_empty()) {
+  if (components_->count() == 0) {
+    if (!correction_.is_empty()) return solve_corrected(r, largest, q, threads, Store::onto);
     return visit_panels([&](auto& panels) { return panels.solve(r, largest, q, threads, Store::onto); });
   }
   const SolveTimes times = solve(r, largest, move_, threads);

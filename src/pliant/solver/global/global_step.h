@@ -28,7 +28,7 @@ class GlobalStep {
 
   /// From now on, until the next factorization, solves are with Y + Σ k aᵀa. Where only k has changed no system is
   /// solved for that. Returns whether anything has. Throws as FactorCorrection::set() does.
-  bool correct(const FactorRows& rows, ThreadPool& threads);
+  bool correct(const FactorRows& rows);
   bool is_corrected() const { return !correction_.is_empty(); }
 
   /// r, x: m × 3. largest: about the largest number in r, which is as it was afterwards. Never allocates.
@@ -47,6 +47,7 @@ class GlobalStep {
   void fill(const LowerMatrix& matrix, Precision precision, ThreadPool& threads);
   Real estimate_contraction(const LowerMatrix& matrix, ThreadPool& threads);
   SolveTimes solve_factorized(const Positions& r, Real largest, Positions& x, ThreadPool& threads);
+  SolveTimes solve_corrected(Positions& r, Real largest, Positions& x, ThreadPool& threads, Store how);
   template <class Visit>
   auto visit_panels(Visit&& visit);
   void correct_means(const Positions& r, Positions& x, ThreadPool& threads) const;

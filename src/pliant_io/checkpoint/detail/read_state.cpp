@@ -140,6 +140,7 @@ std::vector<BatchNumbers> read_groups(const Node& list, const Simulation& simula
       numbers.batch = group.set.batches[p].get();
       numbers.parameters.resize(numbers.batch->parameters().size());
       read_numbers(batches[p].require("parameters"), numbers.parameters);
+      if (const auto is_beside = batches[p].find("is_beside_factor")) read(*is_beside, numbers.is_beside_factor);
       const Node stiffness = batches[p].require("stiffness");
       numbers.stiffness = read_real(stiffness);
       if (!(numbers.stiffness > 0) || !std::isfinite(numbers.stiffness)) {
@@ -152,6 +153,7 @@ std::vector<BatchNumbers> read_groups(const Node& list, const Simulation& simula
 
 void set_numbers(const std::vector<BatchNumbers>& all) {
   for (const BatchNumbers& numbers : all) {
+    numbers.batch->set_beside_factor(numbers.is_beside_factor);
     numbers.batch->set_stiffness(numbers.stiffness);
     std::ranges::copy(numbers.parameters, numbers.batch->parameters().begin());
   }

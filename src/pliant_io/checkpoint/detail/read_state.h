@@ -7,11 +7,12 @@
 
 namespace pliant {
 
-/// What a batch of constraints has: its stiffness and its parameters.
+/// What a batch of constraints has: its stiffness and its parameters, and whether it stands beside the factor.
 struct BatchNumbers {
   ConstraintGroup* batch = nullptr;
   Real stiffness = 0;
   std::vector<Real> parameters;
+  bool is_beside_factor = false;
 };
 
 /// Of all groups. Refuses what does not fit those of the simulation.

@@ -90,7 +90,9 @@ Json groups_json(const Simulation& simulation) {
   for (const auto& [id, group] : simulation.groups()) {
     Json batches = Json::array();
     for (const auto& batch : group.set.batches) {
-      batches.push_back({{"stiffness", batch->stiffness()}, {"parameters", bytes_of(batch->parameters())}});
+      Json& json =
+          batches.emplace_back(Json{{"stiffness", batch->stiffness()}, {"parameters", bytes_of(batch->parameters())}});
+      if (batch->is_beside_factor() && !batch->comes_and_goes()) json["is_beside_factor"] = true;
     }
     groups.push_back({{"name", bytes_of(group.name)}, {"batches", std::move(batches)}});
   }

@@ -187,15 +187,21 @@ void PanelFactor<T>::fill(const FactorView& factor, Real largest_diagonal, Threa
 
 template <class T>
 SolveTimes PanelFactor<T>::solve(const Positions& b, Real scale, Positions& x, ThreadPool& threads, Store how) {
-  SolveTimes times;
   if (!(scale > 0)) {
     if (how == Store::over) x.setZero();
-    return times;
+    return {};
   }
-  Stopwatch watch;
-  const Real unit = power_of_two(scale);
+  SolveTimes times = substitute_forward(b, scale, threads);
+  times += substitute_backward(x, threads, how);
+  return times;
+}
+
+template <class T>
+SolveTimes PanelFactor<T>::substitute_forward(const Positions& b, Real scale, ThreadPool& threads) {
+  const Stopwatch watch;
+  loaded_unit_ = power_of_two(scale);
   const auto load_all = [&](const std::vector<Part>& parts) {
-    for (const Part& part : parts) load(part, b, 1 / unit);
+    for (const Part& part : parts) load(part, b, 1 / loaded_unit_);
   };
   for (std::size_t s = 0; s < stages_.size(); ++s) {
     for_each_task(stages_[s], threads, [&](const Task& task) {
@@ -210,8 +216,13 @@ SolveTimes PanelFactor<T>::solve(const Positions& b, Real scale, Positions& x, T
   }
   if (stages_.empty()) load_all(rest_);
   for (const Part& part : rest_) triangular_solve_.forward(substitution_data(), part.panel_begin, part.panel_end);
-  times.forward = watch.lap();
-  const Real factor = unit / (unit_ * unit_);
+  return {.forward = watch.seconds()};
+}
+
+template <class T>
+SolveTimes PanelFactor<T>::substitute_backward(Positions& x, ThreadPool& threads, Store how) {
+  const Stopwatch watch;
+  const Real factor = loaded_unit_ / (unit_ * unit_);
   for (auto part = rest_.rbegin(); part != rest_.rend(); ++part) {
     triangular_solve_.backward(substitution_data(), part->panel_begin, part->panel_end);
   }
@@ -222,8 +233,41 @@ SolveTimes PanelFactor<T>::solve(const Positions& b, Real scale, Positions& x, T
       for (const Part& part : task.parts) store(part, x, factor, how);
     });
   }
-  times.backward = watch.lap();
-  return times;
+  return {.backward = watch.seconds()};
+}
+
+template <class T>
+InFactorOrder<T> PanelFactor<T>::substitute_forward_sparse(const Positions& b, Real scale, std::vector<T>& work) {
+  loaded_unit_ = power_of_two(scale);
+  work.assign(lanes * permutation_.size(), T(0));
+  for (const Stage& stage : stages_) {
+    for (const Task& task : stage) {
+      for (const Part& part : task.parts) load(part, b, 1 / loaded_unit_);
+    }
+  }
+  for (const Part& part : rest_) load(part, b, 1 / loaded_unit_);
+  for (const Stage& stage : stages_) {
+    for (const Task& task : stage) {
+      clear_outer_rows(task);
+      for (const Part& part : task.parts) forward_sparse(part, work);
+      add_outer_rows(task);
+    }
+  }
+  for (const Part& part : rest_) forward_sparse(part, work);
+  return {work, loaded_unit_};
+}
+
+/// `before`: what panels have before their diagonal blocks take part.
+template <class T>
+void PanelFactor<T>::forward_sparse(const Part& part, std::vector<T>& before) {
+  for (std::size_t p = part.panel_begin; p < part.panel_end; ++p) {
+    const std::size_t begin = lanes * static_cast<std::size_t>(panels_[p].first_column);
+    const std::span<const T> columns =
+        std::span(x_).subspan(begin, lanes * static_cast<std::size_t>(panels_[p].columns));
+    if (std::ranges::all_of(columns, [](T number) { return number == 0; })) continue;
+    std::ranges::copy(columns, before.begin() + static_cast<std::ptrdiff_t>(begin));
+    triangular_solve_.forward(substitution_data(), p, p + 1);
+  }
 }
 
 template <class T>
@@ -260,9 +304,14 @@ void PanelFactor<T>::store(const Part& part, Positions& x, Real factor, Store ho
 }
 
 template <class T>
-void PanelFactor<T>::forward(const Task& task) {
+void PanelFactor<T>::clear_outer_rows(const Task& task) {
   const auto own = x_.begin() + static_cast<std::ptrdiff_t>(lanes * task.own_rows);
   std::fill_n(own, lanes * (task.outer_end - task.outer_begin), T(0));
+}
+
+template <class T>
+void PanelFactor<T>::forward(const Task& task) {
+  clear_outer_rows(task);
   for (const Part& part : task.parts) triangular_solve_.forward(substitution_data(), part.panel_begin, part.panel_end);
 }
 

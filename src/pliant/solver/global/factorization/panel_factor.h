@@ -33,6 +33,13 @@ namespace pliant {
 /// What becomes of the numbers that a solution is stored to.
 enum class Store { over, onto };
 
+/// Vectors in the order of the factor: that of column i is scale × numbers[4 i + axis].
+template <class T>
+struct InFactorOrder {
+  std::span<T> numbers;
+  Real scale;
+};
+
 /// Panels of `T`, float or double.
 template <class T>
 class PanelFactor {
@@ -52,6 +59,13 @@ class PanelFactor {
   /// Solves L Lᵀ x = b in the order of the vertices (m × 3 each), or adds that x to what `x` holds. `scale`: about the
   /// largest number in b; the solution is zero where that is zero. Never allocates.
   SolveTimes solve(const Positions& b, Real scale, Positions& x, ThreadPool& threads, Store how = Store::over);
+  /// Its two halves, for a scale above 0. In between y = S⁻¹ U⁻¹ b may be read, and another one written in its place.
+  SolveTimes substitute_forward(const Positions& b, Real scale, ThreadPool& threads);
+  InFactorOrder<T> between() { return {whole_x(), loaded_unit_ / (unit_ * unit_)}; }
+  SolveTimes substitute_backward(Positions& x, ThreadPool& threads, Store how = Store::over);
+  /// Forward substitution for a b that is mostly zero, in one thread: only panels that it reaches are read. Returns
+  /// U⁻¹ b, which stands in `work`.
+  InFactorOrder<T> substitute_forward_sparse(const Positions& b, Real scale, std::vector<T>& work);
 
   bool is_laid_out() const { return !panels_.empty(); }
   Index panel_count() const { return static_cast<Index>(panels_.size()); }
@@ -95,8 +109,11 @@ class PanelFactor {
   void load(const Part& part, const Positions& b, Real factor);
   void store(const Part& part, Positions& x, Real factor, Store how) const;
   void forward(const Task& task);
+  void forward_sparse(const Part& part, std::vector<T>& before);
+  void clear_outer_rows(const Task& task);
   void add_outer_rows(const Task& task);
   void backward(const Task& task);
+  std::span<T> whole_x() { return std::span<T>(x_).first(panel_lanes * permutation_.size()); }
   SubstitutionData<T> substitution_data() { return {panels_.data(), rows_.data(), values_.data(), x_.data()}; }
 
   const TriangularSolve<T>& triangular_solve_;
@@ -106,6 +123,7 @@ class PanelFactor {
   AlignedVector<T> values_;
   std::size_t diagonal_values_ = 0;  // of these, those of diagonal blocks
   Real unit_ = 1;                    // a power of two: S is stored as S / unit_²
+  Real loaded_unit_ = 1;             // another: b is loaded as b / loaded_unit_
   std::vector<Stage> stages_;        // forward substitution takes one after the other
   std::vector<Part> rest_;           // runs of panels that belong to no task
   std::vector<Index> outer_rows_;    // of all tasks
