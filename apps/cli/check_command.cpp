@@ -19,6 +19,7 @@
 #include "pliant_io/recorder/run_info.h"
 #include "resting.h"
 #include "scene_options.h"
+#include "stiffness_text.h"
 #include "system/memory.h"
 #include "terminal.h"
 
@@ -176,6 +177,13 @@ Json describe_groups(const Simulation& simulation) {
   for (const auto& [id, group] : simulation.groups()) {
     Json& json = groups.emplace_back(Json::object());
     pliant::describe_group(simulation, group, [&](const char* key, const auto& value) { json[key] = value; });
+    if (const std::optional<pliant::StiffnessRange> range = stiffness_range(simulation, id)) {
+      json["stiffness"] = {{"least", range->least},
+                           {"most", range->most},
+                           {"unit", range->unit},
+                           {"taut_factor", range->taut_factor},
+                           {"text", stiffness_text(*range)}};
+    }
   }
   return groups;
 }
@@ -296,6 +304,7 @@ void print_bodies(const Json& json) {
       const bool is_tied = group.contains("other");
       fmt::print("{}", is_tied ? "ties to " + text_of(group["other"]) : text_of(group["type"]));
       if (group["skipped"] != 0) fmt::print(", {} left out", group["skipped"].get<Index>());
+      if (group.contains("stiffness")) fmt::print(", {}", text_of(group["stiffness"]["text"]));
       fmt::print("\n");
     }
   }

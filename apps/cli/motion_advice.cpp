@@ -12,6 +12,7 @@
 #include "pliant/simulation/held.h"
 #include "pliant/solver/integration/integrator.h"
 #include "pliant_io/recorder/measurements.h"
+#include "step_looks.h"
 
 namespace pliant_cli {
 namespace {
@@ -23,6 +24,7 @@ using pliant::SolverSettings;
 
 constexpr Real watched_time = 0.5;          // [s]
 constexpr std::int64_t most_work = 800000;  // steps times vertices
+constexpr std::int64_t most_work_to_events = 200000;
 
 /// Whether another acceleration would not do better. Against colliders those but L-BFGS do next to nothing.
 bool is_accelerated(const Simulation& simulation) {
@@ -76,14 +78,6 @@ std::string fast_text(Real seconds, const SolverSettings& settings) {
                      settings.time_step / seconds);
 }
 
-std::string exact_text(const Simulation& simulation, const pliant::StepError& error) {
-  const bool is_pushed_harder = error.acceleration > error.share * pliant::standard_gravity * (1 + 1e-9);
-  return fmt::format("{} {} '{}' {:.2g} mm from where a step ends, {:.0f} % of how far {} in a step",
-                     iterations_text(simulation.settings()), simulation.settings().iterations == 1 ? "leaves" : "leave",
-                     pliant::printable(simulation.body(error.body).name), 1e3 * error.distance, 100 * error.share,
-                     is_pushed_harder ? "all forces take it" : "gravity takes it");
-}
-
 }  // namespace
 
 std::string iterations_text(const SolverSettings& settings) {
@@ -101,11 +95,20 @@ std::string steps_text(const SolverSettings& settings) {
   return substeps + iterations + integrator;
 }
 
-std::string far_from_converged_text(const Simulation& simulation, const pliant::StepError& error) {
+std::string exact_text(const Simulation& simulation, const pliant::StepError& error) {
+  const bool is_pushed_harder = error.acceleration > error.share * pliant::standard_gravity * (1 + 1e-9);
+  return fmt::format("{} {} '{}' {:.2g} mm from where a step ends, {:.0f} % of how far {} in a step",
+                     iterations_text(simulation.settings()), simulation.settings().iterations == 1 ? "leaves" : "leave",
+                     pliant::printable(simulation.body(error.body).name), 1e3 * error.distance, 100 * error.share,
+                     is_pushed_harder ? "all forces take it" : "gravity takes it");
+}
+
+std::string far_from_converged_text(const Simulation& simulation, const pliant::StepError& error,
+                                    const std::string& when) {
   if (!(error.share > pliant::far_from_converged)) return "";
   const SolverSettings& settings = simulation.settings();
   const std::string body = pliant::printable(simulation.body(error.body).name);
-  std::string text = fmt::format("far from converged: {}, so that it moves too little and its folds stand",
+  std::string text = fmt::format("far from converged{}: {}, so that it moves too little and its folds stand", when,
                                  exact_text(simulation, error));
   if (!is_accelerated(simulation)) return text + "; give --set settings.acceleration=lbfgs";
   if (settings.iterations == pliant::automatic_iterations) {
@@ -117,29 +120,45 @@ std::string far_from_converged_text(const Simulation& simulation, const pliant::
 
 namespace {
 
-/// How far the coming step is from converged, in numbers and in words.
-struct Exactness {
-  pliant::StepError error;
-  std::string text, warning;
-};
-
-std::optional<Exactness> exactness_of_step(Simulation& simulation) {
-  const std::optional<pliant::StepError> error = pliant::find_step_error(simulation);
-  if (!error) return std::nullopt;
-  return Exactness{*error, exact_text(simulation, *error), far_from_converged_text(simulation, *error)};
+/// Takes a step, and looks at the next one where something has changed before.
+void step_and_look(Scene& scene, StepLooks& looks) {
+  scene.step();
+  if (looks.is_due_after_change(scene.simulation.state())) looks.look(scene.simulation);
 }
 
-/// Where the coming step, the `step`-th, is far from converged, the better one of it and one a few steps later.
-std::optional<Exactness> find_exactness(Scene& scene, std::int64_t step) {
-  const std::optional<Exactness> first = exactness_of_step(scene.simulation);
-  if (!first || first->warning.empty() || step + second_look >= scene.steps) return first;
+/// How exact the next step is; where that is far from converged, the better one of it and one a few steps later.
+std::optional<StepLook> find_exactness(Scene& scene, StepLooks& after_events) {
+  StepLooks looks(scene.simulation.state(), scene.steps);
+  looks.look(scene.simulation);
   try {
-    for (std::int64_t i = 0; i < second_look; ++i) scene.step();
-    const std::optional<Exactness> second = exactness_of_step(scene.simulation);
-    if (second && second->error.share < first->error.share) return second;
+    if (looks.is_undecided()) {
+      for (std::int64_t i = 0; i < second_look; ++i) step_and_look(scene, after_events);
+      looks.look(scene.simulation);
+    }
   } catch (const pliant::Error&) {  // which a run tells
   }
-  return first;
+  looks.end();
+  return looks.worst();
+}
+
+/// Goes on from event to event, to that step at most, and looks at the steps after them.
+void go_on_to_events(Scene& scene, StepLooks& looks, std::int64_t last_step) {
+  const Simulation& simulation = scene.simulation;
+  const auto has_event = [&] {
+    const std::optional<std::int64_t> next = scene.timeline.next_due(simulation);
+    return next && *next + pliant::look_after_change + second_look < last_step;
+  };
+  try {
+    while (simulation.state().step < last_step && (looks.is_waiting(simulation.state()) || has_event())) {
+      step_and_look(scene, looks);
+    }
+  } catch (const pliant::Error&) {  // which a run tells
+  }
+  looks.end();
+}
+
+nlohmann::ordered_json error_json(const Simulation& simulation, const pliant::StepError& error) {
+  return {{"body", simulation.body(error.body).name}, {"distance", error.distance}, {"share", error.share}};
 }
 
 }  // namespace
@@ -149,18 +168,21 @@ nlohmann::ordered_json describe_motion(Scene& scene) {
   const SolverSettings& settings = simulation.settings();
   const auto steps =
       std::min(scene.steps, static_cast<std::int64_t>(std::ceil(std::min(watched_time / settings.time_step, 1e9))));
-  if (steps == 0 || steps * settings.substeps * simulation.state().vertex_count() > most_work) return nullptr;
+  const std::int64_t work = settings.substeps * simulation.state().vertex_count();  // of a step
+  if (steps == 0 || steps * work > most_work) return nullptr;
   std::vector<Real> seconds;
   Real stretch = 0;
-  std::optional<Exactness> exactness;
+  StepLooks after_events(simulation.state(), scene.steps);
+  std::optional<StepLook> exactness;
   try {
     for (std::int64_t i = 0; i < steps; ++i) {
       const pliant::Stopwatch watch;
       scene.step();
       seconds.push_back(watch.seconds());
+      if (after_events.is_due_after_change(simulation.state())) after_events.look(simulation);
       if (i % 5 == 4) stretch = std::max(stretch, pliant::stretch_past_limits(simulation));
     }
-    exactness = find_exactness(scene, steps);
+    exactness = find_exactness(scene, after_events);
   } catch (const pliant::Error&) {
     return nullptr;
   }
@@ -175,11 +197,16 @@ nlohmann::ordered_json describe_motion(Scene& scene) {
                                     "how stretchy: " + stretchy_text(simulation, stretch),
                                     "how fast: " + fast_text(median, settings)};
   if (exactness) {
-    const pliant::StepError& error = exactness->error;
-    json["step_error"] = {
-        {"body", simulation.body(error.body).name}, {"distance", error.distance}, {"share", error.share}};
+    json["step_error"] = error_json(simulation, exactness->error);
     lines.push_back("how exact: " + exactness->text);
     json["warning"] = exactness->warning;
+  }
+  go_on_to_events(scene, after_events, std::min(scene.steps, most_work_to_events / work));
+  if (const std::optional<StepLook>& worst = after_events.worst()) {
+    json["after_event"] = error_json(simulation, worst->error);
+    json["after_event"]["step"] = worst->step;
+    lines.push_back(fmt::format("how exact after events, in step {}: {}", worst->step, worst->text));
+    if (json.value("warning", "").empty()) json["warning"] = worst->warning;
   }
   json["text"] = lines;
   return json;

@@ -10,13 +10,13 @@
 #include <fmt/format.h>
 
 #include "commands.h"
-#include "motion_advice.h"
 #include "number_option.h"
 #include "pliant/core/printable.h"
 #include "pliant_io/checkpoint/checkpoint.h"
 #include "pliant_io/recorder/recorder.h"
 #include "pliant_io/recorder/run_files.h"
 #include "progress.h"
+#include "step_looks.h"
 #include "system/interrupts.h"
 #include "terminal.h"
 
@@ -72,56 +72,27 @@ void print_missed(const pliant::MissedTolerance& missed) {
 /// What a run needs to tell of itself at its end.
 struct RunEnd {
   pliant::RunInfo& info;
-  struct Look {
-    pliant::WorstStep step;
-    std::string text;  ///< what to say of it; empty: nothing
-  };
-
+  StepLooks looks;
   double contact_seconds = 0;
-  std::optional<Look> first_look{};  ///< of a step far from converged, until it is seen whether a later one is too
-  std::string far_from_converged{};  ///< what to say of the worst step; empty: nothing
-
-  void count(const Look& look) {
-    if (info.worst_step && info.worst_step->share >= look.step.share) return;
-    info.worst_step = look.step;
-    far_from_converged = look.text;
-  }
-  void count_first_look() {
-    if (first_look) count(*std::exchange(first_look, std::nullopt));
-  }
 };
 
-/// Whether it is looked at how far the next step ends from where it should: seldom, since it takes many iterations.
-bool looks_at_step(std::int64_t step, const RunEnd& end) {
-  if (end.first_look) return step == end.first_look->step.step + second_look;
-  std::int64_t looked_at = 30;
-  while (looked_at < step) looked_at *= 10;
-  return step == looked_at;
-}
-
 /// False when it was given up after an interrupt.
-bool look_at_step(Scene& scene, RunEnd& end) {
-  std::optional<pliant::StepError> error;
+bool look_at_step(Scene& scene, StepLooks& looks) {
   try {
-    error = find_step_error(scene.simulation);
+    looks.look(scene.simulation);
   } catch (const pliant::Error& given_up) {
     if (given_up.kind() == pliant::ErrorKind::interrupted) return false;
     throw;
   }
-  if (!error) {
-    end.count_first_look();
-    return true;
-  }
-  const std::int64_t step = scene.simulation.state().step;
-  const RunEnd::Look look{{step, scene.simulation.body(error->body).name, error->distance, error->share},
-                          far_from_converged_text(scene.simulation, *error)};
-  if (!end.first_look && error->share > pliant::far_from_converged && step + second_look < scene.steps) {
-    end.first_look = look;
-    return true;
-  }
-  const std::optional<RunEnd::Look> first = std::exchange(end.first_look, std::nullopt);
-  end.count(first && first->step.share < look.step.share ? *first : look);
   return true;
+}
+
+void end_looks(RunEnd& end, const Scene& scene) {
+  end.looks.end();
+  const std::optional<StepLook>& worst = end.looks.worst();
+  if (!worst) return;
+  const pliant::StepError& error = worst->error;
+  end.info.worst_step = {worst->step, scene.simulation.body(error.body).name, error.distance, error.share};
 }
 
 void simulate(Scene& scene, pliant::Recorder& recorder, const fs::path& checkpoint, const RecordingOptions& options,
@@ -142,7 +113,7 @@ void simulate(Scene& scene, pliant::Recorder& recorder, const fs::path& checkpoi
     if (every > 0 && step % every == 0 && step < scene.steps) pliant::write_checkpoint(checkpoint, scene);
     warnings.print(scene.simulation, progress);
     progress.update(step, recorder.residual());
-    if (step < scene.steps && looks_at_step(step, end) && !look_at_step(scene, end)) break;
+    if (end.looks.is_due(scene.simulation.state()) && !look_at_step(scene, end.looks)) break;
   }
   pliant::write_checkpoint(checkpoint, scene);
 }
@@ -191,7 +162,7 @@ void record_run(Scene& scene, pliant::Recorder& recorder, const fs::path& folder
     info.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     info.frames = recorder.frame_count();
     info.last_frame = recorder.last_frame_checksum();
-    end.count_first_look();
+    end_looks(end, scene);
   };
   try {
     simulate(scene, recorder, folder / pliant::checkpoint_name, options, end);
@@ -241,7 +212,7 @@ int record_scene(Scene& scene, const fs::path& folder, pliant::RunInfo info, con
     open();  // what is no run to go on with stays as it is
     pliant::resume_run(folder, info, scene.simulation);
   }
-  RunEnd end{info};
+  RunEnd end{info, StepLooks(scene.simulation.state(), scene.steps)};
   try {
     if (!recorder) open();
     record_run(scene, *recorder, folder, options, end);
@@ -258,7 +229,9 @@ int record_scene(Scene& scene, const fs::path& folder, pliant::RunInfo info, con
   pliant::end_run(folder, info, scene.simulation);
   if (!options.quiet) print_summary(scene, end, folder);
   print_missed(info.missed_tolerance);
-  if (!end.far_from_converged.empty()) print_to_stderr("warning: " + end.far_from_converged + "\n");
+  if (const std::optional<StepLook>& worst = end.looks.worst(); worst && !worst->warning.empty()) {
+    print_to_stderr("warning: " + worst->warning + "\n");
+  }
   return interrupted ? exit_interrupted : 0;
 }
 

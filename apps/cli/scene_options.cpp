@@ -7,14 +7,13 @@
 
 #include "commands.h"
 #include "motion_advice.h"
-#include "pliant/constraints/fibre_strain.h"
 #include "pliant/core/error.h"
 #include "pliant/core/printable.h"
 #include "pliant/mesh/geometry.h"
-#include "pliant/simulation/any_options.h"
 #include "pliant_io/scene/builtin_scenes.h"
 #include "pliant_io/scene/mesh_scene.h"
 #include "pliant_io/scene/nearest_names.h"
+#include "stiffness_text.h"
 #include "terminal.h"
 
 namespace pliant_cli {
@@ -36,13 +35,7 @@ std::string groups_text(const pliant::Simulation& simulation) {
   std::string text;
   for (const auto& [id, group] : simulation.groups()) {
     text += fmt::format("  {:<9} {} of type {}", short_name(simulation, group), group.set.count, group.type);
-    if (const auto stiffness = simulation.stiffness(id)) {
-      text += fmt::format(", stiffness {:.4g}", *stiffness);
-      const auto* fibres = pliant::options_in<pliant::FibreStrain>(group);
-      if (fibres != nullptr && fibres->taut_factor > 1) {
-        text += fmt::format(", {:.4g} once taut", fibres->taut_factor * *stiffness);
-      }
-    }
+    if (const auto range = stiffness_range(simulation, id)) text += ", " + stiffness_text(*range);
     text += "\n";
   }
   return text;

@@ -118,6 +118,29 @@ class Check(unittest.TestCase):
                        {"name": "pole", "transform": {"translate": [0.4, 0.3, -0.5]}, **pole}]}))
         return scene
 
+    def test_groups_say_how_stiff_they_are(self):
+        scene = self.folder / "s.json"
+        scene.write_text(json.dumps({
+            "pliant": 1, "bodies": [{"name": "rope", "mesh": {"shape": "chain", "links": 3}, "mass": {"total": 1},
+                                     "constraints": [{"type": "position", "name": "hook", "on": [0]},
+                                                     {"type": "position", "name": "band", "on": [3], "hold": "soft",
+                                                      "stiffness": 40},
+                                                     {"type": "edge_spring", "name": "links",
+                                                      "stiffness": [100, 2500, 300]}]},
+                                    {"name": "cloth", "mesh": {"shape": "grid", "columns": 4, "rows": 4},
+                                     "material": "silk"}]}))
+        text = self.pliant("check", scene, "--still").stdout
+        self.assertIn("\n  hook: 1 position\n  band: 1 position, stiffness 40 N/m\n"
+                      "  links: 3 edge_spring, stiffness 100 to 2500 N/m\n", text)
+        self.assertRegex(text, r"\n  cloth.warp: \d+ fibre_strain, stiffness [0-9.]+ N/m, [0-9.]+ once taut\n")
+        self.assertRegex(text, r"\n  cloth.bend: \d+ triangle_bending, stiffness [0-9.e-]+ N·m\n")
+        groups = {group["name"]: group for group in json.loads(
+            self.pliant("check", scene, "--json", "--still").stdout)["groups"]}
+        self.assertNotIn("stiffness", groups["hook"])
+        stiffness = {"least": 100, "most": 2500, "unit": "N/m", "taut_factor": 1, "text": "stiffness 100 to 2500 N/m"}
+        self.assertEqual(groups["links"]["stiffness"], stiffness)
+        self.assertGreater(groups["cloth.warp"]["stiffness"]["taut_factor"], 1)
+
     def test_what_is_off_is_listed(self):
         scene = self.folder / "s.json"
         scene.write_text(json.dumps({

@@ -63,7 +63,7 @@ class MeshAlone(unittest.TestCase):
         self.write("quad.obj", QUAD)
         text = self.pliant("run", "quad.obj", "--steps", 3, "--set", "bodies[0].mass.total=2").stdout
         for line in ["quad.obj: cloth of 4 vertices, pinned at the highest vertices", "size      1 x 0 x 1 m",
-                     "mass      2 kg", "pins      3 of type position", "material  cotton", "warp      2 of type fibre_strain, stiffness 1102, 5512 once taut",
+                     "mass      2 kg", "pins      3 of type position", "material  cotton", "warp      2 of type fibre_strain, stiffness 1102 N/m, 5512 once taut",
                      "forces    gravity; no wind", "steps     3 of 0.01667 s, 20 iterations each"]:
             self.assertIn(line, text)
         self.assertIn("mass      0.1238 kg", self.pliant("check", "quad.obj").stdout)

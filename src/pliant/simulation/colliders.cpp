@@ -63,6 +63,7 @@ ColliderId Colliders::add_collider(ColliderRecord record) {
   state_.contact.colliders.push_back({static_cast<Index>(id), record.pose});
   colliders_.emplace(id, std::move(record));
   colliders_changed_ = true;
+  note_change();
   return id;
 }
 
@@ -72,6 +73,7 @@ void Colliders::exchange_collider(ColliderId id, ColliderRecord record) {
   if (!(record.pose == place.pose)) state_.contact.colliders[place_in_state(id)].target = record.pose;
   place = std::move(record);
   colliders_changed_ = true;
+  note_change();
 }
 
 void Colliders::remove(ColliderId id) {
@@ -84,6 +86,7 @@ void Colliders::remove(ColliderId id) {
   std::erase_if(contact.memory, [&](const ContactMemory& each) { return each.collider == number; });
   if (colliders_.empty() && !contact_.surfaces) contact = {};
   colliders_changed_ = true;
+  note_change();
 }
 
 const ColliderRecord& Colliders::collider(ColliderId id) const {
@@ -138,6 +141,7 @@ void Colliders::set_contact(const ContactSettings& settings) {
   contact_ = settings;
   colliders_changed_ = true;
   surfaces_changed_ = true;
+  note_change();
 }
 
 void Colliders::check_let_go(const LetGoState& let_go) const {

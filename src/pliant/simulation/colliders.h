@@ -62,6 +62,10 @@ class Colliders {
   /// From the next step on. Lets bodies touch each other and themselves, unless `surfaces` is false.
   void set_contact(const ContactSettings& settings);
 
+  /// Says that what holds or drives bodies changes before the next step, so that automatic iterations are found anew
+  /// (State::changed_step). Edits say so themselves, but for set_settings, set_state and set_target.
+  void note_change() { state_.note_change(); }
+
   const std::vector<Body>& bodies() const { return bodies_; }
   const Body& body(BodyId id) const;
   /// Other masses of a body, from the next step on: costs a numeric factorization. Where it is, how fast, and the

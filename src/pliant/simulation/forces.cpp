@@ -60,6 +60,7 @@ ForceId Simulation::add_force(ForceRecord record, std::unique_ptr<Force> force) 
   forces_have_changed(*force);
   forces_.emplace(id, std::move(force));
   force_records_.emplace(id, std::move(record));
+  note_change();
   return id;
 }
 
@@ -80,6 +81,7 @@ void Simulation::exchange_force(ForceId id, ForceRecord record, std::unique_ptr<
   if (transaction_ != nullptr) transaction_->save(id, Transaction::SavedForce{std::move(force), std::move(record)});
   warned_forces_.erase(id);
   forces_changed_ = true;
+  note_change();
 }
 
 void Simulation::remove(ForceId id) {
@@ -91,6 +93,7 @@ void Simulation::remove(ForceId id) {
   forces_.erase(found);
   force_records_.erase(id);
   warned_forces_.erase(id);
+  note_change();
 }
 
 /// To be told of a force that comes or goes.

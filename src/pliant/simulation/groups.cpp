@@ -190,6 +190,7 @@ GroupId Simulation::add_group(Group added) {
   const auto placed = groups_.emplace(id, std::move(added));
   group_index_.add(id, placed.first->second);
   groups_changed_ = true;
+  note_change();
   if (placed.first->second.other) join_anew();
   return id;
 }
@@ -241,6 +242,7 @@ void Simulation::remove(GroupId id) {
   if (transaction_ != nullptr) transaction_->save(id, std::move(found->second));
   groups_.erase(found);
   groups_changed_ = true;
+  note_change();
 }
 
 const Group& Simulation::group(GroupId id) const {
@@ -318,15 +320,18 @@ void Simulation::exchange_group(GroupId id, Group renewed) {
   group = std::move(renewed);
   group_index_.add(id, group);
   groups_changed_ = true;
+  note_change();
 }
 
 void Simulation::set_stiffness(GroupId id, Real stiffness) {
   const Group& owner = group(id);
-  if (!this->stiffness(id)) fail_input("group '" + owner.name + "' has no stiffness; hard pins have none");
+  const std::optional<Real> before = this->stiffness(id);
+  if (!before) fail_input("group '" + owner.name + "' has no stiffness; hard pins have none");
   if (transaction_ != nullptr) transaction_->save_numbers(id, owner);
   for (const auto& batch : owner.set.batches) {
     if (batch->shape().count > 0) batch->set_stiffness(stiffness);
   }
+  if (stiffness != *before) note_change();
 }
 
 void Simulation::set_stiffness_factors(GroupId id, std::vector<Real> factors) {

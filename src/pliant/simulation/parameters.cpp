@@ -7,9 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "pliant/constraints/attachment.h"
-#include "pliant/constraints/edge_strain.h"
 #include "pliant/core/error.h"
+#include "pliant/simulation/group_stiffness.h"
 
 namespace pliant {
 namespace {
@@ -135,13 +134,6 @@ void list_settings(const Simulation& simulation, std::vector<Parameter>& list) {
   list_options(settings, lister);
 }
 
-/// Of the stiffness of a group, where that depends on its other options; else empty.
-std::string_view unit_as_made(const Group& group) {
-  if (const auto* fibers = options_in<EdgeStrain>(group)) return fibers->measure == FibreMeasure::rope ? "N" : "N/m";
-  if (const auto* ties = options_in<Attachment>(group)) return is_seam(ties->mode) ? "N/m²" : "N/m";
-  return "";
-}
-
 void list_group(const Simulation& simulation, GroupId id, std::vector<Parameter>& list) {
   const Group& group = group_with(simulation, id);
   ParameterLister lister(id, group.type, group.name, list);
@@ -154,8 +146,7 @@ void list_group(const Simulation& simulation, GroupId id, std::vector<Parameter>
   group.source->list(lister);
   const auto is_stiffness = [](const Parameter& each) { return each.handle.option == stiffness_alone.name; };
   const auto stiffness = std::find_if(list.begin() + first, list.end(), is_stiffness);
-  const std::string_view unit = unit_as_made(group);
-  if (stiffness != list.end() && !stiffness->unit.empty() && !unit.empty()) stiffness->unit = unit;
+  if (stiffness != list.end() && !stiffness->unit.empty()) stiffness->unit = stiffness_unit(group);
   if (lister.stiffnesses != nullptr) return;
   if (stiffness == list.end()) lister.add_stiffness(stiffness_alone, false);
 }

@@ -85,6 +85,7 @@ BodyId Simulation::add_body(Mesh mesh, const Mass& mass, BodyOptions options) {
   groups_changed_ = true;
   colliders_changed_ = true;
   surfaces_changed_ = true;
+  note_change();
   return BodyId(static_cast<Index>(bodies_.size()) - 1);
 }
 
@@ -144,7 +145,7 @@ StepReport Simulation::step() {
   const auto iterations = state_.iterations;
   StepReport report;
   try {
-    if (settings_.iterations == automatic_iterations && finds_iterations(state_.step)) find_iterations(*this);
+    if (settings_.iterations == automatic_iterations && finds_iterations(state_)) find_iterations(*this);
     update_problem();
     report = solver_->step(state_);
   } catch (const Divergence& divergence) {
@@ -222,7 +223,8 @@ void Simulation::restore(const State& state) {
   check_rows(state.positions, state_.vertex_count(), "restore: positions");
   check_rows(state.velocities, state_.vertex_count(), "restore: velocities");
   if (state.masses != state_.masses) fail_input("restore: the masses differ; make the simulation of the same bodies");
-  if (state.step < 0 || state.iterations < 0 || !std::isfinite(state.time) || !std::isfinite(state.time_excess)) {
+  if (state.step < 0 || state.iterations < 0 || state.changed_step < 0 || !std::isfinite(state.time) ||
+      !std::isfinite(state.time_excess)) {
     fail_input("restore: step " + std::to_string(state.step) + ", time " + std::to_string(state.time) +
                " s: not a state of a simulation; give one that state() has returned");
   }

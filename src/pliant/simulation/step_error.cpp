@@ -89,11 +89,29 @@ class Trial {
   Index most_ = 0;
 };
 
-Index find_enough(Trial& trial, Index iterations, const SolverSettings& settings) {
+bool is_regular_look(std::int64_t step) {
+  return step == 10 || step == 30 || step == 90 || (step > 0 && step % 180 == 0);
+}
+
+/// Which steps after a change are looked at.
+enum class Follow { none, first, second, last };
+
+Follow follow(const State& state) {
+  constexpr std::int64_t last_look = 30;
+  if (state.changed_step == 0) return Follow::none;
+  const std::int64_t passed = state.step - state.changed_step;
+  if (passed == 0) return Follow::first;
+  // Where a change is followed later than it was made, the second look at the one before may still be to come.
+  if (passed == look_after_change || passed == look_after_change - change_gap) return Follow::second;
+  return passed == last_look ? Follow::last : Follow::none;
+}
+
+Index find_enough(Trial& trial, Index iterations, const SolverSettings& settings, bool may_be_fewer) {
   constexpr Index least = 5;
   const auto fits = [&](Index n) { return trial.error_after(n).share <= settings.step_error; };
   const StepError now = trial.error_after(iterations);
   if (now.share <= settings.step_error / 2) {
+    if (!may_be_fewer) return iterations;
     const Index fewer = std::max(least, 2 * iterations / 3);
     return fewer < iterations && fits(fewer) ? fewer : iterations;
   }
@@ -119,16 +137,19 @@ std::optional<StepError> find_step_error(Simulation& simulation) {
   }
 }
 
-bool finds_iterations(std::int64_t step) {
-  return step == 10 || step == 30 || step == 90 || (step > 0 && step % 180 == 0);
+bool finds_iterations(const State& state) {
+  return is_regular_look(state.step) || follow(state) != Follow::none;
 }
 
 void find_iterations(Simulation& simulation) {
   State state = simulation.state();
   try {
-    const Index iterations = iterations_of(simulation.settings(), simulation.state().iterations);
+    const Follow followed = follow(state);
+    Index iterations = iterations_of(simulation.settings(), state.iterations);
+    if (followed == Follow::first) iterations = std::max(iterations, iterations_of(simulation.settings(), 0));
+    const bool may_be_fewer = followed != Follow::first && followed != Follow::second;
     Trial trial(simulation, iterations);
-    state.iterations = find_enough(trial, iterations, simulation.settings());
+    state.iterations = find_enough(trial, iterations, simulation.settings(), may_be_fewer);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::diverged) throw;
     return;

@@ -27,12 +27,19 @@ inline constexpr Real far_from_converged = 0.5;
 /// @throws Error (interrupted) when it is given up (Simulation::set_stop)
 std::optional<StepError> find_step_error(Simulation& simulation);
 
-/// Whether automatic iterations are to be found before this step: 10, 30, 90, and each 180th.
-bool finds_iterations(std::int64_t step);
+/// So many steps after what holds or drives bodies has changed the motion has begun, and is looked at: errors are
+/// largest about then.
+inline constexpr std::int64_t look_after_change = 10;
+
+/// Whether automatic iterations are to be found before the coming step: before steps 10, 30, 90 and each 180th, and
+/// where what holds or drives bodies has changed, before the first step with it, look_after_change later and 30 steps
+/// later.
+bool finds_iterations(const State& state);
 
 /// Finds iterations for the coming steps, as StepError of the coming one tells, and puts them into the state. Half as
 /// many more are tried until their error is no larger than the setting, and a third fewer where it is less than half of
-/// that. Throws as find_step_error().
+/// that. Where something has changed they are at least as many as in the first step, and no fewer look_after_change
+/// later: what was enough at rest says nothing of the motion. Throws as find_step_error().
 void find_iterations(Simulation& simulation);
 
 }  // namespace pliant

@@ -94,6 +94,7 @@ void Colliders::set_mass(BodyId id, const Mass& mass) {
   if (transaction_ != nullptr) transaction_->save_state();
   std::ranges::copy(masses, state_.masses.begin() + owner.first_vertex);
   masses_changed_ = true;
+  note_change();
 }
 
 void Colliders::set_contact(BodyId id, const BodyContact& contact) {
@@ -114,6 +115,7 @@ void Colliders::set_contact(BodyId id, const BodyContact& contact) {
   present = contact;
   colliders_changed_ = true;
   surfaces_changed_ = true;
+  note_change();
 }
 
 Real Colliders::contact_distance(BodyId id) const {

@@ -16,6 +16,7 @@ Transaction::Transaction(Simulation& simulation)
       next_group_(simulation.next_group_),
       next_force_(simulation.next_force_),
       next_collider_(simulation.next_collider_),
+      changed_step_(simulation.state_.changed_step),
       contact_settings_(simulation.contact_) {
   simulation_.transaction_ = this;
 }
@@ -116,6 +117,7 @@ void Transaction::roll_back() {
   if (colliders_) s.colliders_changed_ = true;
   if (roll_back_bodies()) s.colliders_changed_ = s.surfaces_changed_ = true;
   s.next_collider_ = next_collider_;
+  s.state_.changed_step = changed_step_;
   if (!forces_.empty()) s.forces_changed_ = true;
   if (s.settings_ != settings_) s.solver_->set_settings(settings_);
   s.settings_ = settings_;

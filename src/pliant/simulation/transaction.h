@@ -65,6 +65,7 @@ class Transaction {
   Index next_group_;
   Index next_force_;
   Index next_collider_;
+  std::int64_t changed_step_;
   ContactSettings contact_settings_;
   // As they were before their first change; none for what was not there.
   std::map<GroupId, std::optional<Group>> groups_;

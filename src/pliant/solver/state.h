@@ -1,10 +1,15 @@
 #pragma once
+#include <algorithm>
 #include <limits>
 
 #include "pliant/collision/contact/contact_state.h"
 #include "pliant/core/state_view.h"
 
 namespace pliant {
+
+/// Steps at least from one change that looks follow to the next: where there is one in each step, most are not
+/// followed.
+inline constexpr std::int64_t change_gap = 20;
 
 /// All that changes from step to step.
 struct State {
@@ -23,6 +28,10 @@ struct State {
 
   /// Of the next steps, where the settings leave them to be found; 0: none have been found yet.
   Index iterations = 0;
+  /// The step before which what holds or drives bodies has changed last, from which on looks follow it
+  /// (simulation/step_error.h); a later one where there were looks shortly before. 0: nothing has changed since the
+  /// first step.
+  std::int64_t changed_step = 0;
 
   /// What energy projection has let components have too much and does not give them back, at one vertex of each, m
   /// numbers [J]; empty: nothing.
@@ -33,6 +42,10 @@ struct State {
 
   Index vertex_count() const { return static_cast<Index>(positions.rows()); }
   StateView view() const { return {positions, velocities, masses, step, time}; }
+  /// To be told before the next step of what holds or drives bodies, when that changes.
+  void note_change() {
+    if (step > changed_step) changed_step = changed_step > 0 ? std::max(step, changed_step + change_gap) : step;
+  }
   /// To the next step, by Kahan's sum: after n steps of h [s] the time is n h to the last digit.
   void advance_time(Real h) {
     ++step;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -157,6 +158,7 @@ void Timeline::start(Simulation& simulation, GroupId id, std::shared_ptr<Path> p
   motion.before.resize(motion.indices.size());
   motion.path->begin(simulation, id, motion.state.numbers);
   leave(id, std::move(numbers));
+  simulation.note_change();
   if (motion.path->duration() > 0) {
     motions_.push_back(std::move(motion));
     return;
@@ -170,6 +172,7 @@ void Timeline::start(Simulation& simulation, GroupId id, std::shared_ptr<Path> p
 void Timeline::start(Simulation& simulation, ColliderId collider, std::shared_ptr<Path> path) {
   const Index order = running_ < 0 ? begun_outside_++ : begun_++;
   collider_motions_.start(simulation, collider, std::move(path), running_, order);
+  simulation.note_change();
 }
 
 void Timeline::leave(GroupId group, std::vector<Index> numbers) {
@@ -184,10 +187,16 @@ void Timeline::leave(GroupId group, std::vector<Index> numbers) {
   std::erase_if(motions_, [](const Motion& motion) { return motion.state.numbers.points.empty(); });
 }
 
-void Timeline::stop(const Simulation& simulation, GroupId group, const std::vector<Index>& numbers) {
+void Timeline::stop(Simulation& simulation, GroupId group, const std::vector<Index>& numbers) {
   group_of(simulation, group);
   leave(group, numbers);
   if (numbers.empty()) ramps_.erase(group);
+  simulation.note_change();
+}
+
+void Timeline::stop(Simulation& simulation, ColliderId collider) {
+  collider_motions_.stop(simulation, collider);
+  simulation.note_change();
 }
 
 void Timeline::ramp_stiffness(const Simulation& simulation, GroupId id, Real to, Real duration, Ease ease) {
@@ -245,6 +254,19 @@ void Timeline::move_all(Simulation& simulation) {
   prepare(simulation);
   go_on(simulation);
   end_what_arrived(simulation);
+}
+
+std::optional<std::int64_t> Timeline::next_due(const Simulation& simulation) const {
+  constexpr Real far = 1e15;  // steps
+  const Clock now = clock(simulation);
+  Real next = std::numeric_limits<Real>::infinity();
+  if (!by_step_.empty()) next = static_cast<Real>(by_step_.begin()->first);
+  if (!by_time_.empty()) {
+    const Real wait = std::ceil((by_time_.begin()->first - now.latest) / simulation.settings().time_step);
+    next = std::min(next, static_cast<Real>(now.step) + wait);
+  }
+  if (std::isinf(next)) return std::nullopt;
+  return std::max(now.step, static_cast<std::int64_t>(std::min(next, far)));
 }
 
 Index Timeline::skip_due(const Simulation& simulation) {

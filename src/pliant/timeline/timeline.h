@@ -9,6 +9,7 @@
 //     for (int i = 0; i < 300; ++i) timeline.step(simulation);
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <type_traits>
 
@@ -81,14 +82,14 @@ class Timeline {
   /// path is then, and it turns as the path does, about its position unless the path has a center. A jump is made in
   /// one step. With the velocities that it has it goes on behind the end.
   void start(Simulation& simulation, ColliderId collider, std::shared_ptr<Path> path);
-  void stop(const Simulation& simulation, ColliderId collider) { collider_motions_.stop(simulation, collider); }
+  void stop(Simulation& simulation, ColliderId collider);
   /// Ends the motion of a collider and lets none begin: events that would move it, or stop it, act without that. For
   /// whoever moves it by hand. A checkpoint does not know of it.
   void leave_alone(const Simulation& simulation, ColliderId collider) {
     collider_motions_.leave_alone(simulation, collider);
   }
   /// Leaves targets where they are now; without numbers all of the group, whose ramp ends as well.
-  void stop(const Simulation& simulation, GroupId group, const std::vector<Index>& numbers = {});
+  void stop(Simulation& simulation, GroupId group, const std::vector<Index>& numbers = {});
   /// Lets the stiffness of a group go to another value in a time [s] > 0. Factorizes at each doubling.
   void ramp_stiffness(const Simulation& simulation, GroupId group, Real to, Real duration, Ease ease = Ease::linear);
   void stop_ramp(GroupId group) { ramps_.erase(group); }
@@ -113,6 +114,8 @@ class Timeline {
   /// them can no longer act. Returns how many there were. A checkpoint does not know of it.
   Index skip_due(const Simulation& simulation);
 
+  /// The step before which the next waiting event is due, if the time step stays; none where none waits.
+  std::optional<std::int64_t> next_due(const Simulation& simulation) const;
   std::size_t event_count() const { return events_.size(); }
   /// Whether something is still to come or under way.
   bool is_over() const {

@@ -179,6 +179,12 @@ State read_state(const Node& node, const State& fresh) {
     read(*iterations, state.iterations);
     if (state.iterations < 1) iterations->fail("not 1 or more; take another checkpoint");
   }
+  if (const auto changed = node.find("changed_step")) {
+    read(*changed, state.changed_step);
+    if (state.changed_step < 1 || state.changed_step > state.step + change_gap) {
+      changed->fail(fmt::format("{} is out of range; take another checkpoint", state.changed_step));
+    }
+  }
   if (const auto contact = node.find("contact")) state.contact = read_contact(*contact, fresh);
   if (const auto surplus = node.find("energy_surplus")) {
     state.energy_surplus.resize(state.masses.size());

@@ -80,6 +80,7 @@ Json state_json(const State& state) {
                         {"velocities", bytes_of(state.previous_velocities)}};
   }
   if (state.iterations > 0) json["iterations"] = state.iterations;
+  if (state.changed_step > 0) json["changed_step"] = state.changed_step;
   if (!state.contact.is_empty()) json["contact"] = write_contact(state.contact);
   if (!state.energy_surplus.empty()) json["energy_surplus"] = bytes_of(state.energy_surplus);
   return json;
