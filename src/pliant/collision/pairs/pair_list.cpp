@@ -12,6 +12,8 @@ namespace {
 
 /// Of r: how much farther apart than r a pair may be to be listed.
 constexpr Real list_slack = 1;
+/// Of a distance: what a way that brings nothing together may take of it.
+constexpr Real short_share = 0.9;
 /// Of r: how far apart features of flat sheets are looked for at rest.
 constexpr Real reach_at_rest = 3;
 /// Of r: by how much boxes around ways are larger than these.
@@ -31,6 +33,18 @@ Real sum_of_sides(const Pair& pair, const std::vector<Real>& numbers) {
     side = std::max(side, numbers[at(pair.vertices[j])]);
   }
   return a + b;
+}
+
+/// A point of the one side and one of the other move against each other by no more than that.
+Real relative_way(const Positions& from, const Positions& to, const Pair& pair) {
+  const auto first = static_cast<std::size_t>(pair.first_side());
+  std::array<Vec3, 4> ways;
+  for (std::size_t j = 0; j < 4; ++j) ways[j] = row(to, pair.vertices[j]) - row(from, pair.vertices[j]);
+  Real longest = 0;
+  for (std::size_t i = 0; i < first; ++i) {
+    for (std::size_t j = first; j < 4; ++j) longest = std::max(longest, (ways[i] - ways[j]).squaredNorm());
+  }
+  return std::sqrt(longest);
 }
 
 /// The distance of the sides' boxes: the pair is no nearer.
@@ -70,6 +84,7 @@ void PairList::set_surface(const Surface& surface, const Positions& rest, std::s
   std::ranges::transform(radii, pads_.begin(), [](Real r) { return pad_of_ways * r; });
   find_own_radii(rest);
   find_sheets(rest);
+  motion_.set_surface(surface, rest, radii);
 }
 
 void PairList::clear() {
@@ -133,20 +148,33 @@ void PairList::begin(std::span<const char> is_pinned, const LetGo& let_go, const
 void PairList::take_along(const Positions& q) {
   reference_ = q;
   has_now_ = has_end_ = false;
+  kept_.reset();
+  motion_.forget();
 }
 
 bool PairList::update(const Positions& q, ThreadPool& threads) {
   if (is_listed_) {
     go_to(q);
-    const auto has_room = [&](Index v) { return gone_[at(v)] < list_slack / 2 * radii_[at(v)]; };
-    if (farthest_gone_ < list_slack / 2 * smallest_radius_) return false;
-    if (std::ranges::all_of(surface_->vertices, has_room)) return false;
+    if (lasts()) return false;
   }
   list(q, threads);
   return true;
 }
 
-/// All pairs that can be nearer than r while no vertex has gone farther from here than half the slack.
+/// Whether no pair that is not listed can be nearer than r where all have gone.
+bool PairList::lasts() {
+  const auto has_room = [&](Index v) { return gone_[at(v)] < list_slack / 2 * radii_[at(v)]; };
+  if (farthest_gone_ < list_slack / 2 * smallest_radius_) return true;
+  if (std::ranges::all_of(surface_->vertices, has_room)) return true;
+  return kept_now().is_radius;
+}
+
+const LocalMotion::Kept& PairList::kept_now() {
+  if (!kept_) kept_ = motion_.kept(reference_, now_, farthest_gone_);
+  return *kept_;
+}
+
+/// All pairs that can be nearer than r while no two features have gone farther against each other than the slack.
 void PairList::list(const Positions& q, ThreadPool& threads) {
   const FarPairs far(*surface_, q, radii_);
   if (!sheets_.is_empty()) sheets_.find_spread(q, (1 + list_slack) * largest_radius_, threads);
@@ -262,10 +290,12 @@ void PairList::go_to(const Positions& q) {
     std::swap(now_, end_);
     std::swap(gone_, gone_at_end_);
     std::swap(farthest_gone_, farthest_at_end_);
+    std::swap(kept_, kept_at_end_);
     return std::swap(has_now_, has_end_);
   }
   now_ = q;
   has_now_ = true;
+  kept_.reset();
   farthest_gone_ = find_lengths(reference_, q, common_way(reference_, q), gone_);
 }
 
@@ -296,14 +326,24 @@ void PairList::take_way(const Positions& from, const Positions& to, bool is_rela
     if (is_relative && !(has_end_ && is_same(to, end_))) {
       end_ = to;
       has_end_ = true;
+      kept_at_end_.reset();
       farthest_at_end_ = find_lengths(reference_, to, common_way(reference_, to), gone_at_end_);
     }
-    is_short_ = std::ranges::all_of(surface_->vertices, [&](Index v) {
-      const Real gone = is_relative ? std::max(gone_[at(v)], gone_at_end_[at(v)]) : gone_[at(v)] + ways_[at(v)];
-      return gone < 0.9 * (1 + list_slack) / 2 * radii_[at(v)];
-    });
+    is_short_ = is_short_way();
   }
   if (!is_short_) set_boxes(from, to);
+}
+
+/// Whether no pair that is not listed can meet on it.
+bool PairList::is_short_way() {
+  const auto has_room = [&](Index v) {
+    const Real gone = is_relative_ ? std::max(gone_[at(v)], gone_at_end_[at(v)]) : gone_[at(v)] + ways_[at(v)];
+    return gone < short_share * (1 + list_slack) / 2 * radii_[at(v)];
+  };
+  if (std::ranges::all_of(surface_->vertices, has_room)) return true;
+  if (!is_relative_ || !kept_now().is_some) return false;
+  if (!kept_at_end_) kept_at_end_ = motion_.kept(reference_, end_, farthest_at_end_);
+  return kept_at_end_->is_some;
 }
 
 /// In a frame that goes as all do, things meet where they meet in space.
@@ -340,7 +380,7 @@ void PairList::add_on_the_way(const Pair& pair, Real bound, OnTheWay& found) con
 
 const PairList::OnTheWay& PairList::on_the_way(const Positions& from, const Positions& to, ThreadPool& threads) {
   if (is_short_) {
-    collect_near_on_the_way(threads);
+    collect_near_on_the_way(from, to, threads);
     if (!is_of_before_ || on_the_way_.pairs.empty()) return on_the_way_;
     is_short_ = false;
     set_boxes(from, to);
@@ -357,11 +397,17 @@ const PairList::OnTheWay& PairList::on_the_way(const Positions& from, const Posi
   return on_the_way_;
 }
 
-void PairList::collect_near_on_the_way(ThreadPool& threads) {
+void PairList::collect_near_on_the_way(const Positions& from, const Positions& to, ThreadPool& threads) {
   const Real most_certain = certain_share * largest_radius_;
   const Real longest = 2 * (longest_way_ / free_share_of_bound + farthest_gone_) + most_certain;
+  // Where a single pair would have all ways searched, it is looked at by itself.
+  const auto is_apart = [&](const Near& near) {
+    return is_of_before_ && bound(near) > most_certain &&
+           relative_way(from, to, near.pair) < free_share_of_bound * bound(near);
+  };
   collect_on_the_way(near_.size(), threads, [&](std::size_t i, OnTheWay& found) {
-    if (!(near_[i].distance > longest)) add_on_the_way(near_[i].pair, bound(near_[i]), found);
+    const Near& near = near_[i];
+    if (!(near.distance > longest) && !is_apart(near)) add_on_the_way(near.pair, bound(near), found);
   });
 }
 

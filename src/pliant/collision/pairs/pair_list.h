@@ -7,6 +7,7 @@
 #include "pliant/collision/pairs/flat_sheets.h"
 #include "pliant/collision/pairs/gap.h"
 #include "pliant/collision/pairs/let_go.h"
+#include "pliant/collision/pairs/local_motion.h"
 #include "pliant/collision/pairs/pair_search.h"
 #include "pliant/collision/pairs/reduced_distances.h"
 #include "pliant/collision/pairs/way_boxes.h"
@@ -85,9 +86,12 @@ class PairList {
   Vec3 common_way(const Positions& a, const Positions& b) const;
   void take_way(const Positions& from, const Positions& to, bool is_relative);
   void set_boxes(const Positions& from, const Positions& to);
-  void collect_near_on_the_way(ThreadPool& threads);
+  void collect_near_on_the_way(const Positions& from, const Positions& to, ThreadPool& threads);
   template <class Add>
   void collect_on_the_way(std::size_t count, ThreadPool& threads, Add&& add);
+  bool lasts();
+  bool is_short_way();
+  const LocalMotion::Kept& kept_now();
   void list(const Positions& q, ThreadPool& threads);
   void take_own_radii();
   void reduce_radii();
@@ -103,6 +107,7 @@ class PairList {
   std::vector<Real> radii_, pads_;
   Real smallest_radius_ = 0, largest_radius_ = 0;
   FlatSheets sheets_;
+  LocalMotion motion_;                // since the near pairs were listed
   std::vector<OwnRadius> own_radii_;  // of pairs that are nearer than r at rest, in the order of pairs
 
   Positions reference_;  // where the near pairs were listed
@@ -114,7 +119,8 @@ class PairList {
   std::vector<Gap> gaps_;
   Positions now_;  // what the next two are about, if anything
   bool has_now_ = false;
-  std::vector<Real> gone_;  // since then, apart from what all have gone [m]
+  std::optional<LocalMotion::Kept> kept_;  // there, if that is known
+  std::vector<Real> gone_;                 // since then, apart from what all have gone [m]
   Real farthest_gone_ = 0;
 
   WayBoxes boxes_;              // around ways
@@ -125,6 +131,7 @@ class PairList {
   bool has_end_ = false;
   std::vector<Real> gone_at_end_;  // as gone_ [m]
   Real farthest_at_end_ = 0;
+  std::optional<LocalMotion::Kept> kept_at_end_;
   bool is_short_ = false;            // so that no pair can meet that is not near
   bool is_relative_ = false;         // lengths are apart from what all go
   bool has_been_held_back_ = false;  // in this substep
