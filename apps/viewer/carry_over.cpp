@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <exception>
 #include <map>
+#include <set>
 #include <optional>
 
 #include "pliant/constraints/position.h"
@@ -168,6 +169,25 @@ void carry_pins(const Simulation& from, Simulation& to, const NotCarried& rules)
   });
 }
 
+/// Pins that came while it ran stay beside the factor, in whatever group they are now, so that what goes on has the same
+/// bits.
+void carry_pins_beside_factor(const Simulation& from, const Simulation& to) {
+  const auto is_beside = [](const Group& group) {
+    return std::ranges::any_of(group.set.batches, [](const auto& batch) { return batch->is_beside_factor(); });
+  };
+  std::set<Index> beside;
+  for (const auto& [id, group] : from.groups()) {
+    if (group.type != pliant::Position::info.name || !is_beside(group)) continue;
+    for (const Index vertex : vertices_of_pins(group)) beside.insert(vertex);
+  }
+  for (const auto& [id, group] : to.groups()) {
+    if (group.type != pliant::Position::info.name) continue;
+    const auto was_beside = [&](Index vertex) { return beside.contains(vertex); };
+    const bool are_beside = std::ranges::all_of(vertices_of_pins(group), was_beside);
+    for (const auto& batch : group.set.batches) batch->set_beside_factor(are_beside);
+  }
+}
+
 /// Numbers of colliders of `from` in `to`, of those that have the same name in both.
 std::map<Index, Index> collider_numbers(const Simulation& from, const Simulation& to) {
   std::map<Index, Index> numbers;
@@ -232,6 +252,7 @@ void carry_over(const pliant::Scene& from, pliant::Scene& to, const NotCarried& 
   carry_values(from.simulation, to.simulation, rules);
   carry_numbers(from.simulation, to.simulation, rules);
   carry_pins(from.simulation, to.simulation, rules);
+  carry_pins_beside_factor(from.simulation, to.simulation);
   pliant::State state = from.simulation.state();
   state.masses = to.simulation.state().masses;
   carry_colliders(from.simulation, to.simulation, state.contact);

@@ -19,7 +19,7 @@ TEST_CASE("passing groups: a corrected solve is that of the whole matrix, whatev
   for (const Precision precision : {Precision::double_, Precision::mixed}) {
     const Real rounding = precision == Precision::double_ ? 1e-10 : 1e-5;
     Factor factor(matrix, precision);
-    for (const std::size_t count : {1u, 2u, 3u, 4u, 8u, 40u}) {
+    for (const std::size_t count : {1u, 2u, 3u, 4u, 8u, 32u}) {
       for (const Real weight : {1e-6, 1.0, 1e3, 1e9}) {
         CAPTURE(count);
         CAPTURE(weight);
@@ -196,8 +196,8 @@ TEST_CASE("passing groups: more of them than a few are in the factor") {
   Hung hung({.iterations = 10, .threads = 1});
   hung.simulation.step();
   Stencils few, many;
-  for (Index v = 20; v < 84; ++v) few.add({v});
-  for (Index v = 20; v < 85; ++v) many.add({v});
+  for (Index v = 20; v < 52; ++v) few.add({v});
+  for (Index v = 20; v < 53; ++v) many.add({v});
   const GroupId first = hung.simulation.add(hung.body, Drag{.stencils = few, .stiffness = 100});
   CHECK(hung.simulation.step().set_up.numeric == 0);
   const GroupId second = hung.simulation.add(hung.body, Drag{.stencils = {{160}}, .stiffness = 100});
