@@ -206,7 +206,8 @@ nlohmann::ordered_json describe_motion(Scene& scene) {
     json["after_event"] = error_json(simulation, worst->error);
     json["after_event"]["step"] = worst->step;
     lines.push_back(fmt::format("how exact after events, in step {}: {}", worst->step, worst->text));
-    if (json.value("warning", "").empty()) json["warning"] = worst->warning;
+    const bool is_worse = !exactness || worst->error.share > exactness->error.share;
+    if (is_worse) json["warning"] = worst->warning;
   }
   json["text"] = lines;
   return json;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <exception>
 #include <map>
-#include <set>
 #include <optional>
+#include <set>
 
 #include "pliant/constraints/position.h"
 #include "pliant/core/error.h"
@@ -169,8 +169,8 @@ void carry_pins(const Simulation& from, Simulation& to, const NotCarried& rules)
   });
 }
 
-/// Pins that came while it ran stay beside the factor, in whatever group they are now, so that what goes on has the same
-/// bits.
+/// Pins that came while it ran stay beside the factor, in whatever group they are now, so that what goes on has the
+/// same bits.
 void carry_pins_beside_factor(const Simulation& from, const Simulation& to) {
   const auto is_beside = [](const Group& group) {
     return std::ranges::any_of(group.set.batches, [](const auto& batch) { return batch->is_beside_factor(); });

@@ -242,11 +242,18 @@ TEST_CASE("passing pins: which are in the factor") {
   CHECK(hung.simulation.system_info().pinned_vertices == 34);
   const GroupId second = hung.simulation.add(hung.body, Position{.on = {100}});
   CHECK(hung.simulation.step().set_up.numeric > 0);  // there is no more room
+  hung.simulation.add(hung.body, Drag{.stencils = {{90}, {91}}, .stiffness = 100});
+  CHECK(hung.simulation.step().set_up.numeric == 0);  // drags have their own
   hung.simulation.release(first, std::array<Index, 1>{20});
-  CHECK(hung.simulation.step().set_up.numeric > 0);  // now there is
+  CHECK(hung.simulation.step().set_up.numeric == 0);  // what is in the factor stays there
   hung.simulation.release(first, std::array<Index, 2>{21, 22});
   CHECK(hung.simulation.step().set_up.numeric == 0);
   hung.simulation.replace(second, Position{.on = {101}, .hold = Hold::soft});
+  CHECK(hung.simulation.step().set_up.numeric > 0);
+  std::vector<Index> rest(few.begin() + 3, few.end());
+  hung.simulation.release(first, rest);  // all that are left
+  CHECK(hung.simulation.step().set_up.numeric == 0);
+  hung.simulation.replace(first, Position{.on = few});
   CHECK(hung.simulation.step().set_up.numeric == 0);
   hung.simulation.remove(first);
   CHECK(hung.simulation.step().set_up.numeric == 0);
@@ -268,6 +275,29 @@ TEST_CASE("passing pins: a body that a pin holds is not free, and its energy is 
   }
   two.late.simulation.remove(two.late_pin);
   CHECK(two.late.simulation.system_info().free_components.size() == 1);
+}
+
+TEST_CASE("passing pins: steps whose inertia is not that of the factor, as the first one of BDF2") {
+  const auto make = [](Acceleration acceleration) {
+    Simulation sheet({.integrator = Integrator::bdf2,
+                      .iterations = 80,
+                      .acceleration = acceleration,
+                      .precision = Precision::double_,
+                      .threads = 1});
+    const BodyId body = sheet.add_body(grid({.columns = 24, .rows = 24}), Mass::area_density(0.3));
+    sheet.add(body, TriangleStrain{.stiffness = 1e4});
+    sheet.add(Gravity{});
+    return sheet;
+  };
+  for (const Acceleration acceleration : {Acceleration::none, Acceleration::chebyshev}) {
+    CAPTURE(static_cast<int>(acceleration));
+    Simulation dragged = make(acceleration), pinned = make(acceleration);
+    const Vec3 target = row(dragged.state().positions, 300);
+    dragged.add(BodyId{0}, Drag{.stencils = {{300}}, .stiffness = 1e4, .targets = target});
+    pinned.add(BodyId{0}, Position{.on = {300}, .hold = Hold::soft, .stiffness = 1e4, .targets = target});
+    for (Simulation* sheet : {&dragged, &pinned}) sheet->step();
+    CHECK(difference(dragged, pinned) < 1e-5);
+  }
 }
 
 TEST_CASE("passing pins: a drag of a vertex that a pin holds does nothing") {

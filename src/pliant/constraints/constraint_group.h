@@ -52,8 +52,8 @@ class ConstraintGroup {
   /// stays out of the factor, whose solves are corrected for it, if it can be reordered(). It is projected constraint
   /// by constraint, without begin_local_step().
   virtual bool comes_and_goes() const { return false; }
-  /// The same of one whose type says nothing, as of pins that come while a simulation runs; whatever the type says
-  /// holds besides.
+  /// The same for a group whose type does not say so, as for pins that come while a simulation runs. A type that says
+  /// so stands beside the factor whatever is set here.
   void set_beside_factor(bool is_beside);
   bool is_beside_factor() const { return is_beside_factor_ || comes_and_goes(); }
 

@@ -150,10 +150,22 @@ void check_factors(const std::vector<Real>& factors, const Group& group, const B
   check_stiffness_factors(factors, place);
 }
 
-/// Pins that come while the simulation runs cost no factorization so; what stands there from the start is in the
-/// factor.
-void put_pins_beside_factor(Group& group) {
+bool is_late_pin(const ConstraintGroup& batch) {
+  return batch.is_beside_factor() && !batch.comes_and_goes();
+}
+
+/// Pins that come while the simulation runs cost no factorization so, as far as there is room beside those of the other
+/// groups; what stands there from the start is in the factor.
+void put_pins_beside_factor(Group& group, const std::map<GroupId, Group>& groups, std::optional<GroupId> but) {
   if (group.type != Position::info.name) return;
+  std::int64_t rows = 0;
+  for (const auto& batch : group.set.batches) rows += rows_beside_factor(*batch);
+  for (const auto& [id, other] : groups) {
+    for (const auto& batch : other.set.batches) {
+      if (id != but && is_late_pin(*batch)) rows += rows_beside_factor(*batch);
+    }
+  }
+  if (rows > most_rows_of_pins) return;
   for (const auto& batch : group.set.batches) batch->set_beside_factor(true);
 }
 
@@ -184,7 +196,7 @@ GroupId Simulation::add_group(Group added) {
   warn_of(added);
   const GroupId id{next_group_++};
   if (transaction_ != nullptr) transaction_->save(id, std::nullopt);
-  if (state_.step > 0) put_pins_beside_factor(added);
+  if (state_.step > 0) put_pins_beside_factor(added, groups_, std::nullopt);
   added.points = new_points(added.set);
   added.next_point = static_cast<Index>(added.points.size());
   const auto placed = groups_.emplace(id, std::move(added));
@@ -312,8 +324,9 @@ void Simulation::release(GroupId id, std::span<const Index> vertices) {
 
 void Simulation::exchange_group(GroupId id, Group renewed) {
   Group& group = groups_.at(id);
-  const auto is_beside = [](const auto& batch) { return batch->is_beside_factor(); };
-  if (std::ranges::any_of(group.set.batches, is_beside)) put_pins_beside_factor(renewed);
+  const bool was_late = std::ranges::any_of(group.set.batches, [](const auto& batch) { return is_late_pin(*batch); });
+  const bool was_empty = group.set.batches.empty() && state_.step > 0;
+  if (was_late || was_empty) put_pins_beside_factor(renewed, groups_, id);
   group_index_.remove(id, group);
   if (group.other || renewed.other) join_anew();
   if (transaction_ != nullptr) transaction_->save(id, std::move(group));

@@ -143,16 +143,18 @@ bool finds_iterations(const State& state) {
 
 void find_iterations(Simulation& simulation) {
   State state = simulation.state();
+  const Follow followed = follow(state);
+  Index iterations = iterations_of(simulation.settings(), state.iterations);
+  if (followed == Follow::first) {
+    iterations = std::max(iterations, iterations_of(simulation.settings(), 0));
+    state.iterations = iterations;  // also where nothing is found
+  }
   try {
-    const Follow followed = follow(state);
-    Index iterations = iterations_of(simulation.settings(), state.iterations);
-    if (followed == Follow::first) iterations = std::max(iterations, iterations_of(simulation.settings(), 0));
     const bool may_be_fewer = followed != Follow::first && followed != Follow::second;
     Trial trial(simulation, iterations);
     state.iterations = find_enough(trial, iterations, simulation.settings(), may_be_fewer);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::diverged) throw;
-    return;
   }
   simulation.restore(state);
 }

@@ -16,11 +16,6 @@ std::vector<Index> in_order(Index count) {
   return numbers;
 }
 
-std::int64_t rows_of(const ConstraintGroup& group) {
-  const GroupShape shape = group.shape();
-  return std::int64_t{shape.count} * shape.rows + static_cast<std::int64_t>(group.pinned_vertices().size());
-}
-
 /// Whether it is what it says it is. Copies in another order are asked for later.
 bool may_pass(ConstraintGroup& group, Index vertex_count) {
   if (group.targets().empty()) return false;
@@ -29,12 +24,18 @@ bool may_pass(ConstraintGroup& group, Index vertex_count) {
 
 }  // namespace
 
+std::int64_t rows_beside_factor(const ConstraintGroup& group) {
+  const GroupShape shape = group.shape();
+  return std::int64_t{shape.count} * shape.rows + static_cast<std::int64_t>(group.pinned_vertices().size());
+}
+
 std::vector<ConstraintGroup*> PassingGroups::take_out_of(std::vector<ConstraintGroup*>& groups, Index vertex_count) {
   std::vector<ConstraintGroup*> taken;
-  std::int64_t room = FactorCorrection::most_rows;
+  std::int64_t room_for_drags = most_rows_of_drags, room_for_pins = most_rows_of_pins;
   std::erase_if(groups, [&](ConstraintGroup* group) {
     if (!group->is_beside_factor()) return false;
-    const std::int64_t rows = rows_of(*group);
+    std::int64_t& room = group->comes_and_goes() ? room_for_drags : room_for_pins;
+    const std::int64_t rows = rows_beside_factor(*group);
     if (rows > room || !may_pass(*group, vertex_count)) return false;
     room -= rows;
     taken.push_back(group);

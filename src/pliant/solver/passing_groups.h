@@ -9,6 +9,15 @@
 
 namespace pliant {
 
+/// How many rows may stand beside the factor: those of drags and the like, and those of pins that come late. Drags have
+/// room of their own, since each is held for a while alone.
+inline constexpr std::int64_t most_rows_of_drags = 8;
+inline constexpr std::int64_t most_rows_of_pins = 32;
+static_assert(most_rows_of_drags + most_rows_of_pins == FactorCorrection::most_rows);
+
+/// Of a group that stands beside the factor: of its forces, and one for each vertex that it pins.
+std::int64_t rows_beside_factor(const ConstraintGroup& group);
+
 class PassingGroups {
  public:
   /// Takes those that come and go out of `groups`, as long as they have few rows in all.

@@ -97,6 +97,7 @@ void FactorCorrection::set(FactorRows rows, const FreeInFactor& free) {
   vector_size_ = free.weights.size();
   find_free(free);
   before_.resize(rows_.vertices.size());
+  held_.reserve(rows_.count());
   dots_.resize(column_count());
   starts_.assign(1, {});
   runs_.clear();
@@ -107,16 +108,14 @@ void FactorCorrection::find_free(const FreeInFactor& free) {
   free_.clear();
   for (std::size_t c = 0; c < free.components.count(); ++c) {
     const std::span<const Index> vertices = free.components.component(c);
+    const auto is_here = [&](Index v) { return std::ranges::binary_search(vertices, v); };
+    if (std::ranges::none_of(rows_.vertices, is_here)) continue;
     Free found{c, 0, std::vector<Real>(rows_.count()), std::vector<Real>(rows_.count())};
-    bool has_row = false;
     for (std::size_t i = 0; i < rows_.count(); ++i) {
       for (std::size_t e = rows_.starts[i]; e < rows_.starts[i + 1]; ++e) {
-        if (!std::ranges::binary_search(vertices, rows_.vertices[e])) continue;
-        found.shares[i] += rows_.coefficients[e];
-        has_row = true;
+        if (is_here(rows_.vertices[e])) found.shares[i] += rows_.coefficients[e];
       }
     }
-    if (!has_row) continue;
     for (const Index v : vertices) found.weight += free.weights[at(v)];
     free_.push_back(std::move(found));
   }

@@ -52,7 +52,7 @@ struct FreeInFactor {
 
 class FactorCorrection {
  public:
-  static constexpr int most_rows = 32;
+  static constexpr int most_rows = 40;
 
   bool is_empty() const { return rows_.count() == 0; }
   const FactorRows& rows() const { return rows_; }

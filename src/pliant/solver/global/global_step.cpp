@@ -98,7 +98,8 @@ bool GlobalStep::correct(const FactorRows& rows) {
     return is_other;
   }
   for (Positions* x : {&trial_, &move_}) x->resize(vertex_count_, 3);
-  const FreeInFactor free{*components_, weights_};
+  corrected_weights_.assign(weights_.begin(), weights_.end());
+  const FreeInFactor free{*components_, corrected_weights_};
   correction_.set(rows, free);
   for (std::size_t first = 0; first < correction_.column_count(); first += 3) {
     const Real largest = correction_.write_columns(first, free, trial_);
@@ -114,7 +115,7 @@ bool GlobalStep::correct(const FactorRows& rows) {
 
 SolveTimes GlobalStep::solve_factorized(const Positions& r, Real largest, Positions& x, ThreadPool& threads) {
   const SolveTimes times = visit_panels([&](auto& panels) { return panels.solve(r, largest, x, threads); });
-  correct_means(r, x, threads);
+  correct_means(r, x, weights_, threads);
   return times;
 }
 
@@ -138,7 +139,7 @@ SolveTimes GlobalStep::solve_corrected(Positions& r, Real largest, Positions& x,
   });
   if (components_->count() > 0) {
     correction_.add_pull(r);
-    correct_means(r, x, threads);
+    correct_means(r, x, corrected_weights_, threads);  // others, and x would not be what the rows were solved for
   }
   correction_.put_back(r, x);
   return times;
@@ -156,11 +157,12 @@ SolveTimes GlobalStep::move(Positions& r, Real largest, Positions& q, ThreadPool
 
 /// On a component that nothing holds, Σ w x = Σ r exactly with w = M/h² and what forces' groups add to it, since no
 /// constraint resists its translation; the factor alone is not that exact.
-void GlobalStep::correct_means(const Positions& r, Positions& x, ThreadPool& threads) const {
+void GlobalStep::correct_means(const Positions& r, Positions& x, std::span<const Real> weights,
+                               ThreadPool& threads) const {
   for_each_component(*components_, threads, [&](std::size_t i, ThreadPool* inside) {
     const std::span<const Index> component = components_->component(i);
     const auto missing = sum_over<MeanSum>(component, inside, [&](MeanSum& sum, Index v) {
-      const Real w = weights_[at(v)];
+      const Real w = weights[at(v)];
       sum.vector += r.row(v).transpose() - w * x.row(v).transpose();
       sum.weight += w;
     });

@@ -50,7 +50,7 @@ class GlobalStep {
   SolveTimes solve_corrected(Positions& r, Real largest, Positions& x, ThreadPool& threads, Store how);
   template <class Visit>
   auto visit_panels(Visit&& visit);
-  void correct_means(const Positions& r, Positions& x, ThreadPool& threads) const;
+  void correct_means(const Positions& r, Positions& x, std::span<const Real> weights, ThreadPool& threads) const;
 
   std::unique_ptr<Factorization> factorization_;
   PanelFactor<float> single_;
@@ -59,6 +59,7 @@ class GlobalStep {
   Real contraction_ = 0;
   Index vertex_count_ = 0;
   std::span<const Real> weights_;
+  std::vector<Real> corrected_weights_;  // those that the correction was made with
   const Components* components_ = nullptr;
   FactorCorrection correction_;
   Positions move_;                    // where components are free, or the factor is corrected
