@@ -6,6 +6,7 @@
 
 #include "pliant/core/error.h"
 #include "pliant/mesh/shapes.h"
+#include "pliant/pliant.h"
 #include "pliant_io/checkpoint/checkpoint.h"
 #include "pliant_io/checkpoint/state_file.h"
 #include "pliant_io/scene/builtin_scenes.h"

@@ -157,8 +157,9 @@ TEST_CASE("passing pins: a pin that comes moves a sheet as one that was there, a
       for (const bool is_free : {false, true}) {
         // and what is not converged goes other ways from there, in motions as large as these
         if (acceleration == Acceleration::lbfgs && (is_shuffled || is_free)) continue;
-        for (const auto& [hold, stiffness] :
-             {std::pair{Hold::hard, 1.0}, {Hold::soft, 1.0}, {Hold::soft, 1e3}, {Hold::soft, 1e8}}) {
+        for (const auto& pull : {std::pair{Hold::hard, 1.0}, {Hold::soft, 1.0}, {Hold::soft, 1e3}, {Hold::soft, 1e8}}) {
+          const Hold hold = pull.first;
+          const Real stiffness = pull.second;
           CAPTURE(static_cast<int>(acceleration));
           CAPTURE(is_shuffled);
           CAPTURE(is_free);

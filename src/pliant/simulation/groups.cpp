@@ -7,6 +7,7 @@
 #include "pliant/constraints/position.h"
 #include "pliant/core/error.h"
 #include "pliant/simulation/transaction.h"
+#include "pliant/solver/passing_groups.h"
 
 namespace pliant {
 

@@ -101,7 +101,7 @@ void LocalMotion::add_corners(const Surface& surface) {
   corners_.clear();
   for (std::vector<Index>& of_region : corners) {
     std::ranges::sort(of_region);
-    of_region.erase(std::ranges::unique(of_region).begin(), of_region.end());
+    of_region.erase(std::unique(of_region.begin(), of_region.end()), of_region.end());
     corners_.insert(corners_.end(), of_region.begin(), of_region.end());
     begin_.push_back(corners_.size());
   }

@@ -5,6 +5,7 @@
 
 #include "pliant/core/printable.h"
 #include "pliant_io/checkpoint/detail/read_values.h"
+#include "pliant_io/scene/scene.h"
 
 namespace pliant {
 namespace {
