@@ -99,6 +99,19 @@ TEST_CASE("Whatever the motion, what is said to be apart is") {
   CHECK(known < 60);
 }
 
+TEST_CASE("After forget() what counts is how far things are apart at the new reference") {
+  Sheets sheets(3);
+  CHECK(kept(sheets, sheets.rest).is_radius);
+  const Positions near = sheets.moved([&](Index v) { return Vec3(0, 0, v < sheets.count ? 3 - 2.2 * r : 0); });
+  Positions nearer = near;
+  nearer(217, 2) += 1.3 * r;
+  CHECK(!sheets.are_apart(nearer, r));
+  sheets.motion.forget();
+  CHECK(sheets.motion.kept(near, near, 0).is_radius);
+  CHECK(!sheets.motion.kept(near, nearer, 1.3 * r).is_radius);
+  CHECK(sheets.motion.kept(near, nearer, 1.3 * r).is_some);
+}
+
 TEST_CASE("Of places that are no numbers nothing is known") {
   Sheets sheets(3);
   for (const Real bad : {std::numeric_limits<Real>::quiet_NaN(), std::numeric_limits<Real>::infinity()}) {
