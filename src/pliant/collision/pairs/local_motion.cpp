@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t vertices_of_region = 16;
 /// Of r: how far apart regions are that are looked at.
-constexpr Real reach = 8;
+constexpr Real reach_of_regions = 8;
 /// Of each region in the mean: with more neighbors than that nothing is won.
 constexpr std::size_t most_neighbors = 64;
 /// Of a distance: what may be taken of it.
@@ -161,7 +161,7 @@ void LocalMotion::set_groups() {
   for (std::size_t i = 0; i < boxes_side_by_side * groups_.size(); ++i) {
     EightBoxes& group = groups_[i / boxes_side_by_side];
     if (i < region_count_) {
-      group.set(i % boxes_side_by_side, boxes_[i].larger_by(reach / 2 * largest_radius_));
+      group.set(i % boxes_side_by_side, boxes_[i].larger_by(reach_of_regions / 2 * largest_radius_));
     } else {
       group.set_empty(i % boxes_side_by_side);
     }
@@ -190,7 +190,7 @@ void LocalMotion::add_neighbors(std::size_t group_a, std::size_t group_b) {
 /// Of distances d ≥ 2 r, at least D between two regions, max(r, D − r) may be lost so that r is left, and
 /// 0.9 max(2 r, D) so that something is.
 LocalMotion::Kept LocalMotion::kept(const Positions& reference, const Positions& q, Real farthest) {
-  if (!(2 * farthest < most_taken * reach * largest_radius_)) return {};
+  if (!(2 * farthest < most_taken * reach_of_regions * largest_radius_)) return {};
   if (!is_begun_) begin(reference);
   if (are_too_many_) return {};
   constexpr Real none = std::numeric_limits<Real>::infinity();
@@ -203,7 +203,7 @@ LocalMotion::Kept LocalMotion::kept(const Positions& reference, const Positions&
     boxes_[region].add(way.data());
     sum += way[0] + way[1] + way[2];
   });
-  Kept result{2 * farthest < (reach - 1) * largest_radius_, std::isfinite(sum)};
+  Kept result{2 * farthest < (reach_of_regions - 1) * largest_radius_, std::isfinite(sum)};
   result.is_radius &= result.is_some;
   for (const Neighbors& each : neighbors_) {
     const Real taken = squared_difference(boxes_[each.a], boxes_[each.b]);
