@@ -43,12 +43,16 @@ struct OwnDesk : Desk {
   }
 };
 
+void focus_window() {
+  xdotool("search --sync --onlyvisible --name 'sheet|simulation' windowfocus");
+}
+
 /// Keys for a window that another thread shows.
 class Hand {
  public:
   explicit Hand(std::function<void()> what)
       : thread_([what = std::move(what)] {
-          xdotool("search --sync --onlyvisible --name 'sheet|simulation' windowfocus");
+          focus_window();
           what();
         }) {}
   ~Hand() { thread_.join(); }
@@ -59,6 +63,16 @@ class Hand {
 
 void wait_until(const std::function<bool()>& is_so) {
   while (!is_so()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+}
+
+/// Presses a key of an open window, again where it was lost: the focus may have gone to the window of the case before,
+/// which was about to close.
+void press_until(const std::string& key, const std::function<bool()>& is_so) {
+  while (!is_so()) {
+    focus_window();
+    xdotool("key " + key);
+    for (int i = 0; i < 600 && !is_so(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
 }
 
 Simulation make_simulation() {
@@ -105,7 +119,7 @@ TEST_CASE("a program's simulation is shown, goes on, and is given back where the
   {
     const Hand hand([&] {
       wait_until([&] { return steps > 30; });
-      xdotool("key r");
+      press_until("r", [&] { return restarts > 0; });
       wait_until([&] { return restarts == 1 && steps > 20; });
       xdotool("key ctrl+q");
     });
@@ -151,8 +165,7 @@ TEST_CASE("what a program throws before a step pauses, and is told in the window
       wait_until([&] { return calls == 6; });
       std::this_thread::sleep_for(std::chrono::milliseconds(300));
       CHECK(calls == 6);
-      xdotool("key space");
-      wait_until([&] { return calls == 7; });
+      press_until("space", [&] { return calls == 7; });
       is_over = true;
     });
     pliant::view(simulation, options);
@@ -170,8 +183,7 @@ TEST_CASE("paused, nothing goes on before a key") {
     const Hand hand([&] {
       std::this_thread::sleep_for(std::chrono::milliseconds(300));
       CHECK(steps == 0);
-      xdotool("key s");
-      wait_until([&] { return steps == 1; });
+      press_until("s", [&] { return steps == 1; });
       xdotool("key ctrl+q");
     });
     pliant::view(simulation, options);
