@@ -282,6 +282,24 @@ TEST_CASE("contact that no run can have left is refused by name") {
   file.check_contact("light_steps", [](Json& contact) { contact["light_steps"] = 2000000000; });
 }
 
+TEST_CASE("a change that no run can have had, and pins that stand nowhere, are refused by name") {
+  const Spoiled file;
+  const auto change = [&](const Json& step) {
+    return file.refusal_of([&](Json& json) { json["state"]["changed_step"] = step; });
+  };
+  CHECK(change(20) == "(taken)");
+  for (const Json& step : {Json(0), Json(-3), Json(21 + 20), Json(std::int64_t{1} << 60)}) {
+    CAPTURE(step.dump());
+    CHECK(change(step).find("changed_step: " + step.dump() + " is out of range") != std::string::npos);
+  }
+  CHECK(change("20") == "run.pliant: state.changed_step: found a string; give a whole number");
+  const auto beside = [&](const Json& is_beside) {
+    return file.refusal_of([&](Json& json) { json["groups"][0]["batches"][0]["is_beside_factor"] = is_beside; });
+  };
+  CHECK(beside(true) == "(taken)");
+  CHECK(beside(1).find("is_beside_factor: found a number") != std::string::npos);
+}
+
 TEST_CASE("motions of colliders that have not begun are refused by name") {
   const Spoiled file;
   const std::string unsound = "one position and a rotation of length 1";

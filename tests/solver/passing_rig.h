@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstring>
 
+#include <doctest/doctest.h>
+
 #include "pliant/pliant.h"
 #include "pliant/solver/global/factorization/factorization.h"
 #include "pliant/solver/global/global_step.h"
@@ -84,6 +86,26 @@ struct Factor {
   }
 };
 
+inline bool same_bits(const Positions& a, const Positions& b) {
+  return a.rows() == b.rows() &&
+         std::memcmp(a.data(), b.data(), sizeof(Real) * static_cast<std::size_t>(a.size())) == 0;
+}
+
+/// That a solve is that of the whole matrix, leaves r as it was, and that a move is such a solve. Returns the solution.
+inline Positions check_solution(Factor& factor, const LowerMatrix& matrix, const FactorRows& rows, Positions r,
+                                Real rounding) {
+  const Positions before = r;
+  Positions x(r.rows(), 3);
+  factor.step.solve(r, r.cwiseAbs().maxCoeff(), x, factor.threads);
+  CHECK(same_bits(r, before));
+  const Positions exact = dense(matrix, rows).ldlt().solve(r);
+  CHECK((x - exact).cwiseAbs().maxCoeff() < rounding * exact.cwiseAbs().maxCoeff());
+  Positions q = before;
+  factor.step.move(r, r.cwiseAbs().maxCoeff(), q, factor.threads);
+  CHECK(same_bits(q, before + x));
+  return x;
+}
+
 /// Sheets that hang by two vertices, one of which is dragged by a point of a triangle.
 struct Hung {
   Simulation simulation;
@@ -109,11 +131,6 @@ struct Hung {
                                      .targets = {Vec3(at_start + Vec3(0.1, 0.2, 0.3))}});
   }
 };
-
-inline bool same_bits(const Positions& a, const Positions& b) {
-  return a.rows() == b.rows() &&
-         std::memcmp(a.data(), b.data(), sizeof(Real) * static_cast<std::size_t>(a.size())) == 0;
-}
 
 inline Real rms(const Simulation& simulation) {
   return std::sqrt(simulation.state().velocities.rowwise().squaredNorm().mean());

@@ -31,15 +31,7 @@ TEST_CASE("passing groups: a corrected solve is that of the whole matrix, whatev
         for (std::size_t e = rows.starts[0]; e < rows.starts[1]; ++e) {
           r.row(rows.vertices[e]) += 0.1 * weight * rows.coefficients[e] * Vec3(1, -2, 3).transpose();
         }
-        const Positions before = r;
-        Positions x(r.rows(), 3);
-        factor.step.solve(r, r.cwiseAbs().maxCoeff(), x, factor.threads);
-        CHECK(same_bits(r, before));
-        const Positions exact = dense(matrix, rows).ldlt().solve(r);
-        CHECK((x - exact).cwiseAbs().maxCoeff() < rounding * exact.cwiseAbs().maxCoeff());
-        Positions q = before;
-        factor.step.move(r, r.cwiseAbs().maxCoeff(), q, factor.threads);
-        CHECK(same_bits(q, before + x));
+        check_solution(factor, matrix, rows, r, rounding);
       }
     }
     CHECK(factor.step.correct({}));
