@@ -282,7 +282,7 @@ TEST_CASE("contact that no run can have left is refused by name") {
   file.check_contact("light_steps", [](Json& contact) { contact["light_steps"] = 2000000000; });
 }
 
-TEST_CASE("a change that no run can have had, and pins that stand nowhere, are refused by name") {
+TEST_CASE("the step of a change that no run can have had, and a flag that is none, are refused by name") {
   const Spoiled file;
   const auto change = [&](const Json& step) {
     return file.refusal_of([&](Json& json) { json["state"]["changed_step"] = step; });
