@@ -24,7 +24,8 @@ class LinearForces {
   void clear();
   /// Adds rows for a group, in order of its vertices, unless they are not worth it.
   Rows add(const ConstraintGroup& group, Index vertex_count);
-  Index vertex(std::size_t row) const { return vertices_[row]; }
+  /// The vertex of each row.
+  std::span<const Index> vertices() const { return vertices_; }
   struct Found {
     Real energy = 0;          ///< [J], of the rows: a share, which need not be positive
     bool is_rounding = true;  ///< no force is larger than what rounding of the positions makes

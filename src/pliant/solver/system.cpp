@@ -134,7 +134,13 @@ void System::lay_out() {
   layout_groups_ = simulation_groups_;  // one that has grown may stay out of the factor no longer
   passing_groups_ = PassingGroups::take_out_of(layout_groups_, vertex_count_);
   choose_order();
-  if (matrix_.set_groups(vertex_count_, groups_.in_use())) is_analyzed_ = false;
+  const bool was_analyzed = std::exchange(is_analyzed_, false);  // also where the next line fails
+  if (matrix_.set_groups(vertex_count_, groups_.in_use()) || !was_analyzed) {
+    components_ = find_components(matrix_.matrix());
+    component_of_vertex_ = component_of_vertex(components_);
+  } else {
+    is_analyzed_ = true;
+  }
   stamps_.clear();
   places_.clear();
   for (const ConstraintGroup* group : layout_groups_) {
@@ -142,10 +148,8 @@ void System::lay_out() {
     stamps_.push_back({group->revision(), group->factor_stiffness()});
   }
   find_pinned();
-  components_ = find_components(matrix_.matrix());
   free_in_layout_ = find_free_components(components_, groups_.in_use(), is_pinned_in_factor_);
   freedom_in_layout_ = find_freedom(free_in_layout_, groups_.in_use());
-  component_of_vertex_ = component_of_vertex(components_);
   local_step_.set_components(component_of_vertex_);
   take_passing();
   is_laid_out_ = true;

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "pliant/solver/constraint_rows.h"
-
 namespace pliant {
 namespace {
 
@@ -17,17 +15,22 @@ bool is_of_force(ConstraintGroup& group) {
 /// Marks the vertices of constraints that a translation does not leave as they are.
 void mark_anchored(ConstraintGroup& group, std::vector<char>& is_anchored) {
   if (is_of_force(group)) return;
-  for (std::size_t i = 0; i < at(group.shape().count); ++i) {
+  const GroupShape shape = group.shape();
+  const auto n = static_cast<std::size_t>(shape.vertices), rows = static_cast<std::size_t>(shape.rows);
+  const std::span<const Real> reduction = group.reduction();
+  const std::span<const Index> stencil = group.stencil();
+  for (std::size_t i = 0; i < at(shape.count); ++i) {
     bool holds = false;
-    for (std::size_t r = 0; r < static_cast<std::size_t>(group.shape().rows); ++r) {
-      const std::span<const Real> row = reduction_row(group, i, r);
-      const Real sum = std::accumulate(row.begin(), row.end(), Real(0));
-      Real size = 0;
-      for (const Real coefficient : row) size += std::abs(coefficient);
+    for (std::size_t r = 0; r < rows; ++r) {
+      Real sum = 0, size = 0;
+      for (const Real coefficient : reduction.subspan((i * rows + r) * n, n)) {
+        sum += coefficient;
+        size += std::abs(coefficient);
+      }
       holds = holds || std::abs(sum) > 1e-6 * size;
     }
     if (!holds) continue;
-    for (const Index vertex : stencil_of(group, i)) is_anchored[at(vertex)] = 1;
+    for (const Index vertex : stencil.subspan(i * n, n)) is_anchored[at(vertex)] = 1;
   }
 }
 
@@ -46,6 +49,18 @@ std::vector<Index> find_roots(const LowerMatrix& matrix) {
   });
   for (Index vertex = 0; vertex < matrix.size(); ++vertex) parent[at(vertex)] = root_of(vertex);
   return parent;
+}
+
+/// Those that have none of these vertices.
+Components without(const Components& components, std::span<const char> is_marked) {
+  Components rest;
+  for (std::size_t i = 0; i < components.count(); ++i) {
+    const std::span<const Index> component = components.component(i);
+    if (std::ranges::any_of(component, [&](Index vertex) { return is_marked[at(vertex)] != 0; })) continue;
+    rest.vertices.insert(rest.vertices.end(), component.begin(), component.end());
+    rest.starts.push_back(rest.vertices.size());
+  }
+  return rest;
 }
 
 }  // namespace
@@ -76,16 +91,11 @@ std::vector<Index> component_of_vertex(const Components& components) {
 
 Components find_free_components(const Components& components, std::span<ConstraintGroup* const> groups,
                                 std::span<const char> is_pinned) {
+  Components free = without(components, is_pinned);
+  if (free.count() == 0) return free;
   std::vector<char> is_anchored(is_pinned.begin(), is_pinned.end());
   for (ConstraintGroup* group : groups) mark_anchored(*group, is_anchored);
-  Components free;
-  for (std::size_t i = 0; i < components.count(); ++i) {
-    const std::span<const Index> component = components.component(i);
-    if (std::ranges::any_of(component, [&](Index vertex) { return is_anchored[at(vertex)] != 0; })) continue;
-    free.vertices.insert(free.vertices.end(), component.begin(), component.end());
-    free.starts.push_back(free.vertices.size());
-  }
-  return free;
+  return without(free, is_anchored);
 }
 
 std::vector<RigidFreedom> find_freedom(const Components& free, std::span<ConstraintGroup* const> groups) {

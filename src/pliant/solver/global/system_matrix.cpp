@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <unordered_map>
 #include <utility>
 
 #include "pliant/core/error.h"
@@ -26,14 +27,67 @@ void for_each_pair(std::span<const Index> stencil, std::size_t n, Visit&& visit)
 }  // namespace
 
 bool SystemMatrix::set_groups(Index vertex_count, std::span<const ConstraintGroup* const> groups) {
-  const LowerMatrix before = std::exchange(matrix_, {});
+  std::unordered_map<std::uint64_t, UnitMatrix> before;
+  if (matrix_.size() == vertex_count) {
+    for (UnitMatrix& unit : units_) before.try_emplace(unit.revision, std::move(unit));
+  }
+  units_.assign(groups.size(), {});
+  bool has_all_pairs = matrix_.size() == vertex_count;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    if (const auto found = before.find(groups[g]->revision()); found != before.end()) {
+      units_[g] = std::move(found->second);
+      before.erase(found);
+    } else {
+      has_all_pairs = has_all_pairs && has_pairs_of(*groups[g]);
+    }
+  }
+  if (has_all_pairs) {
+    find_units(groups);
+    if (is_all_used()) return false;
+  }
+  const LowerMatrix old = std::exchange(matrix_, {});
+  std::vector<UnitMatrix> units = std::exchange(units_, {});  // none stays where this fails
   find_pattern(vertex_count, groups);
   matrix_.values.assign(matrix_.rows.size(), 0);
-  units_.clear();
+  if (old.size() == vertex_count) move_units(units, old);
+  units_ = std::move(units);
+  find_units(groups);
+  return matrix_.rows != old.rows || matrix_.column_starts != old.column_starts;
+}
+
+/// Those that did not stay.
+void SystemMatrix::find_units(std::span<const ConstraintGroup* const> groups) {
   std::vector<Real> sums(matrix_.rows.size(), 0);
   std::vector<char> touched(matrix_.rows.size(), 0);
-  for (const ConstraintGroup* group : groups) units_.push_back(unit_matrix(*group, sums, touched));
-  return matrix_.rows != before.rows || matrix_.column_starts != before.column_starts;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    if (units_[g].revision != groups[g]->revision()) units_[g] = unit_matrix(*groups[g], sums, touched);
+  }
+}
+
+bool SystemMatrix::has_pairs_of(const ConstraintGroup& group) const {
+  bool has_all = true;
+  for_each_pair(group.stencil(), static_cast<std::size_t>(group.shape().vertices),
+                [&](Index row, Index column, auto...) { has_all = has_all && place(row, column) != none; });
+  return has_all;
+}
+
+/// Whether each entry but the diagonal is one of a group.
+bool SystemMatrix::is_all_used() const {
+  std::vector<char> is_used(matrix_.rows.size(), 0);
+  for (const Index diagonal : std::span(matrix_.column_starts).first(at(matrix_.size()))) is_used[at(diagonal)] = 1;
+  for (const UnitMatrix& unit : units_) {
+    for (const Index where : unit.places) is_used[at(where)] = 1;
+  }
+  return std::ranges::all_of(is_used, [](char used) { return used != 0; });
+}
+
+/// From the pattern before, each of whose entries that a unit matrix has is in this one.
+void SystemMatrix::move_units(std::span<UnitMatrix> units, const LowerMatrix& before) const {
+  std::vector<Index> places(before.rows.size(), none);
+  for_each_entry(before, [&](Index row, Index column, std::size_t e) { places[e] = place(row, column); });
+  for (UnitMatrix& unit : units) {
+    for (Index& where : unit.places) where = places[at(where)];
+  }
 }
 
 void SystemMatrix::find_pattern(Index vertex_count, std::span<const ConstraintGroup* const> groups) {
@@ -67,7 +121,8 @@ void SystemMatrix::find_pattern(Index vertex_count, std::span<const ConstraintGr
 Index SystemMatrix::place(Index row, Index column) const {
   const auto begin = matrix_.rows.begin() + matrix_.column_starts[at(column)];
   const auto end = matrix_.rows.begin() + matrix_.column_starts[at(column) + 1];
-  return static_cast<Index>(std::lower_bound(begin, end, row) - matrix_.rows.begin());
+  const auto found = std::lower_bound(begin, end, row);
+  return found != end && *found == row ? static_cast<Index>(found - matrix_.rows.begin()) : none;
 }
 
 SystemMatrix::UnitMatrix SystemMatrix::unit_matrix(const ConstraintGroup& group, std::vector<Real>& sums,
@@ -78,6 +133,7 @@ SystemMatrix::UnitMatrix SystemMatrix::unit_matrix(const ConstraintGroup& group,
   const std::span<const Real> reduction = group.reduction();
   const std::span<const Real> measure = group.rest_measure();
   UnitMatrix unit;
+  unit.revision = group.revision();
   const auto add = [&](Index where, std::size_t i, std::size_t a, std::size_t b) {
     Real product = 0;
     for (std::size_t row = 0; row < k; ++row) {

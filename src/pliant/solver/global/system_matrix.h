@@ -29,8 +29,8 @@ void for_each_entry(const LowerMatrix& matrix, Visit&& visit) {
 
 class SystemMatrix {
  public:
-  /// Finds the union pattern and the unit matrices. Returns whether the pattern is another than before. Throws
-  /// Error(input) past 2³¹ − 1 entries.
+  /// Finds the union pattern and the unit matrices; those of groups with the same revision as before stay, and so does
+  /// the pattern where it would be the same. Returns whether it is another. Throws Error(input) past 2³¹ − 1 entries.
   bool set_groups(Index vertex_count, std::span<const ConstraintGroup* const> groups);
 
   /// Sums the matrix for these masses [kg], this time step [s] and the groups' stiffnesses.
@@ -47,11 +47,18 @@ class SystemMatrix {
  private:
   /// Entries of L_g: values at places of the union pattern.
   struct UnitMatrix {
+    std::uint64_t revision = 0;  // of the group
     std::vector<Index> places;
     std::vector<Real> values;
   };
+  /// A place is no entry.
+  static constexpr Index none = -1;
 
   void find_pattern(Index vertex_count, std::span<const ConstraintGroup* const> groups);
+  void find_units(std::span<const ConstraintGroup* const> groups);
+  bool has_pairs_of(const ConstraintGroup& group) const;
+  bool is_all_used() const;
+  void move_units(std::span<UnitMatrix> units, const LowerMatrix& before) const;
   UnitMatrix unit_matrix(const ConstraintGroup& group, std::vector<Real>& sums, std::vector<char>& touched) const;
   Index place(Index row, Index column) const;
 

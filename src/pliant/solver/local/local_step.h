@@ -9,10 +9,12 @@
 //
 // So no two threads write to one place, every sum has its fixed order, and the bits are the same for any number of
 // threads. r is minus the gradient of the objective: the true residual, for free.
+#include <memory>
+
 #include "pliant/constraints/constraint_group.h"
 #include "pliant/constraints/kernels/local_kernels.h"
-#include "pliant/constraints/linear_forces.h"
 #include "pliant/core/thread_pool.h"
+#include "pliant/solver/local/group_layout.h"
 #include "pliant/solver/system_info.h"
 
 namespace pliant {
@@ -32,7 +34,8 @@ struct LocalResult {
 
 class LocalStep {
  public:
-  /// Lays out slots and gathers for these groups. They must outlive their use here.
+  /// Lays out slots and gathers for these groups; what was laid out of a group of the same revision stays. They must
+  /// outlive their use here.
   void set_groups(Index vertex_count, std::span<ConstraintGroup* const> groups);
 
   /// Lets the next run find anew how large the terms of linear forces are.
@@ -60,37 +63,30 @@ class LocalStep {
 
  private:
   static constexpr Index mixed = -1;
-  enum class Coefficients { ones, signs, any };  // 1; 1 and −1, which an entry says by itself
   struct Chunk {
     std::size_t group;
-    Index begin;  // constraints of the group, or rows of its linear forces
-    Index end;
-    bool is_linear = false;
-    bool is_rounding = false;  // all linear forces of its group in the last run were
-    std::size_t first_partial = 0;
-    std::size_t last_partial = 0;
-    std::size_t first_entry = 0;
-    std::size_t first_coefficient = 0;
-    Index component = mixed;  // of all its constraints
-    Coefficients coefficients = Coefficients::any;
+    const GroupLayout* layout;
+    GroupLayout::Chunk part;        // of the group
+    std::size_t first_partial = 0;  // of all groups
+    bool is_rounding = false;       // all linear forces of its group in the last run were
+    Index component = mixed;        // of all its constraints
   };
-  class Layout;
 
-  Index component_of(const Chunk& chunk, Index item) const;
-  void lay_out_chunks(Index vertex_count);
-  void lay_out_linear(std::size_t group, LinearForces::Rows rows);
+  template <class Visit>
+  void for_each_run(const Chunk& chunk, Visit&& visit) const;
+  void lay_out_groups(Index vertex_count);
+  void lay_out_chunks();
   Real find_rounding(const Positions& q) const;
   void still_linear();
-  void lay_out_vertices(Index vertex_count, std::span<const Index> partial_vertices);
+  void lay_out_vertices(Index vertex_count);
   Real project(Chunk& chunk, const Positions& q, std::vector<Real>& slots);
-  void collect(const Chunk& chunk, const Real* slots);
 
   std::vector<ConstraintGroup*> groups_;
   std::size_t slot_count_ = 0;
   Real chunks_of_vertex_ = 0;
+  std::vector<std::unique_ptr<const GroupLayout>> layouts_;  // of each group
   std::vector<Chunk> chunks_;
   std::vector<Real> chunk_energies_;
-  LinearForces linear_;
   bool is_rounding_known_ = false;
   Real rounding_ = 0;
   std::span<const Index> component_of_vertex_;
@@ -98,9 +94,6 @@ class LocalStep {
   std::vector<std::vector<Real>> slots_;   // of the chunk at hand of each thread
 
   std::vector<Real> partials_;               // count × 3 chunk after chunk, and read_after_last more
-  std::vector<std::uint32_t> partial_ends_;  // entries of the partial, counted from the first of its chunk
-  std::vector<std::uint16_t> entries_;       // twice the slot of the chunk, plus one where the coefficient is −1
-  std::vector<Real> coefficients_;           // of the entries of chunks that have any
   std::vector<std::size_t> vertex_offsets_;  // vertex i has the partials [offsets[i], offsets[i + 1]) of
   std::vector<std::uint32_t> vertex_partials_;
 };

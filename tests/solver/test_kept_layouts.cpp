@@ -1,0 +1,141 @@
+// What was laid out of groups that stay is kept while others come, go and change: then the system is that of the same
+// groups made anew, to the last bit.
+#include <memory>
+
+#include <doctest/doctest.h>
+
+#include "../core/random.h"
+#include "pliant/constraints/build.h"
+#include "pliant/constraints/builtin.h"
+#include "pliant/mesh/join.h"
+#include "pliant/mesh/shapes.h"
+#include "pliant/solver/system.h"
+
+namespace test_kept_layouts {
+
+using namespace pliant;
+using namespace pliant_tests;
+
+namespace {
+
+using Groups = std::vector<std::unique_ptr<ConstraintGroup>>;
+
+/// Two sheets side by side and what may be added to them: linear forces, pairs of vertices that others have as well,
+/// and such as connect the sheets.
+struct Sheets {
+  Mesh mesh;
+  Positions q;
+  Random random;
+
+  explicit Sheets(Index side) {
+    const Mesh sheet = grid({.columns = side, .rows = side});
+    mesh = join(std::vector<MeshPart>{{"", sheet}, {"", sheet}});
+    q = mesh.vertices;
+    for (Index i = 0; i < q.rows(); ++i) q.row(i) += random.vector(0.01).transpose();
+  }
+  Index count() const { return mesh.vertex_count(); }
+  BodyView view() const { return {mesh, mesh.vertices, 0, "sheets"}; }
+
+  ConstraintSet make(Index kind) {
+    switch (kind) {
+      case 0:
+        return build(view(), EdgeSpring{.stiffness = random.uniform(10, 100)});
+      case 1:
+        return build(view(), TriangleStrain{.stiffness = random.uniform(10, 100)});
+      case 2:
+        return build(view(), HingeBending{.stiffness = random.uniform(0.1, 1)});
+      case 3:
+        return build(view(), Position{.on = {random.index(count() / 2), count() - 1}});
+      case 4:
+        return build(view(), Position{.on = {random.index(count())}, .hold = Hold::soft, .stiffness = 50});
+      default:
+        return build(view(), Line{.on = {random.index(count() / 2), count() / 2 + random.index(count() / 2)},
+                                  .direction = Vec3(1, 0, 0)});
+    }
+  }
+};
+
+std::vector<ConstraintGroup*> pointers(const Groups& groups) {
+  std::vector<ConstraintGroup*> list;
+  for (const auto& group : groups) list.push_back(group.get());
+  return list;
+}
+
+/// What a system says of an iterate.
+struct Answer {
+  Real elastic = 0;
+  Positions forces, all_forces, move;
+  std::vector<Real> energies;
+  std::int64_t entries = 0;
+  bool operator==(const Answer&) const = default;
+};
+
+Answer ask(System& system, const Groups& groups, const Sheets& sheets) {
+  ThreadPool threads(1);
+  SetUpTimes times;
+  const std::vector<Real> masses(at(sheets.count()), 0.01);
+  system.set_groups(sheets.count(), pointers(groups));
+  if (system.needs_layout()) system.lay_out();
+  system.factorize(masses, {}, 0.01, Precision::double_, threads, times);
+  Positions q = sheets.q, s = sheets.mesh.vertices, r(q.rows(), 3), x(q.rows(), 3);
+  system.order().gather(sheets.q, q);
+  system.order().gather(sheets.mesh.vertices, s);
+  Answer answer;
+  const LocalResult local = system.local_step(q, s, r, threads);
+  answer.elastic = local.elastic;
+  answer.forces = r;
+  system.solve(r, local.residual, x, threads);
+  answer.move = x;
+  answer.energies.resize(system.components().count());
+  system.elastic_step(q, answer.all_forces = q, answer.energies, threads);
+  answer.entries = system.describe(masses).matrix_entries;
+  return answer;
+}
+
+std::unique_ptr<System> make_system() {
+  auto system = std::make_unique<System>();
+  system->set_factorization(make_factorization(Backend::eigen));
+  return system;
+}
+
+void check_edits(Sheets& sheets, int edits) {
+  const auto system = make_system();
+  Groups groups;
+  for (const Index kind : {0, 1, 2, 3}) {
+    for (auto& batch : sheets.make(kind).batches) groups.push_back(std::move(batch));
+  }
+  for (int edit = 0; edit < edits; ++edit) {
+    CAPTURE(edit);
+    CHECK(ask(*system, groups, sheets) == ask(*make_system(), groups, sheets));
+    const auto place = [&] { return groups.begin() + sheets.random.index(static_cast<Index>(groups.size())); };
+    Groups removed;  // lives until the system knows of it no longer
+    if (groups.size() > 2 && sheets.random.index(2) == 0) {
+      const auto which = place();
+      removed.push_back(std::move(*which));
+      groups.erase(which);
+    }
+    if (sheets.random.index(4) != 0) {
+      for (auto& batch : sheets.make(sheets.random.index(6)).batches) groups.insert(place(), std::move(batch));
+    }
+    if (sheets.random.index(4) == 0) {
+      const auto which = place();
+      const std::vector<Real> factors(at((*which)->shape().count), sheets.random.uniform(0.5, 2));
+      (*which)->scale_measures(factors);
+    }
+    system->set_groups(sheets.count(), pointers(groups));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("groups that come, go and change leave the system as if all were made anew") {
+  Sheets sheets(6);
+  check_edits(sheets, 80);
+}
+
+TEST_CASE("so do such as change the size of chunks") {
+  Sheets sheets(60);
+  check_edits(sheets, 5);
+}
+
+}  // namespace test_kept_layouts
