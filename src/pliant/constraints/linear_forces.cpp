@@ -69,14 +69,6 @@ bool is_rounding(const Vec3& force, Real size, const Vec3& x, const Vec3& y) {
 
 }  // namespace
 
-void LinearForces::clear() {
-  vertices_.clear();
-  offsets_.assign(1, 0);
-  columns_.clear();
-  values_.clear();
-  sizes_.clear();
-}
-
 LinearForces::Rows LinearForces::add(const ConstraintGroup& group, Index vertex_count) {
   const std::size_t first_row = vertices_.size(), first_entry = columns_.size();
   const std::size_t most = most_entries * group.stencil().size();

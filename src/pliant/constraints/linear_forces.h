@@ -21,7 +21,6 @@ class LinearForces {
     bool are_worth_it = false;  ///< they take less than its constraints, one by one
   };
 
-  void clear();
   /// Adds rows for a group, in order of its vertices, unless they are not worth it.
   Rows add(const ConstraintGroup& group, Index vertex_count);
   /// The vertex of each row.

@@ -247,6 +247,17 @@ void ContactSolver::add(WorkingState& work, LocalResult& local, ThreadPool& thre
   finish(work, local, contact_.add(work.residual, threads));
 }
 
+void ContactSolver::add_colliders(WorkingState& work, LocalResult& local, ThreadPool& threads) {
+  const AddedTime timed(seconds_);
+  of_colliders_ = contact_.add(work.residual, threads);
+  local.contact = of_colliders_.energy;
+}
+
+void ContactSolver::add_pairs(WorkingState& work, LocalResult& local) {
+  const AddedTime timed(seconds_);
+  finish(work, local, of_colliders_);
+}
+
 bool ContactSolver::is_refresh_due(Index iteration, Index iterations, bool has_converged) const {
   if (!is_active() || refreshes_ == count_of(refreshed_after)) return false;
   const Real share = refreshed_after[at(refreshes_)];
@@ -284,14 +295,23 @@ void ContactSolver::refresh_loads(WorkingState& work, LocalResult& local, Thread
 }
 
 HeldBack ContactSolver::hold_back(const Positions& from, Positions& q, ThreadPool& threads) {
-  const AddedTime timed(seconds_);
-  HeldBack held = contact_.hold_back(q, threads);
-  if (!has_pairs()) return held;
-  const HeldBack by_pairs = pairs_.hold_back(from, q, threads);
-  if (by_pairs.has_moved) contact_.find_forces(q, threads);
+  HeldBack held = hold_back_at_colliders(q, threads);
+  const HeldBack by_pairs = hold_back_at_surfaces(from, q, threads);
   held.has_moved |= by_pairs.has_moved;
-  held.is_shortened = by_pairs.has_moved;
   held.has_new_potential |= by_pairs.has_new_potential;
+  return held;
+}
+
+HeldBack ContactSolver::hold_back_at_colliders(Positions& q, ThreadPool& threads) {
+  const AddedTime timed(seconds_);
+  return contact_.hold_back(q, threads);
+}
+
+HeldBack ContactSolver::hold_back_at_surfaces(const Positions& from, Positions& q, ThreadPool& threads) {
+  if (!has_pairs()) return {};
+  const AddedTime timed(seconds_);
+  const HeldBack held = pairs_.hold_back(from, q, threads);
+  if (held.has_moved) contact_.find_forces(q, threads);
   pairs_.find_forces(q, threads);
   return held;
 }

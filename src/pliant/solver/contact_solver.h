@@ -54,6 +54,9 @@ class ContactSolver {
   void find_forces(const Positions& q, ThreadPool& threads);
   /// Adds the forces that were found last to the residual, and their energy to what the local step found.
   void add(WorkingState& work, LocalResult& local, ThreadPool& threads);
+  /// The same in two parts; hold_back_at_surfaces() may come in between where it moves nothing.
+  void add_colliders(WorkingState& work, LocalResult& local, ThreadPool& threads);
+  void add_pairs(WorkingState& work, LocalResult& local);
   /// Whether it is time to refresh the loads of friction: at three and eight tenths of the iterations, or once they
   /// have converged before.
   bool is_refresh_due(Index iteration, Index iterations, bool has_converged) const;
@@ -67,6 +70,9 @@ class ContactSolver {
   void subtract(Positions& r, ThreadPool& threads);
   /// Holds q back on its way from `from`, and finds the forces where it then is.
   HeldBack hold_back(const Positions& from, Positions& q, ThreadPool& threads);
+  /// The same in two parts: by colliders, by surfaces.
+  HeldBack hold_back_at_colliders(Positions& q, ThreadPool& threads);
+  HeldBack hold_back_at_surfaces(const Positions& from, Positions& q, ThreadPool& threads);
   /// pᵀ C p [N m] with the curvature C of where the forces were found last; of the contacts alone that are far stiffer
   /// than at first.
   Real curvature(const Positions& p) const;
@@ -122,6 +128,7 @@ class ContactSolver {
   std::vector<char> has_load_;             // of each vertex, whether the substep began with loads
   std::vector<char> is_loaded_component_;  // scratch
   Positions held_back_;                    // scratch
+  ContactSums of_colliders_;               // of add_colliders()
   Real pair_energy_ = 0;                   // where forces were added last [J]
   Index refreshes_ = 0;                    // in this substep
   double seconds_ = 0;                     // in this step

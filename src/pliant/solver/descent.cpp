@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "pliant/core/stopwatch.h"
+
 namespace pliant {
 namespace {
 
@@ -58,13 +60,20 @@ void Descent::begin(const StepContext& context) {
   is_accelerated_ = chosen_ == Acceleration::automatic ? checks_plain_moves_ : chosen_ != Acceleration::none;
   has_moved_ = false;
   is_first_ = true;
+  judged_.reset();
   steep_energy_ = 0;
   have_pairs_pushed_ = false;
   balance_.begin();
   if (is_needed()) accelerator().begin(context.system.vertex_count());
 }
 
-LocalResult Descent::evaluate(const StepContext& context, WorkingState& work) const {
+/// What the local step finds, without pairs of surfaces where the last move has been refused without them.
+LocalResult Descent::evaluate(const StepContext& context, WorkingState& work) {
+  if (judged_) {
+    auto [local, is_refused] = *std::exchange(judged_, std::nullopt);
+    if (!is_refused) context.contact.add_pairs(work, local);
+    return local;
+  }
   LocalResult local = context.system.local_step(work.positions, work.prediction, work.residual, context.threads);
   if (context.contact.is_active()) context.contact.add(work, local, context.threads);
   return local;
@@ -122,7 +131,7 @@ Real Descent::next_cut(const LocalResult& local) const {
 /// A prediction that leads far into what resists it, as after an impact or from a tangle, is no place to begin: then
 /// the substep does so where the one before has ended. Far is where more elastic energy is to be had back than the way
 /// there costs, many times.
-LocalResult Descent::begin_lower(const LocalResult& local, const StepContext& context, WorkingState& work) const {
+LocalResult Descent::begin_lower(const LocalResult& local, const StepContext& context, WorkingState& work) {
   const std::span<const Real> weights = context.system.inertia_weights();  // 0 of pinned vertices
   Real inertia = 0;
   for (Index i = 0; i < context.system.vertex_count(); ++i) {
@@ -153,9 +162,19 @@ void Descent::move_plainly(const StepContext& context, WorkingState& work) {
 /// one, which does not go far.
 void Descent::hold_back(const StepContext& context, WorkingState& work) {
   was_cut_ = false;
+  judged_.reset();
   if (!context.contact.is_active()) return;
-  const HeldBack held = context.contact.hold_back(accelerator().positions_before(), work.positions, context.threads);
-  was_cut_ = held.is_shortened;
+  HeldBack held = context.contact.hold_back_at_colliders(work.positions, context.threads);
+  if (!held.has_new_potential && !judge_without_pairs(context, work)) {
+    if (held.has_moved) accelerator().forget();
+    return;
+  }
+  const HeldBack by_surfaces =
+      context.contact.hold_back_at_surfaces(accelerator().positions_before(), work.positions, context.threads);
+  was_cut_ = by_surfaces.has_moved;
+  if (was_cut_) judged_.reset();
+  held.has_moved |= by_surfaces.has_moved;
+  held.has_new_potential |= by_surfaces.has_new_potential;
   if (held.has_moved || held.has_new_potential) accelerator().forget();
   if (!held.has_new_potential) return;
   if (accelerator().is_plain()) {
@@ -165,7 +184,22 @@ void Descent::hold_back(const StepContext& context, WorkingState& work) {
   }
 }
 
+/// Refuses a move with memory that has raised the objective without pairs of surfaces, whose energy only adds to it:
+/// then they need not be found where it leads. Of a move that is refused its best share is found without them as well,
+/// so it is too long where they would push; what is left of it is judged again.
+bool Descent::judge_without_pairs(const StepContext& context, WorkingState& work) {
+  if (!context.contact.has_pairs() || !has_moved_ || accelerator().is_plain()) return true;
+  const Stopwatch watch;
+  Judged judged{context.system.local_step(work.positions, work.prediction, work.residual, context.threads)};
+  context.contact.add_colliders(work, judged.local, context.threads);
+  judged.is_refused = accelerator().has_risen(judged.local);
+  judged_ = judged;
+  seconds_judging_ += watch.seconds();
+  return !judged.is_refused;
+}
+
 void Descent::move(const LocalResult& local, const StepContext& context, WorkingState& work, StepReport& report) {
+  seconds_judging_ = 0;
   solve(local, context, work, report);
   if (!is_accelerated_ || has_left_steep_place(local)) accelerator().forget();
   accelerator().prepare(local, work.residual, work.solution, context.threads);

@@ -160,7 +160,9 @@ void Solver::global_step(const State& state, const LocalResult& local, StepRepor
   }
   ++report.iterations;
   const double seconds = watch.seconds();
-  report.seconds_global += seconds;
+  const double seconds_local = descent_.is_needed() ? descent_.seconds_judging() : 0;
+  report.seconds_local += seconds_local;
+  report.seconds_global += seconds - seconds_local;
   threads_.end_iteration(local.seconds + seconds);
 }
 

@@ -130,6 +130,8 @@ bool System::has_stamped_revisions() const {
 }
 
 void System::lay_out() {
+  is_laid_out_ = false;  // where this fails
+  factor_step_ = 0;
   added_diagonal_.clear();
   layout_groups_ = simulation_groups_;  // one that has grown may stay out of the factor no longer
   passing_groups_ = PassingGroups::take_out_of(layout_groups_, vertex_count_);
@@ -153,7 +155,6 @@ void System::lay_out() {
   local_step_.set_components(component_of_vertex_);
   take_passing();
   is_laid_out_ = true;
-  factor_step_ = 0;
 }
 
 /// That of the simulation, unless its constraints are scattered and an order of our own is much better.

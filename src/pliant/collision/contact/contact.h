@@ -50,7 +50,6 @@ struct ContactSums {
 /// What holding back has done.
 struct HeldBack {
   bool has_moved = false;          ///< a vertex
-  bool is_shortened = false;       ///< where surfaces would meet
   bool has_new_potential = false;  ///< a vertex meets a half-space from now on
 };
 

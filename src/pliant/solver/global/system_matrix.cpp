@@ -28,39 +28,41 @@ void for_each_pair(std::span<const Index> stencil, std::size_t n, Visit&& visit)
 
 bool SystemMatrix::set_groups(Index vertex_count, std::span<const ConstraintGroup* const> groups) {
   std::unordered_map<std::uint64_t, UnitMatrix> before;
-  if (matrix_.size() == vertex_count) {
-    for (UnitMatrix& unit : units_) before.try_emplace(unit.revision, std::move(unit));
+  std::vector<UnitMatrix> units = std::exchange(units_, {});  // none stays where this fails
+  const bool may_keep = matrix_.size() == vertex_count;
+  for (UnitMatrix& unit : units) {
+    if (may_keep) before.try_emplace(unit.revision, std::move(unit));
   }
-  units_.assign(groups.size(), {});
-  bool has_all_pairs = matrix_.size() == vertex_count;
+  units.assign(groups.size(), {});
+  bool has_all_pairs = may_keep;
   for (std::size_t g = 0; g < groups.size(); ++g) {
     if (const auto found = before.find(groups[g]->revision()); found != before.end()) {
-      units_[g] = std::move(found->second);
+      units[g] = std::move(found->second);
       before.erase(found);
     } else {
       has_all_pairs = has_all_pairs && has_pairs_of(*groups[g]);
     }
   }
   if (has_all_pairs) {
-    find_units(groups);
-    if (is_all_used()) return false;
+    find_units(groups, units);
+    if (is_all_used(units)) {
+      units_ = std::move(units);
+      return false;
+    }
   }
-  const LowerMatrix old = std::exchange(matrix_, {});
-  std::vector<UnitMatrix> units = std::exchange(units_, {});  // none stays where this fails
-  find_pattern(vertex_count, groups);
-  matrix_.values.assign(matrix_.rows.size(), 0);
-  if (old.size() == vertex_count) move_units(units, old);
+  const LowerMatrix old = std::exchange(matrix_, find_pattern(vertex_count, groups));
+  if (may_keep) move_units(units, old);
+  find_units(groups, units);
   units_ = std::move(units);
-  find_units(groups);
   return matrix_.rows != old.rows || matrix_.column_starts != old.column_starts;
 }
 
 /// Those that did not stay.
-void SystemMatrix::find_units(std::span<const ConstraintGroup* const> groups) {
+void SystemMatrix::find_units(std::span<const ConstraintGroup* const> groups, std::span<UnitMatrix> units) const {
   std::vector<Real> sums(matrix_.rows.size(), 0);
   std::vector<char> touched(matrix_.rows.size(), 0);
   for (std::size_t g = 0; g < groups.size(); ++g) {
-    if (units_[g].revision != groups[g]->revision()) units_[g] = unit_matrix(*groups[g], sums, touched);
+    if (units[g].revision != groups[g]->revision()) units[g] = unit_matrix(*groups[g], sums, touched);
   }
 }
 
@@ -72,10 +74,10 @@ bool SystemMatrix::has_pairs_of(const ConstraintGroup& group) const {
 }
 
 /// Whether each entry but the diagonal is one of a group.
-bool SystemMatrix::is_all_used() const {
+bool SystemMatrix::is_all_used(std::span<const UnitMatrix> units) const {
   std::vector<char> is_used(matrix_.rows.size(), 0);
   for (const Index diagonal : std::span(matrix_.column_starts).first(at(matrix_.size()))) is_used[at(diagonal)] = 1;
-  for (const UnitMatrix& unit : units_) {
+  for (const UnitMatrix& unit : units) {
     for (const Index where : unit.places) is_used[at(where)] = 1;
   }
   return std::ranges::all_of(is_used, [](char used) { return used != 0; });
@@ -90,7 +92,8 @@ void SystemMatrix::move_units(std::span<UnitMatrix> units, const LowerMatrix& be
   }
 }
 
-void SystemMatrix::find_pattern(Index vertex_count, std::span<const ConstraintGroup* const> groups) {
+LowerMatrix SystemMatrix::find_pattern(Index vertex_count, std::span<const ConstraintGroup* const> groups) {
+  LowerMatrix matrix;
   // All pairs into buckets by column, then each bucket sorted and rid of what is double.
   std::vector<std::size_t> bucket_ends(at(vertex_count) + 1, 0);
   const auto for_all_pairs = [&](auto&& visit) {
@@ -104,18 +107,20 @@ void SystemMatrix::find_pattern(Index vertex_count, std::span<const ConstraintGr
   std::vector<std::size_t> next(bucket_ends.begin(), bucket_ends.end() - 1);
   for_all_pairs([&](Index row, Index column, auto...) { entries[next[at(column)]++] = row; });
 
-  matrix_.column_starts.reserve(at(vertex_count) + 1);
+  matrix.column_starts.reserve(at(vertex_count) + 1);
   for (Index column = 0; column < vertex_count; ++column) {
     const auto begin = entries.begin() + static_cast<std::ptrdiff_t>(bucket_ends[at(column)]);
     const auto end = entries.begin() + static_cast<std::ptrdiff_t>(bucket_ends[at(column) + 1]);
     std::sort(begin, end);
-    matrix_.rows.push_back(column);
-    matrix_.rows.insert(matrix_.rows.end(), begin, std::unique(begin, end));
-    if (matrix_.rows.size() > at(std::numeric_limits<Index>::max())) {
+    matrix.rows.push_back(column);
+    matrix.rows.insert(matrix.rows.end(), begin, std::unique(begin, end));
+    if (matrix.rows.size() > at(std::numeric_limits<Index>::max())) {
       fail_input("the system matrix has more than 2^31 - 1 entries; use a coarser mesh");
     }
-    matrix_.column_starts.push_back(static_cast<Index>(matrix_.rows.size()));
+    matrix.column_starts.push_back(static_cast<Index>(matrix.rows.size()));
   }
+  matrix.values.assign(matrix.rows.size(), 0);
+  return matrix;
 }
 
 Index SystemMatrix::place(Index row, Index column) const {

@@ -30,7 +30,8 @@ void for_each_entry(const LowerMatrix& matrix, Visit&& visit) {
 class SystemMatrix {
  public:
   /// Finds the union pattern and the unit matrices; those of groups with the same revision as before stay, and so does
-  /// the pattern where it would be the same. Returns whether it is another. Throws Error(input) past 2³¹ − 1 entries.
+  /// the pattern where it would be the same. After an error nothing does. Returns whether it is another. Throws
+  /// Error(input) past 2³¹ − 1 entries.
   bool set_groups(Index vertex_count, std::span<const ConstraintGroup* const> groups);
 
   /// Sums the matrix for these masses [kg], this time step [s] and the groups' stiffnesses.
@@ -54,10 +55,10 @@ class SystemMatrix {
   /// A place is no entry.
   static constexpr Index none = -1;
 
-  void find_pattern(Index vertex_count, std::span<const ConstraintGroup* const> groups);
-  void find_units(std::span<const ConstraintGroup* const> groups);
+  static LowerMatrix find_pattern(Index vertex_count, std::span<const ConstraintGroup* const> groups);
+  void find_units(std::span<const ConstraintGroup* const> groups, std::span<UnitMatrix> units) const;
   bool has_pairs_of(const ConstraintGroup& group) const;
-  bool is_all_used() const;
+  bool is_all_used(std::span<const UnitMatrix> units) const;
   void move_units(std::span<UnitMatrix> units, const LowerMatrix& before) const;
   UnitMatrix unit_matrix(const ConstraintGroup& group, std::vector<Real>& sums, std::vector<char>& touched) const;
   Index place(Index row, Index column) const;

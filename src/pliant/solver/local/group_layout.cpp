@@ -41,6 +41,7 @@ GroupLayout::GroupLayout(const ConstraintGroup& group, std::size_t chunk_slots, 
     lay_out_rows();
     return;
   }
+  linear_ = {};
   const Index count = group.shape().count;
   for (Index begin = 0; begin < count; begin += chunk_size_) {
     chunks_.push_back({.begin = begin, .end = std::min(count, begin + chunk_size_)});
@@ -51,7 +52,7 @@ GroupLayout::GroupLayout(const ConstraintGroup& group, std::size_t chunk_slots, 
 }
 
 bool GroupLayout::is_of(const ConstraintGroup& group, std::size_t chunk_slots) const {
-  return group.revision() == revision_ && constraints_in_chunk(group, chunk_slots) == chunk_size_;
+  return group.revision() == revision_ && (is_linear_ || constraints_in_chunk(group, chunk_slots) == chunk_size_);
 }
 
 Index GroupLayout::constraints_in_chunk(const ConstraintGroup& group, std::size_t chunk_slots) {

@@ -12,7 +12,7 @@ std::size_t slots_of(const ConstraintGroup& group);
 
 class GroupLayout {
  public:
-  /// Numbers of vertices, zero in between, which all groups of a simulation may share.
+  /// Two numbers for each vertex, all zero between one layout and the next.
   struct Scratch {
     explicit Scratch(Index vertex_count) : entry_counts(at(vertex_count), 0), is_met(at(vertex_count), 0) {}
     std::vector<std::uint32_t> entry_counts;

@@ -68,8 +68,7 @@ void LocalStep::lay_out_groups(Index vertex_count) {
   }
   const std::size_t wanted = std::clamp(slot_count_ / chunks_wanted, fewest_chunk_slots, most_chunk_slots);
   std::unordered_map<std::uint64_t, std::unique_ptr<const GroupLayout>> before;
-  for (std::unique_ptr<const GroupLayout>& layout : layouts_) before.emplace(layout->revision(), std::move(layout));
-  layouts_.clear();
+  for (auto& layout : std::exchange(layouts_, {})) before.emplace(layout->revision(), std::move(layout));
   GroupLayout::Scratch scratch(vertex_count);
   for (const ConstraintGroup* group : groups_) {
     const auto found = before.find(group->revision());

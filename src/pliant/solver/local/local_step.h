@@ -34,8 +34,8 @@ struct LocalResult {
 
 class LocalStep {
  public:
-  /// Lays out slots and gathers for these groups; what was laid out of a group of the same revision stays. They must
-  /// outlive their use here.
+  /// Lays out slots and gathers for these groups; what was laid out of a group of the same revision stays,
+  /// which copies in an order of our own never have. They must outlive their use here.
   void set_groups(Index vertex_count, std::span<ConstraintGroup* const> groups);
 
   /// Lets the next run find anew how large the terms of linear forces are.
