@@ -3,6 +3,7 @@
 #include <memory>
 #include <numeric>
 #include <set>
+#include <utility>
 
 #include <doctest/doctest.h>
 
@@ -113,8 +114,8 @@ std::unique_ptr<System> make_system() {
   return system;
 }
 
-/// Returns how many sizes of chunks there were.
-std::size_t check_edits(Sheets& sheets, int edits) {
+/// Returns how many sizes of chunks there were, and whether the solver's order was another at the end.
+std::pair<std::size_t, bool> check_edits(Sheets& sheets, int edits) {
   const auto system = make_system();
   Groups groups;
   std::set<std::size_t> slots_of_chunks;
@@ -143,8 +144,31 @@ std::size_t check_edits(Sheets& sheets, int edits) {
     }
     system->set_groups(sheets.count(), pointers(groups));
   }
-  return slots_of_chunks.size();
+  return {slots_of_chunks.size(), system->order().is_reordered()};
 }
+
+/// Springs that tell how often their coefficients were asked for.
+class Watched final : public ConstraintGroup {
+ public:
+  explicit Watched(std::unique_ptr<ConstraintGroup> springs) : springs_(std::move(springs)) {}
+  std::string_view type() const override { return springs_->type(); }
+  GroupShape shape() const override { return springs_->shape(); }
+  std::span<const Index> stencil() const override { return springs_->stencil(); }
+  std::span<const Real> reduction() const override {
+    ++reads;
+    return springs_->reduction();
+  }
+  std::span<const Real> rest_measure() const override { return springs_->rest_measure(); }
+  Real project(const Positions& q, std::span<Real> out, Index begin, Index end) const override {
+    return springs_->project(q, out, begin, end);
+  }
+  using ConstraintGroup::changed;
+
+  mutable int reads = 0;
+
+ private:
+  std::unique_ptr<ConstraintGroup> springs_;
+};
 
 }  // namespace
 
@@ -155,12 +179,35 @@ TEST_CASE("groups that come, go and change leave the system as if all were made 
 
 TEST_CASE("so do such as change the size of chunks") {
   Sheets sheets(60);
-  CHECK(check_edits(sheets, 6) > 2);
+  CHECK(check_edits(sheets, 6).first > 2);
 }
 
 TEST_CASE("so do those of a mesh in random order, which the solver puts into another") {
   Sheets sheets(40, true);
-  check_edits(sheets, 6);
+  CHECK(check_edits(sheets, 6).second);
+}
+
+TEST_CASE("what stays is not looked at again, what has changed is") {
+  Sheets sheets(10);
+  Watched springs(std::move(sheets.make(0).batches.front()));
+  const auto skin = sheets.make(1), pins = sheets.make(3);
+  ConstraintGroup* const first = skin.batches.front().get();
+  ConstraintGroup* const second = pins.batches.front().get();
+  LocalStep step;
+  SystemMatrix matrix;
+  const auto reads = [&](const std::vector<ConstraintGroup*>& groups) {
+    springs.reads = 0;
+    step.set_groups(sheets.count(), groups);
+    const int of_step = std::exchange(springs.reads, 0);
+    matrix.set_groups(sheets.count(), groups);
+    return std::pair(of_step > 0, springs.reads > 0);
+  };
+  CHECK(reads({&springs, first}) == std::pair(true, true));
+  CHECK(reads({&springs, first, second}) == std::pair(false, false));
+  CHECK(reads({second, &springs}) == std::pair(false, false));
+  CHECK(reads({&springs}) == std::pair(false, false));
+  springs.changed();
+  CHECK(reads({&springs, first}) == std::pair(true, true));
 }
 
 TEST_CASE("nothing stays where there are more vertices, or two groups are copies") {

@@ -25,7 +25,7 @@ class Descent {
   void forget() { accelerator().forget(); }
   /// q ← q + α p, not into a collider.
   void move(const LocalResult& local, const StepContext& context, WorkingState& work, StepReport& report);
-  /// Of the last move(): of it, what local steps took [s].
+  /// Of the time of the last move(), what its local steps took [s].
   double seconds_judging() const { return seconds_judging_; }
   /// Judges the last move, once it is known to be the last, and finds the residual where it led.
   void check_last_move(const StepContext& context, WorkingState& work, StepReport& report);

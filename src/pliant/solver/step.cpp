@@ -153,14 +153,15 @@ LocalResult Solver::local_step(const State& state, Index iteration, StepReport& 
 
 void Solver::global_step(const State& state, const LocalResult& local, StepReport& report) {
   const Stopwatch watch;
+  double seconds_local = 0;
   if (descent_.is_needed()) {
     descent_.move(local, context(state), work_, report);
+    seconds_local = descent_.seconds_judging();
   } else {
     report.solves += system_.global_step(work_.residual, local.residual, work_.positions, threads_.pool());
   }
   ++report.iterations;
   const double seconds = watch.seconds();
-  const double seconds_local = descent_.is_needed() ? descent_.seconds_judging() : 0;
   report.seconds_local += seconds_local;
   report.seconds_global += seconds - seconds_local;
   threads_.end_iteration(local.seconds + seconds);
