@@ -83,11 +83,14 @@ class Bench(unittest.TestCase):
                     self.assertEqual(len(known), sum(error > 2 * case["uncertainty"] for error in errors))
                     self.assertIsNone(case["last_errors"][name])
                     self.check_seconds(levels[0]["seconds"])
-            usual = next(level for level in case["methods"]["lbfgs"] if level["error"] == case["usual_error"])
-            self.assertLessEqual(usual["iterations"], 20)
+            if case["usual_error"] > 2 * case["uncertainty"]:
+                usual = next(level for level in case["methods"]["lbfgs"] if level["error"] == case["usual_error"])
+                self.assertLessEqual(usual["iterations"], 20)
             at_four_digits = errors.index(1e-4)
             fewest = [case["methods"][name][at_four_digits]["iterations"] for name in ("lbfgs", "plain", "xpbd rows")]
             self.assertLess(fewest[0], min(fewest[1:]))
+        swinging = result["time_to_error"][0]
+        self.assertGreater(swinging["usual_error"], 2 * swinging["uncertainty"])  # that of the bar may be rounding
         self.assertIn("\nswinging: a cloth of W5", done.stdout)
         self.assertIn(", usual ", done.stdout)
         self.assertRegex(done.stdout, r"\n  xpbd  +- not reached  +- not reached  +- not reached  +- not reached  [0-9.e-]+ left")

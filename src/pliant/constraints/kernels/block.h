@@ -1,14 +1,14 @@
 #pragma once
 // What the kernels share: how a vector of constraints is read, and what becomes of its results. Compiled as lanes.h
 // says.
-#include "pliant/constraints/kernels/lanes.h"
+#include "pliant/constraints/kernels/lane_points.h"
 #include "pliant/constraints/kernels/local_kernels.h"
 
 namespace pliant {
 namespace {
 
 template <int width>
-struct Block : LaneMath<width> {
+struct Block : LanePoints<width> {
   using Math = LaneMath<width>;
   using typename Math::Mask;
   using typename Math::Number;
@@ -40,7 +40,7 @@ struct Block : LaneMath<width> {
   static void difference(const LocalBlock& block, std::size_t vertices, std::size_t first, std::size_t j,
                          Number (&e)[3]) {
     const std::int32_t* stencil = block.stencil + vertices * first;
-    Math::subtract(
+    LanePoints<width>::subtract(
         [&](std::size_t lane, const double*& from, const double*& to) {
           const std::int32_t* corner = stencil + vertices * lane;
           from = block.positions + 3 * static_cast<std::ptrdiff_t>(corner[0]);

@@ -1,8 +1,8 @@
 #pragma once
 // What each vertex gets from the slots of a chunk, in the order of its entries, and then from its chunks. Compiled as
 // lanes.h says. Nothing is fused, so the bits are the same on all processors.
-#include "pliant/constraints/kernels/lanes.h"
 #include "pliant/constraints/kernels/local_kernels.h"
+#include "pliant/core/lanes.h"
 
 namespace pliant {
 namespace {

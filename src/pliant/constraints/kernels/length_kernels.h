@@ -30,7 +30,7 @@ struct LengthKernels : Block<width> {
   }
   static void pull(const LocalBlock& block, std::size_t i, Number (&z)[3], Number factor) {
     for (Number& number : z) number *= factor;
-    Math::store(z, block.out + 3 * i * width);
+    All::store(z, block.out + 3 * i * width);
   }
 
   static LocalDone edge_spring(const LocalBlock& block) {
@@ -102,7 +102,7 @@ struct LengthKernels : Block<width> {
         const Number w = All::weight(block, i * width);
         const Number squares = z[0] * z[0] + z[1] * z[1] + z[2] * z[2];
         for (Number& number : z) number *= -w;
-        Math::store(z, block.out + 3 * i * width);
+        All::store(z, block.out + 3 * i * width);
         sums.add(i, Mask{}, w / 2 * squares);
       } else {
         const double* of = block.fields + fields * i * width;

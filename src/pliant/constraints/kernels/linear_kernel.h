@@ -1,8 +1,8 @@
 #pragma once
 // Forces that are linear in the positions, row after row of a sparse matrix. Compiled as lanes.h says. Nothing is
 // fused, so the bits are the same on all processors.
-#include "pliant/constraints/kernels/lanes.h"
 #include "pliant/constraints/kernels/local_kernels.h"
+#include "pliant/core/lanes.h"
 
 namespace pliant {
 namespace {

@@ -29,7 +29,7 @@ struct StrainKernels : Block<width> {
       }
       for (std::size_t axis = 0; axis < 3; ++axis) forces[axis] -= force[axis];
     }
-    Math::store(forces, block.out + 3 * vertices * first);
+    All::store(forces, block.out + 3 * vertices * first);
   }
 
   /// Writes the forces where p is `stretch` times the isometry of each lane, of constraints with these limits.

@@ -19,6 +19,7 @@ template <>
 struct Lanes<2> {
   using Number = Pair;
   using Mask = long long __attribute__((vector_size(16)));
+  using Single = float __attribute__((vector_size(8)));
   template <class P>  // so that the compiler looks at it only where there are registers for it
   static Number join(const P* pairs) {
     return pairs[0];
@@ -33,6 +34,7 @@ template <>
 struct Lanes<4> {
   using Number = double __attribute__((vector_size(32)));
   using Mask = long long __attribute__((vector_size(32)));
+  using Single = float __attribute__((vector_size(16)));
   template <class P>  // so that the compiler looks at it only where there are registers for it
   static Number join(const P* pairs) {
     return __builtin_shufflevector(pairs[0], pairs[1], 0, 1, 2, 3);
@@ -47,6 +49,7 @@ template <>
 struct Lanes<8> {
   using Number = double __attribute__((vector_size(64)));
   using Mask = long long __attribute__((vector_size(64)));
+  using Single = float __attribute__((vector_size(32)));
   template <class P>  // so that the compiler looks at it only where there are registers for it
   static Number join(const P* pairs) {
     return __builtin_shufflevector(Lanes<4>::join(pairs), Lanes<4>::join(pairs + 2), 0, 1, 2, 3, 4, 5, 6, 7);
@@ -62,6 +65,7 @@ template <int width>
 struct LaneMath : Lanes<width> {
   using typename Lanes<width>::Number;
   using typename Lanes<width>::Mask;
+  using typename Lanes<width>::Single;
   using Lanes<width>::join;
 
   /// What get(lane) returns in each lane.
@@ -79,23 +83,6 @@ struct LaneMath : Lanes<width> {
   }
   static void store_pair(Pair pair, double* to) { __builtin_memcpy(to, &pair, sizeof pair); }
 
-  /// e ← b − a of each lane, points of three numbers: ends(lane, a, b) says where they are.
-  template <class Ends>
-  static void subtract(Ends ends, Number (&e)[3]) {
-    Pair x[width / 2], y[width / 2], z[width / 2];
-    for (std::size_t i = 0; i < width / 2; ++i) {
-      const double *a0, *b0, *a1, *b1;
-      ends(2 * i, a0, b0);
-      ends(2 * i + 1, a1, b1);
-      const Pair first = load_pair(b0) - load_pair(a0);
-      const Pair second = load_pair(b1) - load_pair(a1);
-      x[i] = __builtin_shufflevector(first, second, 0, 2);
-      y[i] = __builtin_shufflevector(first, second, 1, 3);
-      z[i] = Pair{b0[2] - a0[2], b1[2] - a1[2]};
-    }
-    e[0] = join(x), e[1] = join(y), e[2] = join(z);
-  }
-
   static Number load(const double* from) {
     Number all;
     __builtin_memcpy(&all, from, sizeof all);
@@ -109,23 +96,6 @@ struct LaneMath : Lanes<width> {
   static void load_both(const double* from, Number& first, Number& second) {
     Lanes<width>::part(load(from), load(from + width), first, second);
   }
-  template <std::size_t size>
-  static void store(const Number (&numbers)[size], double* to) {
-    for (std::size_t lane = 0; lane < width; ++lane) {
-      for (std::size_t a = 0; a < size; ++a) to[size * lane + a] = numbers[a][lane];
-    }
-  }
-
-  /// The same for points, in pairs.
-  static void store(const Number (&point)[3], double* to) {
-    for (int i = 0; i < width; i += 2, to += 6) {
-      const Pair x = {point[0][i], point[0][i + 1]}, y = {point[1][i], point[1][i + 1]},
-                 z = {point[2][i], point[2][i + 1]};
-      store_pair(__builtin_shufflevector(x, y, 0, 2), to);
-      store_pair(__builtin_shufflevector(z, x, 0, 3), to + 2);
-      store_pair(__builtin_shufflevector(y, z, 1, 3), to + 4);
-    }
-  }
 
   static Number select(Mask mask, Number yes, Number no) { return mask ? yes : no; }
   static Number larger(Number a, Number b) { return select(a > b, a, b); }
@@ -134,6 +104,12 @@ struct LaneMath : Lanes<width> {
     for (int lane = 0; lane < width; ++lane) x[lane] = __builtin_sqrt(x[lane]);
     return x;
   }
+  static Single square_root(Single x) {
+    for (int lane = 0; lane < width; ++lane) x[lane] = __builtin_sqrtf(x[lane]);
+    return x;
+  }
+  static Single to_single(Number x) { return __builtin_convertvector(x, Single); }
+  static Number to_double(Single x) { return __builtin_convertvector(x, Number); }
   /// a b + c, rounded once where the processor can.
   static Number multiply_add(Number a, Number b, Number c) {
 #ifdef __AVX512F__
