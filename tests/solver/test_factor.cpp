@@ -12,7 +12,6 @@
 #include "pliant/core/error.h"
 #include "pliant/solver/global/factorization/factorization.h"
 #include "pliant/solver/global/factorization/panel_factor.h"
-#include "pliant/solver/global/factorization/panel_values.h"
 
 namespace test_factor {
 
@@ -165,25 +164,6 @@ TEST_CASE("a matrix that is not positive definite is refused, and the next good 
     CHECK(contains(message, "not positive definite"));
     check_solve(factorization, good, random);
   });
-}
-
-TEST_CASE("a lower triangle is inverted in place, and what is above it stays") {
-  Random random;
-  for (const Index size : {1, 2, 5, 23, 24, 25, 26, 49, 130}) {
-    CAPTURE(size);
-    Eigen::MatrixXd L = Eigen::MatrixXd::Zero(size, size);
-    for (Index c = 0; c < size; ++c) {
-      for (Index r = 0; r < size; ++r) L(r, c) = random.uniform(-1, 1);
-      L(c, c) = random.uniform(1, 2) * std::sqrt(static_cast<Real>(size));
-    }
-    Eigen::MatrixXd inverse = L;
-    invert_lower_triangle(inverse.data(), size);
-    const Eigen::MatrixXd lower = L.triangularView<Eigen::Lower>();
-    const Eigen::MatrixXd found = inverse.triangularView<Eigen::Lower>();
-    CHECK((lower * found - Eigen::MatrixXd::Identity(size, size)).cwiseAbs().maxCoeff() < 1e-12);
-    const Eigen::MatrixXd above = (inverse - L).triangularView<Eigen::StrictlyUpper>();
-    CHECK(above.isZero(0));
-  }
 }
 
 TEST_CASE("the system matrix is M/h² plus the sum of w SᵀAᵀAS") {

@@ -6,7 +6,6 @@
 
 #include "pliant/core/stopwatch.h"
 #include "pliant/solver/global/factorization/diagonal_blocks.h"
-#include "pliant/solver/global/factorization/panel_values.h"
 
 namespace pliant {
 namespace {
@@ -179,8 +178,11 @@ void PanelFactor<T>::fill(const FactorView& factor, Real largest_diagonal, Threa
   threads.parallel_for(runs, [&](Index run, int thread) {
     const std::size_t begin = panels_together * static_cast<std::size_t>(runs - 1 - run);
     for (std::size_t p = begin; p < std::min(panels_.size(), begin + panels_together); ++p) {
-      T* const out = values_.data() + panels_[p].first_value;
-      write_panel(factor.supernodes[p], unit_, work[static_cast<std::size_t>(thread)], out);
+      const Supernode& s = factor.supernodes[p];
+      std::vector<Real>& room = work[static_cast<std::size_t>(thread)];
+      room.resize(std::max(room.size(), panel_work(static_cast<std::size_t>(s.columns))));
+      const PanelSource source{s.values, s.columns, static_cast<Index>(s.rows_below.size()), s.is_rectangle, unit_};
+      triangular_solve_.write_panel(source, room.data(), values_.data() + panels_[p].first_value);
     }
   });
 }

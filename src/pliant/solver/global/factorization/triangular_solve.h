@@ -27,14 +27,34 @@ struct SubstitutionData {
   T* x;
 };
 
+/// A supernode of the factor L, of which a panel is made; see supernodes.h.
+struct PanelSource {
+  const double* values;  ///< by columns, each from its diagonal on or, in a rectangle, from the first row
+  std::int32_t columns, rows_below;
+  bool is_rectangle;
+  double unit;  ///< a power of two
+};
+
 template <class T>
 struct TriangularSolve {
   using Substitution = void (*)(const SubstitutionData<T>&, std::size_t begin, std::size_t end);
 
   Substitution forward;   ///< x ← S⁻¹ U⁻¹ x for the panels [begin, end), the first one first
   Substitution backward;  ///< x ← U⁻ᵀ x for them, the last one first
+  /// Writes a panel as panel_factor.h draws it, (D Dᵀ)⁻¹ times unit² or D⁻¹ times `unit` first. `work`: room for as
+  /// many numbers as panel_work() says.
+  void (*write_panel)(const PanelSource& source, double* work, T* out);
   const char* instruction_set;
 };
+
+/// Columns of a panel that are written together.
+inline constexpr std::int32_t panel_columns_together = 8;
+
+/// What write_panel needs for a panel of n columns: n rows, padded, and up to 16 rows of the factor.
+constexpr std::size_t panel_work(std::size_t columns) {
+  constexpr std::size_t together = panel_columns_together;
+  return columns * ((columns + together - 1) / together * together + 2 * together);
+}
 
 /// All of those that this processor can run, the fastest last. Always the same ones on the same machine.
 template <class T>

@@ -1,6 +1,7 @@
 // Compiled with AVX2 and fused multiply-adds (see the folder's list in CMakeLists.txt); run only where they exist.
 #include <immintrin.h>
 
+#include "pliant/solver/global/factorization/panel_values_kernel.h"
 #include "pliant/solver/global/factorization/triangular_solve_flush_mode.h"
 #include "pliant/solver/global/factorization/triangular_solve_generic_lanes.h"
 
@@ -89,9 +90,9 @@ struct DoubleLanes : GenericLanes<double> {
 
 }  // namespace
 
-const TriangularSolve<float> avx2_triangular_solve_single = {Kernel<SingleLanes>::forward,
-                                                             Kernel<SingleLanes>::backward, "AVX2"};
-const TriangularSolve<double> avx2_triangular_solve_double = {Kernel<DoubleLanes>::forward,
-                                                              Kernel<DoubleLanes>::backward, "AVX2"};
+const TriangularSolve<float> avx2_triangular_solve_single = {
+    Kernel<SingleLanes>::forward, Kernel<SingleLanes>::backward, PanelValues<4, float>::write, "AVX2"};
+const TriangularSolve<double> avx2_triangular_solve_double = {
+    Kernel<DoubleLanes>::forward, Kernel<DoubleLanes>::backward, PanelValues<4, double>::write, "AVX2"};
 
 }  // namespace pliant

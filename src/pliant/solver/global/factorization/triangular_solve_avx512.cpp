@@ -1,6 +1,7 @@
 // Compiled with AVX-512 F, DQ and VL (see the folder's list in CMakeLists.txt); run only where they exist.
 #include <immintrin.h>
 
+#include "pliant/solver/global/factorization/panel_values_kernel.h"
 #include "pliant/solver/global/factorization/triangular_solve_flush_mode.h"
 #include "pliant/solver/global/factorization/triangular_solve_kernel.h"
 
@@ -147,9 +148,9 @@ struct DoubleLanes {
 
 }  // namespace
 
-const TriangularSolve<float> avx512_triangular_solve_single = {Kernel<SingleLanes>::forward,
-                                                               Kernel<SingleLanes>::backward, "AVX-512"};
-const TriangularSolve<double> avx512_triangular_solve_double = {Kernel<DoubleLanes>::forward,
-                                                                Kernel<DoubleLanes>::backward, "AVX-512"};
+const TriangularSolve<float> avx512_triangular_solve_single = {
+    Kernel<SingleLanes>::forward, Kernel<SingleLanes>::backward, PanelValues<8, float>::write, "AVX-512"};
+const TriangularSolve<double> avx512_triangular_solve_double = {
+    Kernel<DoubleLanes>::forward, Kernel<DoubleLanes>::backward, PanelValues<8, double>::write, "AVX-512"};
 
 }  // namespace pliant

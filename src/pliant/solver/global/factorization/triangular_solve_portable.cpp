@@ -1,6 +1,7 @@
 #if defined(__x86_64__)
 #include "pliant/solver/global/factorization/triangular_solve_flush_mode.h"
 #endif
+#include "pliant/solver/global/factorization/panel_values_kernel.h"
 #include "pliant/solver/global/factorization/triangular_solve_generic_lanes.h"
 
 namespace pliant {
@@ -18,7 +19,9 @@ using Double = Kernel<PortableLanes<double>>;
 
 }  // namespace
 
-const TriangularSolve<float> portable_triangular_solve_single = {Single::forward, Single::backward, "portable"};
-const TriangularSolve<double> portable_triangular_solve_double = {Double::forward, Double::backward, "portable"};
+const TriangularSolve<float> portable_triangular_solve_single = {Single::forward, Single::backward,
+                                                                 PanelValues<2, float>::write, "portable"};
+const TriangularSolve<double> portable_triangular_solve_double = {Double::forward, Double::backward,
+                                                                  PanelValues<2, double>::write, "portable"};
 
 }  // namespace pliant
