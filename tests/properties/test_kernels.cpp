@@ -242,6 +242,40 @@ TEST_CASE_TEMPLATE_DEFINE("what stands beside a constraint does not matter to it
 }
 TEST_CASE_TEMPLATE_APPLY(alone, Kernelled);
 
+TEST_CASE("rotations of tetrahedra are known to rounding, from rest to stretches that differ by a factor of eight") {
+  for (const LocalKernels* kernels : local_kernels()) {
+    CAPTURE(kernels->instruction_set);
+    for (const Real spread : {0.0, 1e-9, 1e-3, 0.1, 0.5, 1.0}) {
+      CAPTURE(spread);
+      Random random;
+      Many<TetrahedronStrainProjection> many;
+      for (int i = 0; i < 640; ++i) {
+        many.add(random, {1, 1}, 1, Vec3::Zero());
+        Eigen::Map<Eigen::Matrix<Real, 3, 4, Eigen::RowMajor>> A(many.reduction.data() + 12 * i);
+        A.setZero();
+        for (int row = 0; row < 3; ++row) A(row, 0) = -1, A(row, row + 1) = 1;
+        const Mat3 R = random.rotation(), V = random.rotation();
+        const Vec3 stretches = (spread * random.vector(1)).array().exp();
+        const Mat3 F = R * V * stretches.asDiagonal() * V.transpose();
+        const Index* corners = many.stencil.data() + 4 * i;
+        for (int row = 0; row < 3; ++row) {
+          many.positions.row(corners[row + 1]) = many.positions.row(corners[0]) + F.col(row).transpose();
+        }
+      }
+      const Outcome<TetrahedronStrainProjection> outcome = run(*kernels, many);
+      for (std::size_t i = 0; i < many.count(); ++i) {
+        REQUIRE(outcome.is_done[i]);
+        const Mat3 F = many.z(i).transpose();
+        const Eigen::JacobiSVD<Mat3> svd(F, Eigen::ComputeFullU | Eigen::ComputeFullV);
+        const Mat3 pull = svd.matrixU() * svd.matrixV().transpose() - F;
+        const Mat3 found = outcome.written[i].bottomRows<3>().transpose() / (many.stiffness * many.measure[i]);
+        CHECK((found - pull).cwiseAbs().maxCoeff() < 1e-14);
+        if (spread == 0) CHECK(outcome.written[i].isZero(0));  // what rests stays at rest, however it is turned
+      }
+    }
+  }
+}
+
 TEST_CASE("a batch takes from a kernel what it does, and does the rest by itself") {
   Random random;
   const Many<TetrahedronStrainProjection> many = samples<TetrahedronStrainProjection>(random, 203);
