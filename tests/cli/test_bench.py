@@ -86,6 +86,8 @@ class Bench(unittest.TestCase):
             if case["usual_error"] > 2 * case["uncertainty"]:
                 usual = next(level for level in case["methods"]["lbfgs"] if level["error"] == case["usual_error"])
                 self.assertLessEqual(usual["iterations"], 20)
+            else:
+                self.assertLess(case["usual_error"], 1e-11)
             at_four_digits = errors.index(1e-4)
             fewest = [case["methods"][name][at_four_digits]["iterations"] for name in ("lbfgs", "plain", "xpbd rows")]
             self.assertLess(fewest[0], min(fewest[1:]))

@@ -169,16 +169,20 @@ TEST_CASE("pair momentum: no motion raises the objective") {
       CAPTURE(name);
       CAPTURE(friction);
       PairScene scene = make_pair_scene(name, {.contact = {.friction = friction, .surfaces = true}, .speed = 1});
-      Index risen = 0, fallen_at_end = 0, touching = 0, checked = 0;
+      Index risen = 0, forgiven = 0, fallen_at_end = 0, touching = 0;
       for (int i = 0; i < (runs_whole_scenes ? 60 : 2); ++i) {
         const std::vector<Real> before = scene.simulation.state().contact.stiffening;
         touching += scene.step().contact.active > 0 ? 1 : 0;
-        if (has_grown(before, scene.simulation.state().contact.stiffening)) continue;  // that is another one as well
-        ++checked;
+        Index risen_now = 0;
         const std::span<const Real> history = scene.simulation.objective_history();
         for (std::size_t k = 1; k < history.size(); ++k) {
           if (k == 3 || k == 8) continue;  // friction is refreshed there, which makes another objective
-          risen += has_risen(history[k - 1], history[k]) ? 1 : 0;
+          risen_now += has_risen(history[k - 1], history[k]) ? 1 : 0;
+        }
+        if (risen_now == 1 && has_grown(before, scene.simulation.state().contact.stiffening)) {
+          ++forgiven;  // a collider that is made to push more within the step makes another one as well
+        } else {
+          risen += risen_now;
         }
         if (friction > 0) continue;  // what it remembers is that of the next step by now
         const Real end = scene.simulation.evaluate().objective();
@@ -186,8 +190,8 @@ TEST_CASE("pair momentum: no motion raises the objective") {
         fallen_at_end += end < history.back() ? 1 : 0;
       }
       CHECK(risen == 0);
+      CHECK(forgiven <= 1);
       if (!runs_whole_scenes) continue;
-      CHECK(checked > 50);
       CHECK(touching > 4);
       if (friction == 0) CHECK(fallen_at_end > 50);
     }

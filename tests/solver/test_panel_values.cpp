@@ -1,4 +1,10 @@
 // The values of panels, for every instruction set at hand, against dense matrices.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
 #include <Eigen/Dense>
 #include <doctest/doctest.h>
 
@@ -37,6 +43,7 @@ struct Columns {
       const MatrixXd column = B.col(c);
       values.insert(values.end(), column.data(), column.data() + below);
     }
+    values.shrink_to_fit();
     supernode = {n, rows_below, values.data(), is_rectangle};
   }
 };

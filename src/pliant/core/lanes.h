@@ -126,12 +126,16 @@ struct LaneMath : Lanes<width> {
     return all;
   }
   static bool any(Mask mask) {
-    long long both = 0;
-    for (int lane = 0; lane < width; ++lane) both |= mask[lane];
-    return both != 0;
+    return bits(mask) != 0;
   }
-  /// One bit a lane.
+  /// One bit a lane; those of a mask are all set, or none is.
   static std::uint64_t bits(Mask mask) {
+#ifdef __AVX512DQ__
+    if constexpr (width == 8) return _mm512_movepi64_mask(reinterpret_cast<__m512i>(mask));
+#endif
+#ifdef __AVX__
+    if constexpr (width == 4) return static_cast<unsigned>(_mm256_movemask_pd(reinterpret_cast<__m256d>(mask)));
+#endif
     std::uint64_t all = 0;
     for (int lane = 0; lane < width; ++lane) all |= std::uint64_t{mask[lane] != 0} << lane;
     return all;

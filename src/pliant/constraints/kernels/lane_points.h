@@ -1,7 +1,7 @@
 #pragma once
 // How points of three numbers come from memory into lanes, and go back. Compiled as lanes.h says. With AVX a point is
-// read and written as four numbers in one go, and shuffles between whole vectors do the rest: many processors do one
-// shuffle a cycle, so that they, and stores of single numbers, were most of what a kernel took.
+// read in one go, with a zero after it, and written by fours; shuffles between whole vectors do the rest, as few as
+// there can be, since many processors do one a cycle.
 #include "pliant/core/lanes.h"
 
 namespace pliant {

@@ -13,7 +13,7 @@ inline const double* column_of(const PanelSource& source, std::int32_t c) {
   return source.values + place * rows + (source.is_rectangle ? place : -(place * (place - 1) / 2));
 }
 
-/// So many columns after so many, each of these row after row: what is read together stands together.
+/// In strips of eight columns, each of them row after row: what is read together stands together.
 template <int width>
 class PanelInverse : LaneMath<width> {
  public:
@@ -32,7 +32,7 @@ class PanelInverse : LaneMath<width> {
 
   static std::ptrdiff_t room(std::int32_t n) { return (n + strip - 1) / strip * strip_size(n); }
   std::int32_t size() const { return size_; }
-  /// Zero above the diagonal; of a strip that has its last column, up to its end.
+  /// Zero above the diagonal within a strip, and where the last strip is wider than what is left; not set further up.
   double* at(std::int32_t r, std::int32_t c) const {
     return numbers_ + c / strip * strip_size(size_) + strip * r + c % strip;
   }

@@ -22,7 +22,9 @@ struct PanelValues : LaneMath<width> {
   /// Sums that stand in registers: of so many vectors of rows, at least a block of panel_lanes, and columns.
   static constexpr int most_vectors = width == 4 ? 1 : 2;
   static constexpr std::int32_t most_columns = width == 2 ? 4 : 8;
-  static_assert(panel_columns_together % most_columns == 0 && most_vectors * width % panel_lanes == 0);
+  static constexpr std::int32_t most_rows = most_vectors * width;
+  static_assert(panel_columns_together % most_columns == 0 && most_rows % panel_lanes == 0);
+  static_assert(most_rows <= 2 * panel_columns_together, "panel_work() has room for so many");
 
   static void write(const PanelSource& source, double* work, T* out) {
     double* const packed = work + Inverse::room(source.columns);
@@ -32,15 +34,13 @@ struct PanelValues : LaneMath<width> {
     } else {
       out = write_lower(X, source.unit, out);
     }
-    constexpr std::int32_t rows = most_vectors * width, least = width < panel_lanes ? 0 : width;
-    std::int32_t first = 0;
-    for (; source.rows_below - first > least; first += rows) {
+    for (std::int32_t first = 0; first < source.rows_below; first += most_rows) {
       write_below<most_vectors>(source, X, first, packed, out);
     }
-    if (first < source.rows_below) write_below<1>(source, X, first, packed, out);
   }
 
  private:
+  /// At least one, and zeros.
   static Number load_some(const double* from, std::int32_t count) {
     if (count >= width) return Math::load(from);
 #ifdef __AVX512F__
@@ -107,10 +107,15 @@ struct PanelValues : LaneMath<width> {
   template <int vectors>
   static void write_below(const PanelSource& source, const Inverse& X, std::int32_t first, double* packed, T* out) {
     const std::int32_t n = source.columns, rest = source.rows_below - first;
+    if constexpr (vectors > 1 && width >= panel_lanes) {
+      if (rest <= width) return write_below<1>(source, X, first, packed, out);
+    }
     double* to = packed;
     for (std::int32_t k = 0; k < n; ++k) {
       const double* from = column_of(source, k) + (n - k) + first;
-      for (int v = 0; v < vectors; ++v, to += width) Inverse::put(load_some(from + v * width, rest - v * width), to);
+      for (std::int32_t r = 0; r < vectors * width; r += width, to += width) {
+        Inverse::put(r < rest ? load_some(from + r, rest - r) : Number{}, to);
+      }
     }
     for (std::int32_t c = 0; c < n; c += most_columns) multiply<vectors>(source, X, first, c, packed, out);
   }
