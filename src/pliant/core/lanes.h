@@ -108,8 +108,18 @@ struct LaneMath : Lanes<width> {
     for (int lane = 0; lane < width; ++lane) x[lane] = __builtin_sqrtf(x[lane]);
     return x;
   }
-  static Single to_single(Number x) { return __builtin_convertvector(x, Single); }
-  static Number to_double(Single x) { return __builtin_convertvector(x, Number); }
+  static Single to_single(Number x) {
+#ifdef __AVX512F__
+    if constexpr (width == 8) return _mm512_cvtpd_ps(x);  // in one go, which g++ 12 does not do by itself
+#endif
+    return __builtin_convertvector(x, Single);
+  }
+  static Number to_double(Single x) {
+#ifdef __AVX512F__
+    if constexpr (width == 8) return _mm512_cvtps_pd(x);
+#endif
+    return __builtin_convertvector(x, Number);
+  }
   /// a b + c, rounded once where the processor can.
   static Number multiply_add(Number a, Number b, Number c) {
 #ifdef __AVX512F__

@@ -59,29 +59,28 @@ void Anderson::prepare(const LocalResult& local, const Positions& r, const Posit
 Anderson::Sums Anderson::products(const Positions& r, const Positions& x, ThreadPool& threads) {
   const std::size_t newest = count_;
   const std::size_t count = has_moved_ ? count_ + 1 : count_;
-  remembered::for_each_chunk(
-      static_cast<Index>(r.rows()), threads, [&](std::size_t chunk, std::size_t first, std::size_t size) {
-        Sums& sums = chunk_sums_[chunk];
-        const Real* const solution = x.data() + first;
-        Real* const last = last_solution_.data() + first;
-        if (has_moved_) {
-          remembered::ChunkSum change;
-          remembered::Kept* const kept = changes_[newest].data() + first;
-          remembered::Kept* const move = moves_[newest].data() + first;
-          for (std::size_t k = 0; k < size; ++k) {
-            change[k] = solution[k] - last[k];
-            kept[k] = static_cast<remembered::Kept>(change[k]);
-            move[k] += kept[k];
-          }
-          for (std::size_t i = 0; i < count; ++i) {
-            sums.with_newest[i] = remembered::dot(changes_[i].data() + first, change.data(), size);
-          }
-        }
-        for (std::size_t i = 0; i < count; ++i)
-          sums.with_solution[i] = remembered::dot(changes_[i].data() + first, solution, size);
-        sums.descent = remembered::dot(solution, r.data() + first, size);
-        std::copy_n(solution, size, last);
-      });
+  remembered::for_each_chunk(static_cast<Index>(r.rows()), threads,
+                             [&](std::size_t chunk, std::size_t first, std::size_t size) {
+                               Sums& sums = chunk_sums_[chunk];
+                               const Real* const solution = x.data() + first;
+                               Real* const last = last_solution_.data() + first;
+                               remembered::ChunkOfVectors<memory> differences;
+                               for (std::size_t i = 0; i < count; ++i) differences.add(changes_[i], first);
+                               if (has_moved_) {
+                                 remembered::ChunkSum change;
+                                 remembered::Kept* const kept = changes_[newest].data() + first;
+                                 remembered::Kept* const move = moves_[newest].data() + first;
+                                 for (std::size_t k = 0; k < size; ++k) {
+                                   change[k] = solution[k] - last[k];
+                                   kept[k] = static_cast<remembered::Kept>(change[k]);
+                                   move[k] += kept[k];
+                                 }
+                                 differences.multiply(change.data(), size, sums.with_newest.data());
+                               }
+                               differences.multiply(solution, size, sums.with_solution.data());
+                               sums.descent = remembered::dot(solution, r.data() + first, size);
+                               std::copy_n(solution, size, last);
+                             });
   Sums total;
   for (const Sums& sums : chunk_sums_) {
     for (std::size_t i = 0; i < count; ++i) total.with_newest[i] += has_moved_ ? sums.with_newest[i] : 0;
@@ -124,27 +123,17 @@ bool Anderson::find_shares(const Numbers& with_solution) {
 
 void Anderson::move(const Positions& x, Real curvature, Positions& q, ThreadPool& threads) {
   length_ = is_plain_ ? plain_length(curvature) : 1;
-  remembered::for_each_chunk(
-      static_cast<Index>(q.rows()), threads, [&](std::size_t, std::size_t first, std::size_t size) {
-        remembered::ChunkSum sum;
-        const Real* const solution = x.data() + first;
-        for (std::size_t k = 0; k < size; ++k) sum[k] = length_ * solution[k];
-        std::size_t i = 0;
-        for (; i + 1 < count_; i += 2) {
-          remembered::add(shares_[i], moves_[i].data() + first, shares_[i + 1], moves_[i + 1].data() + first,
-                          sum.data(), size);
-        }
-        if (i < count_)
-          remembered::add(shares_[i], moves_[i].data() + first, 0, moves_[i].data() + first, sum.data(), size);
-        Real* const moved = q.data() + first;
-        Real* const before = positions_before_.data() + first;
-        remembered::Kept* const kept = moves_[count_].data() + first;
-        for (std::size_t k = 0; k < size; ++k) {
-          before[k] = moved[k];
-          moved[k] += sum[k];
-          kept[k] = static_cast<remembered::Kept>(sum[k]);
-        }
-      });
+  remembered::for_each_chunk(static_cast<Index>(q.rows()), threads,
+                             [&](std::size_t, std::size_t first, std::size_t size) {
+                               remembered::ChunkOfVectors<memory + 1> all;
+                               for (std::size_t i = 0; i < count_; ++i) all.add(moves_[i], first, shares_[i]);
+                               all.move({.factor = length_,
+                                         .x = x.data() + first,
+                                         .q = q.data() + first,
+                                         .before = positions_before_.data() + first,
+                                         .move = moves_[count_].data() + first},
+                                        size);
+                             });
   has_moved_ = true;
 }
 

@@ -96,17 +96,18 @@ Lbfgs::Numbers Lbfgs::products(const Positions& r, const Positions& x, ThreadPoo
   const std::size_t solutions = last_solution();
   remembered::for_each_chunk(static_cast<Index>(r.rows()), threads,
                              [&](std::size_t chunk, std::size_t first, std::size_t count) {
-                               Numbers& sums = chunk_products_[chunk];
-                               const Real* const residual = r.data() + first;
                                const Real* const solved = x.data() + first;
-                               for (std::size_t i = 0; i < moves; ++i)
-                                 sums.moves[i] = remembered::dot(moves_[i].data() + first, residual, count);
-                               for (std::size_t i = 0; i < solutions; ++i)
-                                 sums.solutions[i] = remembered::dot(solutions_[i].data() + first, residual, count);
                                remembered::Kept* const kept = solutions_[solutions].data() + first;
                                for (std::size_t k = 0; k < count; ++k)
                                  kept[k] = static_cast<remembered::Kept>(solved[k]);
-                               sums.solutions[solutions] = remembered::dot(kept, residual, count);
+                               remembered::ChunkOfVectors<2 * most_vectors> all;
+                               for (std::size_t i = 0; i < moves; ++i) all.add(moves_[i], first);
+                               for (std::size_t i = 0; i <= solutions; ++i) all.add(solutions_[i], first);
+                               std::array<Real, 2 * most_vectors> sums;
+                               all.multiply(r.data() + first, count, sums.data());
+                               Numbers& products = chunk_products_[chunk];
+                               std::copy_n(sums.begin(), moves, products.moves.begin());
+                               std::copy_n(sums.begin() + moves, solutions + 1, products.solutions.begin());
                              });
   Numbers total;
   for (const Numbers& sums : chunk_products_) {
@@ -165,25 +166,20 @@ Lbfgs::Numbers Lbfgs::coefficients(const Numbers& products) const {
 
 /// Keeps the move besides, and where it began.
 void Lbfgs::add_up(const Numbers& coefficients, const Positions& x, Positions& q, ThreadPool& threads) {
-  remembered::for_each_chunk(
-      static_cast<Index>(q.rows()), threads, [&](std::size_t, std::size_t first, std::size_t count) {
-        remembered::ChunkSum sum;
-        const Real own = coefficients.solutions[pair_count_];
-        const Real* const solved = x.data() + first;
-        for (std::size_t k = 0; k < count; ++k) sum[k] = own * solved[k];
-        for (std::size_t i = 0; i < pair_count_; ++i) {
-          remembered::add(coefficients.moves[i], moves_[i].data() + first, coefficients.solutions[i],
-                          solutions_[i].data() + first, sum.data(), count);
-        }
-        Real* const moved = q.data() + first;
-        Real* const before = positions_before_.data() + first;
-        remembered::Kept* const kept = moves_[pair_count_].data() + first;
-        for (std::size_t k = 0; k < count; ++k) {
-          before[k] = moved[k];
-          moved[k] += sum[k];
-          kept[k] = static_cast<remembered::Kept>(sum[k]);
-        }
-      });
+  remembered::for_each_chunk(static_cast<Index>(q.rows()), threads,
+                             [&](std::size_t, std::size_t first, std::size_t count) {
+                               remembered::ChunkOfVectors<2 * memory> all;
+                               for (std::size_t i = 0; i < pair_count_; ++i) {
+                                 all.add(moves_[i], first, coefficients.moves[i]);
+                                 all.add(solutions_[i], first, coefficients.solutions[i]);
+                               }
+                               all.move({.factor = coefficients.solutions[pair_count_],
+                                         .x = x.data() + first,
+                                         .q = q.data() + first,
+                                         .before = positions_before_.data() + first,
+                                         .move = moves_[pair_count_].data() + first},
+                                        count);
+                             });
 }
 
 void Lbfgs::forget_pairs(Numbers& products) {

@@ -8,6 +8,7 @@
 #include "pliant/core/aligned.h"
 #include "pliant/core/thread_pool.h"
 #include "pliant/core/types.h"
+#include "pliant/solver/acceleration/remembered_kernels.h"
 
 namespace pliant::remembered {
 
@@ -29,26 +30,33 @@ void drop_first(List& list, std::size_t count) {
   std::rotate(begin, begin + 1, begin + static_cast<std::ptrdiff_t>(count));
 }
 
-/// aᵀ c, in eight sums side by side, which the processor adds at once.
-template <class Number>
-Real dot(const Number* a, const Real* c, std::size_t count) {
-  constexpr std::size_t lanes = 8;
-  std::array<Real, lanes> sums = {};
-  std::size_t i = 0;
-  for (; i + lanes <= count; i += lanes) {
-    for (std::size_t lane = 0; lane < lanes; ++lane) sums[lane] += static_cast<Real>(a[i + lane]) * c[i + lane];
-  }
-  for (std::size_t lane = 0; i < count; ++i, ++lane) sums[lane] += static_cast<Real>(a[i]) * c[i];
-  Real sum = 0;
-  for (const Real lane : sums) sum += lane;
-  return sum;
+/// aᵀ c
+inline Real dot(const Real* a, const Real* c, std::size_t count) {
+  return fastest_remembered_kernels().product(a, c, count);
 }
 
-/// c ← c + alpha a + beta b
-template <class Number>
-void add(Real alpha, const Number* a, Real beta, const Number* b, Real* c, std::size_t count) {
-  for (std::size_t i = 0; i < count; ++i) c[i] += alpha * static_cast<Real>(a[i]) + beta * static_cast<Real>(b[i]);
-}
+/// Of one chunk: where some vectors begin there, with a factor of each.
+template <std::size_t most>
+struct ChunkOfVectors {
+  std::array<const Kept*, most> vectors = {};
+  std::array<Real, most> factors = {};
+  std::size_t count = 0;
+
+  void add(const Vector& vector, std::size_t first, Real factor = 0) {
+    vectors[count] = vector.data() + first;
+    factors[count++] = factor;
+  }
+  /// Products with c go to `sums`.
+  void multiply(const Real* c, std::size_t numbers, Real* sums) const {
+    fastest_remembered_kernels().products(vectors.data(), count, c, numbers, sums);
+  }
+  /// A move along all of them.
+  void move(RememberedMove move, std::size_t numbers) {
+    if (count % 2 == 1) vectors[count] = vectors[count - 1];  // its factor is 0
+    move.vectors = vectors.data(), move.factors = factors.data(), move.pairs = (count + 1) / 2;
+    fastest_remembered_kernels().move(move, numbers);
+  }
+};
 
 /// Calls visit(chunk, first number, count of numbers).
 template <class Visit>

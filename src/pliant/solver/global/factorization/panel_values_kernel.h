@@ -57,12 +57,19 @@ struct PanelValues : LaneMath<width> {
     return some;
   }
 
+  static Packed pack(Number numbers) {
+    if constexpr (std::is_same_v<T, float>) {
+      return Math::to_single(numbers);
+    } else {
+      return numbers;
+    }
+  }
   static std::int32_t blocks_of(std::int32_t rows) {
     return (rows + panel_lanes - 1) / panel_lanes;
   }
   /// Numbers of one column, of row `row` and those after it. `to`: where the first block has that column.
   static void put_blocks(Number numbers, std::int32_t row, std::int32_t blocks, std::int32_t columns, T* to) {
-    const Packed packed = __builtin_convertvector(numbers, Packed);
+    const Packed packed = pack(numbers);
     constexpr int some = width < panel_lanes ? width : panel_lanes;
     for (int part = 0; part < width / some; ++part) {
       const std::int32_t block = row / panel_lanes + part;
