@@ -26,6 +26,16 @@ std::vector<T> random_numbers(Random& random, std::size_t count) {
   return numbers;
 }
 
+struct Remembered {
+  std::vector<std::vector<float>> vectors;
+  std::vector<const float*> begins;
+
+  Remembered(Random& random, std::size_t many, std::size_t count) {
+    for (std::size_t i = 0; i < many; ++i) vectors.push_back(random_numbers<float>(random, count));
+    for (const auto& each : vectors) begins.push_back(each.data());
+  }
+};
+
 template <class T>
 Real in_eight_sums(const std::vector<T>& a, const std::vector<Real>& c) {
   std::array<Real, 8> sums = {};
@@ -48,10 +58,8 @@ TEST_CASE("products with remembered vectors have the same bits on every instruct
       CAPTURE(count);
       for (std::size_t many = 0; many <= 11; ++many) {
         CAPTURE(many);
-        std::vector<std::vector<float>> vectors;
-        std::vector<const float*> begins;
-        for (std::size_t i = 0; i < many; ++i) vectors.push_back(random_numbers<float>(random, count));
-        for (const auto& each : vectors) begins.push_back(each.data());
+        const Remembered remembered(random, many, count);
+        const auto& [vectors, begins] = remembered;
         const std::vector<Real> c = random_numbers<Real>(random, count);
         std::vector<Real> found(many + 1, 7);
         kernels->products(begins.data(), many, c.data(), count, found.data());
@@ -72,10 +80,8 @@ TEST_CASE("a move along remembered vectors has the same bits on every instructio
       CAPTURE(count);
       for (std::size_t pairs = 0; pairs <= 3; ++pairs) {
         CAPTURE(pairs);
-        std::vector<std::vector<float>> vectors;
-        std::vector<const float*> begins;
-        for (std::size_t i = 0; i < 2 * pairs; ++i) vectors.push_back(random_numbers<float>(random, count));
-        for (const auto& each : vectors) begins.push_back(each.data());
+        const Remembered remembered(random, 2 * pairs, count);
+        const auto& [vectors, begins] = remembered;
         const std::vector<Real> factors = random_numbers<Real>(random, 2 * pairs);
         const std::vector<Real> x = random_numbers<Real>(random, count), q = random_numbers<Real>(random, count);
         std::vector<Real> moved = q, before(count);

@@ -73,6 +73,16 @@ Quad difference_of_points(Ends ends, std::size_t lane) {
   return load_point(b) - load_point(a);
 }
 
+/// Numbers of each lane, one lane after the other; those that are left over one by one.
+template <class Points, class Number, std::size_t size>
+void store_by_fours(const Number (&numbers)[size], double* to) {
+  constexpr std::size_t whole = size / 4 * 4, lanes = sizeof(Number) / sizeof(double);
+  for (std::size_t a = 0; a < whole; a += 4) Points::store_four(numbers + a, to + a, size);
+  for (std::size_t a = whole; a < size; ++a) {
+    for (std::size_t lane = 0; lane < lanes; ++lane) to[size * lane + a] = numbers[a][lane];
+  }
+}
+
 template <>
 struct LanePoints<4> : LaneMath<4> {
   template <class Ends>
@@ -88,11 +98,7 @@ struct LanePoints<4> : LaneMath<4> {
 
   template <std::size_t size>
   static void store(const Quad (&numbers)[size], double* to) {
-    constexpr std::size_t whole = size / 4 * 4;
-    for (std::size_t a = 0; a < whole; a += 4) store_four(numbers + a, to + a, size);
-    for (std::size_t a = whole; a < size; ++a) {
-      for (std::size_t lane = 0; lane < 4; ++lane) to[size * lane + a] = numbers[a][lane];
-    }
+    store_by_fours<LanePoints>(numbers, to);
   }
   static void store(const Quad (&point)[3], double* to) {
     const Quad xy = __builtin_shufflevector(point[0], point[1], 0, 4, 2, 6);
@@ -103,7 +109,6 @@ struct LanePoints<4> : LaneMath<4> {
     put(__builtin_shufflevector(zx, yz, 2, 3, 6, 7), to + 8);
   }
 
- private:
   static void store_four(const Quad* n, double* to, std::size_t stride) {
     const Quad even = __builtin_shufflevector(n[0], n[1], 0, 4, 2, 6);
     const Quad odd = __builtin_shufflevector(n[0], n[1], 1, 5, 3, 7);
@@ -136,11 +141,7 @@ struct LanePoints<8> : LaneMath<8> {
 
   template <std::size_t size>
   static void store(const Number (&numbers)[size], double* to) {
-    constexpr std::size_t whole = size / 4 * 4;
-    for (std::size_t a = 0; a < whole; a += 4) store_four(numbers + a, to + a, size);
-    for (std::size_t a = whole; a < size; ++a) {
-      for (std::size_t lane = 0; lane < 8; ++lane) to[size * lane + a] = numbers[a][lane];
-    }
+    store_by_fours<LanePoints>(numbers, to);
   }
   static void store(const Number (&point)[3], double* to) {
     const Number &x = point[0], &y = point[1], &z = point[2];
@@ -152,6 +153,15 @@ struct LanePoints<8> : LaneMath<8> {
     put(__builtin_shufflevector(third, z, 0, 13, 2, 3, 14, 5, 6, 15), to + 16);
   }
 
+  static void store_four(const Number* n, double* to, std::size_t stride) {
+    const Number even = low(n[0], n[1]), even_after = low(n[2], n[3]);
+    const Number odd = high(n[0], n[1]), odd_after = high(n[2], n[3]);
+    put_two(__builtin_shufflevector(even, even_after, 0, 1, 8, 9, 2, 3, 10, 11), to, to + 2 * stride);
+    put_two(__builtin_shufflevector(even, even_after, 4, 5, 12, 13, 6, 7, 14, 15), to + 4 * stride, to + 6 * stride);
+    put_two(__builtin_shufflevector(odd, odd_after, 0, 1, 8, 9, 2, 3, 10, 11), to + stride, to + 3 * stride);
+    put_two(__builtin_shufflevector(odd, odd_after, 4, 5, 12, 13, 6, 7, 14, 15), to + 5 * stride, to + 7 * stride);
+  }
+
  private:
   /// Of each two numbers those of even lanes, or of odd ones.
   static Number low(Number a, Number b) { return __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14); }
@@ -160,14 +170,6 @@ struct LanePoints<8> : LaneMath<8> {
   static void put_two(Number both, double* first, double* second) {
     put(__builtin_shufflevector(both, both, 0, 1, 2, 3), first);
     put(__builtin_shufflevector(both, both, 4, 5, 6, 7), second);
-  }
-  static void store_four(const Number* n, double* to, std::size_t stride) {
-    const Number even = low(n[0], n[1]), even_after = low(n[2], n[3]);
-    const Number odd = high(n[0], n[1]), odd_after = high(n[2], n[3]);
-    put_two(__builtin_shufflevector(even, even_after, 0, 1, 8, 9, 2, 3, 10, 11), to, to + 2 * stride);
-    put_two(__builtin_shufflevector(even, even_after, 4, 5, 12, 13, 6, 7, 14, 15), to + 4 * stride, to + 6 * stride);
-    put_two(__builtin_shufflevector(odd, odd_after, 0, 1, 8, 9, 2, 3, 10, 11), to + stride, to + 3 * stride);
-    put_two(__builtin_shufflevector(odd, odd_after, 4, 5, 12, 13, 6, 7, 14, 15), to + 5 * stride, to + 7 * stride);
   }
 };
 #endif
